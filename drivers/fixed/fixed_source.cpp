@@ -1,0 +1,62 @@
+#include "drivers/fixed/fixed_source.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <system_error>
+
+namespace gazeloop::drivers {
+namespace {
+
+/// NaN, which is in no range, for text that is not a number.
+double parse_number(std::string_view text) {
+    double value = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc{} && stop == end ? value : std::nan("");
+}
+
+}  // namespace
+
+Expected<FixedGaze> parse_fixed_gaze(std::string_view text) {
+    const std::size_t comma = text.find(',');
+    if (comma != std::string_view::npos) {
+        const FixedGaze fixed{parse_number(text.substr(0, comma)),
+                              parse_number(text.substr(comma + 1))};
+        if (std::abs(fixed.azimuth_deg) <= 180.0 && std::abs(fixed.elevation_deg) <= 90.0) {
+            return fixed;
+        }
+    }
+    return std::unexpected(
+        Error{ExitCode::Usage,
+              fmt::format("fixed gaze '{}': give azimuth (-180 to 180) and elevation (-90 to 90) "
+                          "in degrees, e.g. fixed:-5,2.5",
+                          text)});
+}
+
+FixedSource::FixedSource(const FixedGaze& fixed_gaze) : gaze_(fixed_gaze) {}
+
+void FixedSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) {
+    const double azimuth = glm::radians(gaze_.azimuth_deg);
+    const double elevation = glm::radians(gaze_.elevation_deg);
+    gaze::GazeSample sample;
+    sample.sequence = sequence_++;
+    sample.device_ns = now_ns;
+    sample.sampled = {now_ns, latency::StampKind::Modelled};
+    sample.arrived = sample.sampled;
+    for (gaze::EyeRay& ray : sample.eyes) {
+        ray.direction = {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                         -std::cos(azimuth) * std::cos(elevation)};
+        ray.valid = true;
+    }
+    samples.push_back(sample);
+}
+
+std::string FixedSource::description() const {
+    return fmt::format("fixed gaze (azimuth {} deg, elevation {} deg)", gaze_.azimuth_deg,
+                       gaze_.elevation_deg);
+}
+
+}  // namespace gazeloop::drivers

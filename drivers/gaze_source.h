@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/head_track.h"
+
+namespace gazeloop::drivers {
+
+/// Where gaze comes from. A source that owns a device reads it on a thread of its own and hands the
+/// samples over here; a source that computes them does so here.
+class GazeSource {
+  public:
+    GazeSource() = default;
+    GazeSource(const GazeSource&) = delete;
+    GazeSource& operator=(const GazeSource&) = delete;
+    virtual ~GazeSource() = default;
+
+    /// Appends every sample that has arrived by `now_ns` (host time) and was not handed over yet,
+    /// in the order of arrival. Never blocks.
+    virtual void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) = 0;
+
+    /// The head motion that was recorded with the gaze, or null where there is none.
+    [[nodiscard]] virtual const gaze::HeadTrack* head_track() const { return nullptr; }
+
+    /// Whether its samples are directions in the head on purpose, whatever the head does (fixed
+    /// foveation), so that they are not to be held in world.
+    [[nodiscard]] virtual bool fixed_in_head() const { return false; }
+
+    /// Whether no sample can come any more (the end of a trace).
+    [[nodiscard]] virtual bool finished() const { return false; }
+
+    /// One line for the log and the session, e.g. "trace FILE (HTC Vive Pro, 1518 samples)".
+    [[nodiscard]] virtual std::string description() const = 0;
+};
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <istream>
+#include <string>
+#include <string_view>
+
+#include "drivers/trace/trace.h"
+#include "runtime/error.h"
+
+namespace gazeloop::drivers {
+
+/// Reads a recorded trace. `format` is "auto" (by the header's column names), "gazeloop" or
+/// "htc-vive-pro".
+///
+/// Errors: Usage for a format that does not exist. BadInput, naming the file and where it applies
+/// the line, for a file that is missing, a directory, empty or not text; a header that no format
+/// knows; a row of the wrong width; a cell that is not what the format allows; no row; no row with
+/// a valid eye. Rows whose time does not advance are no error: Trace counts them.
+[[nodiscard]] Expected<Trace> read_trace(const std::string& file, std::string_view format = "auto");
+
+/// The same from a stream; `name` is the file's name in messages and in the trace. No sidecar.
+[[nodiscard]] Expected<Trace> read_trace(std::istream& in, const std::string& name,
+                                         std::string_view format = "auto");
+
+}  // namespace gazeloop::drivers

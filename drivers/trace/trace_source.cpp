@@ -1,0 +1,71 @@
+#include "drivers/trace/trace_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <utility>
+
+namespace gazeloop::drivers {
+namespace {
+
+/// What turns and moves the world so that `first` stands at the origin and faces -Z.
+gaze::Pose recentring(const gaze::Pose& first) {
+    constexpr double kNearlyVertical = 1e-3;
+    const glm::dvec3 forward = first.orientation * glm::dvec3{0.0, 0.0, -1.0};
+    const glm::dvec3 right = first.orientation * glm::dvec3{1.0, 0.0, 0.0};
+    // Looking straight up or down, the head's right still says where it faces.
+    const double yaw = std::hypot(forward.x, forward.z) > kNearlyVertical
+                           ? std::atan2(-forward.x, -forward.z)
+                           : std::atan2(-right.z, right.x);
+    const glm::dquat back = glm::angleAxis(-yaw, glm::dvec3{0.0, 1.0, 0.0});
+    return {back, back * -first.position_m};
+}
+
+}  // namespace
+
+TraceSource::TraceSource(Trace trace, std::int64_t start_ns, std::int64_t delay_ns)
+    : trace_(std::move(trace)) {
+    const auto first_head =
+        std::find_if(trace_.samples.begin(), trace_.samples.end(),
+                     [](const gaze::GazeSample& sample) { return sample.head.has_value(); });
+    const gaze::Pose recentre =
+        first_head != trace_.samples.end() ? recentring(*first_head->head) : gaze::Pose{};
+    std::int64_t arrived_before_ns = start_ns;
+    for (gaze::GazeSample& sample : trace_.samples) {
+        const std::int64_t reported_ns =
+            sample.arrived.known() ? sample.arrived.ns : sample.sampled.ns;
+        sample.sampled = {start_ns + sample.sampled.ns, latency::StampKind::Modelled};
+        arrived_before_ns = std::max(arrived_before_ns, start_ns + reported_ns + delay_ns);
+        sample.arrived = {arrived_before_ns, latency::StampKind::Modelled};
+        if (sample.head) {
+            sample.head = gaze::compose(recentre, *sample.head);
+            head_track_.add(sample.sampled.ns, *sample.head);
+        }
+    }
+}
+
+void TraceSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) {
+    while (!finished() && trace_.samples[next_].arrived.ns <= now_ns) {
+        samples.push_back(trace_.samples[next_++]);
+    }
+}
+
+const gaze::HeadTrack* TraceSource::head_track() const {
+    return head_track_.empty() ? nullptr : &head_track_;
+}
+
+std::string TraceSource::description() const {
+    std::string text =
+        fmt::format("trace {} ({}, {} samples", trace_.file, trace_.device, trace_.samples.size());
+    if (trace_.rows_out_of_order > 0) {
+        text += fmt::format(", {} out of order", trace_.rows_out_of_order);
+    }
+    if (trace_.rows_missing > 0) {
+        text += fmt::format(", {} missing", trace_.rows_missing);
+    }
+    return text + ")";
+}
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drivers/gaze_source.h"
+#include "drivers/trace/trace.h"
+#include "runtime/gaze/head_track.h"
+
+namespace gazeloop::drivers {
+
+/// Plays a trace once. All its times are Modelled.
+///
+/// The world is turned about +Y and moved so that the first known head pose stands at the origin
+/// and looks along -Z as seen from above; its pitch and roll stay.
+class TraceSource final : public GazeSource {
+  public:
+    /// The first sample is taken at `start_ns` (host time). Each arrives `delay_ns` (>= 0, the
+    /// tracker's modelled delay) after it was taken, later by as much as the trace recorded, and
+    /// not before the one ahead of it.
+    TraceSource(Trace trace, std::int64_t start_ns, std::int64_t delay_ns);
+
+    void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;
+    /// The head poses at the samples' times; null if the trace has none.
+    [[nodiscard]] const gaze::HeadTrack* head_track() const override;
+    [[nodiscard]] bool finished() const override { return next_ == trace_.samples.size(); }
+    [[nodiscard]] std::string description() const override;
+
+  private:
+    Trace trace_;  // its times are host times here
+    gaze::HeadTrack head_track_;
+    std::size_t next_ = 0;
+};
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "runtime/gaze/eye.h"
+#include "runtime/gaze/view.h"
+#include "runtime/latency/stamp.h"
+
+namespace gazeloop::gaze {
+
+/// What the fovea rests on.
+enum class FoveaState : std::uint8_t {
+    Tracking,   ///< a valid, fresh sample of this eye
+    OtherEye,   ///< this eye is invalid, the other one's valid, fresh direction is used
+    Held,       ///< no valid sample: the last valid point is held in world
+    Returning,  ///< on the way from the held point to straight ahead
+    Centre,     ///< straight ahead: no gaze for longer than hold + return, or never any
+};
+inline constexpr std::array<std::string_view, 5> kFoveaStateNames{"tracking", "other-eye", "held",
+                                                                  "returning", "centre"};
+
+/// Why the fovea is not tracking.
+enum class LossReason : std::uint8_t {
+    None,     ///< it is tracking
+    Invalid,  ///< samples arrive, but neither eye is valid (a blink, a lost pupil)
+    Stale,    ///< the newest sample is too old
+    Never,    ///< no valid sample has arrived since the start
+};
+inline constexpr std::array<std::string_view, 4> kLossReasonNames{"none", "invalid", "stale",
+                                                                  "never"};
+
+/// Where one eye's fovea is in one frame.
+struct FoveaPoint {
+    PixelPosition position;                ///< finite always; may lie off screen
+    glm::dvec3 direction{0.0, 0.0, -1.0};  ///< unit, in the eye's view frame
+    FoveaState state = FoveaState::Centre;
+    LossReason reason = LossReason::Never;
+    std::uint64_t sample_sequence = 0;  ///< of the sample it rests on; 0 with Never
+    latency::Stamp sampled;             ///< of that sample; unknown with Never
+    latency::Stamp arrived;
+};
+
+/// The foveae of one frame: written once, before the frame's first gaze-dependent submit.
+struct FrameFovea {
+    PerEye<FoveaPoint> eyes;
+    latency::Stamp latched;  ///< when the gaze was read for the last time
+};
+
+}  // namespace gazeloop::gaze

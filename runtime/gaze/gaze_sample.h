@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "runtime/gaze/eye.h"
+#include "runtime/gaze/pose.h"
+#include "runtime/latency/stamp.h"
+
+namespace gazeloop::gaze {
+
+/// Where one eye looks, in the head frame (+X right, +Y up, -Z forward).
+struct EyeRay {
+    glm::dvec3 origin_m{0.0};              ///< eye position; zero where the tracker has none
+    glm::dvec3 direction{0.0, 0.0, -1.0};  ///< unit vector, meaningful only if valid
+    double openness = -1.0;                ///< 0 closed .. 1 open, -1 unknown
+    double confidence = -1.0;              ///< 0 .. 1, -1 unknown
+    bool valid = false;                    ///< the tracker vouches for the direction
+};
+
+/// One report of an eye tracker. Host times are CLOCK_MONOTONIC nanoseconds (virtual time starts
+/// at 0); how each was obtained stands beside it.
+struct GazeSample {
+    std::uint64_t sequence = 0;  ///< counts up by one per report of the source, gaps are losses
+    std::int64_t device_ns = 0;  ///< the tracker's own clock, unchanged but for unit and wrap
+    latency::Stamp sampled;      ///< when the eye was seen (exposure), in host time
+    latency::Stamp arrived;      ///< when the host had it
+    PerEye<EyeRay> eyes;
+    std::optional<Pose> head;  ///< head in world at `sampled`, where known
+};
+
+}  // namespace gazeloop::gaze
