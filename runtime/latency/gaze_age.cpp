@@ -1,0 +1,51 @@
+#include "runtime/latency/gaze_age.h"
+
+namespace gazeloop::latency {
+
+ShownFrame shown_frame(const FrameStamps& stamps, std::int64_t period_ns) {
+    ShownFrame shown{.at = stamps.display,
+                     .in_time_known = stamps.display.known() && stamps.gpu_end.known()};
+    if (!shown.in_time_known || stamps.gpu_end.ns <= stamps.display.ns) {
+        return shown;
+    }
+    if (period_ns <= 0) {
+        return {.at = {}, .periods_missed = 1, .in_time_known = true};
+    }
+    const __int128 late = static_cast<__int128>(stamps.gpu_end.ns) - stamps.display.ns;
+    const __int128 periods = (late + period_ns - 1) / period_ns;
+    shown.periods_missed = static_cast<std::uint64_t>(periods);
+    shown.at = {saturated(stamps.display.ns + periods * period_ns), StampKind::Modelled};
+    return shown;
+}
+
+GazeAge gaze_age(const gaze::FoveaPoint& fovea, const FrameStamps& stamps, const Stamp& shown,
+                 std::optional<std::int64_t> switching_ns) {
+    GazeAge age;
+    age.at_latch = between(fovea.sampled, stamps.latch);
+    age.at_display = between(fovea.sampled, shown);
+    age.stages = {between(fovea.sampled, fovea.arrived), between(fovea.arrived, stamps.latch),
+                  between(stamps.latch, stamps.submit),  between(stamps.submit, stamps.gpu_end),
+                  between(stamps.gpu_end, shown),        Span{}};
+    if (switching_ns) {
+        age.stages[static_cast<std::size_t>(Stage::Switching)] = {*switching_ns,
+                                                                  StampKind::Profile};
+        age.at_display = {saturated(static_cast<__int128>(age.at_display.ns) + *switching_ns),
+                          weaker(age.at_display.kind, StampKind::Profile)};
+    }
+    __int128 rest = age.at_display.ns;
+    for (const Span& stage : age.stages) {
+        rest -= stage.known() ? stage.ns : 0;
+    }
+    age.unaccounted = {saturated(rest), age.at_display.kind};
+    return age;
+}
+
+const gaze::FoveaPoint& older_gaze(const gaze::FrameFovea& fovea) {
+    const auto& [left, right] = fovea.eyes;
+    if (!left.sampled.known() || !right.sampled.known()) {
+        return left.sampled.known() ? right : left;
+    }
+    return right.sampled.ns < left.sampled.ns ? right : left;
+}
+
+}  // namespace gazeloop::latency

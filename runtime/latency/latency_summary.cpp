@@ -1,0 +1,184 @@
+#include "runtime/latency/latency_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace gazeloop::latency {
+namespace {
+
+constexpr double kRealTimeIntervalFactor = 1.05;
+constexpr double kRealTimeMissedPercent = 5.0;
+constexpr double kNsPerMs = 1e6;
+
+Verdict verdict_of(const SummaryReport& report) {
+    if (report.config.clock == LoopClock::Virtual) {
+        return Verdict::VirtualTime;
+    }
+    const std::optional<double> interval_ms = report.frame_interval.p50_ms;
+    if (!interval_ms || report.config.period_ns <= 0) {
+        return Verdict::Unknown;
+    }
+    const double period_ms = static_cast<double>(report.config.period_ns) / kNsPerMs;
+    const bool slow = *interval_ms > kRealTimeIntervalFactor * period_ms ||
+                      report.missed_percent().value_or(0.0) > kRealTimeMissedPercent;
+    return slow ? Verdict::NotRealTime : Verdict::RealTime;
+}
+
+template <std::size_t N>
+std::array<DurationRow, N> rows(const std::array<SpanSeries, N>& series) {
+    std::array<DurationRow, N> result;
+    std::transform(series.begin(), series.end(), result.begin(),
+                   [](const SpanSeries& one) { return one.row(); });
+    return result;
+}
+
+void add_to(SampleCounts& sum, const SampleCounts& frame) {
+    sum.texels_planned += frame.texels_planned;
+    sum.texels_shaded += frame.texels_shaded;
+    sum.texels_off_screen += frame.texels_off_screen;
+    sum.texels_under_disc += frame.texels_under_disc;
+    sum.pixels_direct += frame.pixels_direct;
+    sum.pixels_output += frame.pixels_output;
+}
+
+}  // namespace
+
+std::optional<double> SummaryReport::missed_percent() const {
+    const std::uint64_t known = frames.rendered - frames.in_time_unknown;
+    if (known == 0) {
+        return std::nullopt;
+    }
+    return 100.0 * static_cast<double>(frames.missed) / static_cast<double>(known);
+}
+
+std::optional<double> SummaryReport::samples_saved_factor() const {
+    const std::uint64_t shaded = samples.texels_shaded + samples.pixels_direct;
+    if (shaded == 0) {
+        return std::nullopt;
+    }
+    return static_cast<double>(samples.pixels_output) / static_cast<double>(shaded);
+}
+
+LatencySummary::LatencySummary(const SummaryConfig& config) : config_(config) {}
+
+void LatencySummary::add(const gaze::GazeSample& sample) { gaze_.add(sample); }
+
+void LatencySummary::add(const FrameRecord& record) {
+    ++frames_.total;
+    if (before_ && before_->index + 1 == record.index) {
+        frame_interval_.add(between(before_->wake_up, record.stamps.wake_up));
+    }
+    before_ = {record.index, record.stamps.wake_up};
+    loop_time_.add(between(record.stamps.wake_up, record.stamps.end_frame));
+    if (!record.should_render) {
+        return;
+    }
+    std::optional<FrameRecord>& slot = pending_[record.index % kPendingFrames];
+    if (slot) {
+        complete(*slot);
+    }
+    slot = record;
+}
+
+void LatencySummary::add(const FrameGpuRecord& record) {
+    for (std::size_t pass = 0; pass < kPassCount; ++pass) {
+        if (record.pass_ns[pass] >= 0) {
+            passes_[pass].add({record.pass_ns[pass], StampKind::Measured});
+        }
+    }
+    std::optional<FrameRecord>& slot = pending_[record.index % kPendingFrames];
+    if (!slot || slot->index != record.index) {
+        return;
+    }
+    if (config_.clock == LoopClock::Wall && record.gpu_end.known()) {
+        slot->stamps.gpu_begin = record.gpu_begin;
+        slot->stamps.gpu_end = record.gpu_end;
+    }
+    complete(*slot);
+    slot.reset();
+}
+
+void LatencySummary::complete(const FrameRecord& record) {
+    ++frames_.rendered;
+    add_to(samples_, record.samples);
+
+    const std::int64_t period_ns = record.period_ns > 0 ? record.period_ns : config_.period_ns;
+    const ShownFrame shown = shown_frame(record.stamps, period_ns);
+    frames_.in_time_unknown += shown.in_time_known ? 0 : 1;
+    frames_.missed += shown.periods_missed > 0 ? 1 : 0;
+    frames_.periods_missed += shown.periods_missed;
+
+    const gaze::FoveaState state = std::max(record.fovea.eyes[0].state, record.fovea.eyes[1].state);
+    ++frames_.by_state[static_cast<std::size_t>(state)];
+    const GazeAge age =
+        gaze_age(older_gaze(record.fovea), record.stamps, shown.at, config_.switching_ns);
+    switch (state) {
+        case gaze::FoveaState::Tracking:
+        case gaze::FoveaState::OtherEye:
+            add_tracking(age);
+            break;
+        case gaze::FoveaState::Held:
+        case gaze::FoveaState::Returning:
+            held_gaze_age_at_display_.add(age.at_display);
+            break;
+        case gaze::FoveaState::Centre:
+            break;  // the picture rests on no gaze: there is no age
+    }
+}
+
+void LatencySummary::add_tracking(const GazeAge& age) {
+    gaze_age_at_latch_.add(age.at_latch);
+    gaze_age_at_display_.add(age.at_display);
+    unaccounted_.add(age.unaccounted);
+    for (std::size_t stage = 0; stage < kStageCount; ++stage) {
+        stages_[stage].add(age.stages[stage]);
+        if (age.at_display.known() && age.stages[stage].known()) {
+            length_by_kind_ns_[static_cast<std::size_t>(age.stages[stage].kind)] +=
+                std::abs(static_cast<double>(age.stages[stage].ns));
+        }
+    }
+    if (age.unaccounted.known()) {
+        length_by_kind_ns_[static_cast<std::size_t>(StampKind::Unknown)] +=
+            std::abs(static_cast<double>(age.unaccounted.ns));
+    }
+}
+
+SummaryReport LatencySummary::report() const {
+    LatencySummary finished = *this;
+    for (std::optional<FrameRecord>& slot : finished.pending_) {
+        if (slot) {
+            finished.complete(*slot);
+        }
+    }
+    return finished.report_of_complete();
+}
+
+SummaryReport LatencySummary::report_of_complete() const {
+    SummaryReport report;
+    report.config = config_;
+    report.gaze_age_at_latch = gaze_age_at_latch_.row();
+    report.gaze_age_at_display = gaze_age_at_display_.row();
+    report.stages = rows(stages_);
+    report.unaccounted = unaccounted_.row();
+    report.held_gaze_age_at_display = held_gaze_age_at_display_.row();
+    report.frame_interval = frame_interval_.row();
+    report.loop_time = loop_time_.row();
+    report.passes = rows(passes_);
+    report.frames = frames_;
+    report.gaze = gaze_.counts();
+    report.samples = samples_;
+
+    const double length_ns =
+        std::accumulate(length_by_kind_ns_.begin(), length_by_kind_ns_.end(), 0.0);
+    if (length_ns > 0.0) {
+        report.share_by_kind_percent.emplace();
+        std::transform(length_by_kind_ns_.begin(), length_by_kind_ns_.end(),
+                       report.share_by_kind_percent->begin(),
+                       [length_ns](double kind_ns) { return 100.0 * kind_ns / length_ns; });
+    }
+    report.verdict = verdict_of(report);
+    return report;
+}
+
+}  // namespace gazeloop::latency

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "runtime/gaze/fovea_point.h"
+#include "runtime/gaze/gaze_sample.h"
+#include "runtime/latency/frame_record.h"
+#include "runtime/latency/gaze_age.h"
+#include "runtime/latency/sample_counter.h"
+#include "runtime/latency/span_series.h"
+
+namespace gazeloop::latency {
+
+/// What the loop's time is made of.
+enum class LoopClock : std::uint8_t {
+    Wall,     ///< CLOCK_MONOTONIC
+    Virtual,  ///< a replay's own time: every duration of the loop is modelled
+};
+
+struct SummaryConfig {
+    LoopClock clock = LoopClock::Wall;
+    std::int64_t period_ns = 0;  ///< the display's nominal period; 0 if unknown
+    /// From the middle of the emission to the photon that counts, from the display's profile.
+    std::optional<std::int64_t> switching_ns = std::nullopt;
+};
+
+/// Whether the latencies are those of a headset that keeps up.
+enum class Verdict : std::uint8_t {
+    RealTime,
+    NotRealTime,  ///< the median frame interval is above 1.05 periods, or over 5 % missed theirs
+    VirtualTime,  ///< nothing was timed
+    Unknown,      ///< fewer than two frame intervals, or no display period
+};
+inline constexpr std::array<std::string_view, 4> kVerdictNames{"real-time", "not-real-time",
+                                                               "virtual-time", "unknown"};
+
+struct FrameCounts {
+    std::uint64_t total = 0;
+    std::uint64_t rendered = 0;         ///< with should_render; all figures below are of these
+    std::uint64_t missed = 0;           ///< shown later than announced, because of the GPU
+    std::uint64_t periods_missed = 0;   ///< by them together, at least
+    std::uint64_t in_time_unknown = 0;  ///< no time of the GPU's end, or of the display
+    /// By the state of the eye that is worse off, in the order of gaze::FoveaState.
+    std::array<std::uint64_t, gaze::kFoveaStateNames.size()> by_state{};
+};
+
+/// Everything that a summary says. Rows of gaze age and of its stages are over the frames in which
+/// both eyes' foveae rest on a fresh sample (tracking or other-eye), each over those frames that
+/// know it. Per frame the stages and the unaccounted rest add up to the gaze age at display
+/// exactly, hence so do the means where the rows have the same count.
+struct SummaryReport {
+    SummaryConfig config;
+    Verdict verdict = Verdict::Unknown;
+
+    DurationRow gaze_age_at_latch;
+    DurationRow gaze_age_at_display;
+    std::array<DurationRow, kStageCount> stages;
+    DurationRow unaccounted;
+    DurationRow held_gaze_age_at_display;  ///< in held and returning frames: of the held sample
+    DurationRow frame_interval;            ///< from wake_up to wake_up of neighbouring frames
+    DurationRow loop_time;                 ///< wake_up -> end_frame
+    std::array<DurationRow, kPassCount> passes;
+
+    /// How the gaze age at display was obtained, percent of its length over all frames that know
+    /// it, by stamp kind; what is unaccounted for is unknown. Absent if no frame knows it.
+    std::optional<std::array<double, kStampKindCount>> share_by_kind_percent;
+    FrameCounts frames;
+    GazeCounts gaze;
+    SampleCounts samples;  ///< sums over the rendered frames
+
+    /// Missed frames among those of which it is known; absent if there are none.
+    [[nodiscard]] std::optional<double> missed_percent() const;
+    /// How many times fewer samples than full resolution were shaded; absent if none were.
+    [[nodiscard]] std::optional<double> samples_saved_factor() const;
+};
+
+/// Gathers a report while frames pass, in fixed memory and without allocation after construction.
+class LatencySummary {
+  public:
+    explicit LatencySummary(const SummaryConfig& config);
+
+    /// In the order of arrival.
+    void add(const gaze::GazeSample& sample);
+    /// In the order of their index.
+    void add(const FrameRecord& record);
+    /// After its frame, and before 16 later ones; a later part still counts for the passes. In
+    /// virtual time the frame's own, modelled GPU stamps are used and those of this part are not.
+    void add(const FrameGpuRecord& record);
+
+    /// Of everything so far; frames still without a GPU part count as they are.
+    [[nodiscard]] SummaryReport report() const;
+
+  private:
+    static constexpr std::size_t kPendingFrames = 16;
+    struct Neighbour {
+        std::uint64_t index;
+        Stamp wake_up;
+    };
+
+    void complete(const FrameRecord& record);
+    void add_tracking(const GazeAge& age);
+    [[nodiscard]] SummaryReport report_of_complete() const;
+
+    SummaryConfig config_;
+    std::array<std::optional<FrameRecord>, kPendingFrames> pending_;  ///< by index modulo size
+    std::optional<Neighbour> before_;
+    SpanSeries gaze_age_at_latch_;
+    SpanSeries gaze_age_at_display_;
+    std::array<SpanSeries, kStageCount> stages_;
+    SpanSeries unaccounted_;
+    SpanSeries held_gaze_age_at_display_;
+    SpanSeries frame_interval_;
+    SpanSeries loop_time_;
+    std::array<SpanSeries, kPassCount> passes_;
+    std::array<double, kStampKindCount> length_by_kind_ns_{};
+    FrameCounts frames_;
+    SampleCounter gaze_;
+    SampleCounts samples_;
+};
+
+}  // namespace gazeloop::latency

@@ -1,0 +1,82 @@
+#include "runtime/latency/summary_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+
+#include "runtime/latency/summary_rows.h"
+
+namespace gazeloop::latency {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+template <typename T, std::size_t N>
+Json by_name(const std::array<T, N>& values, const std::array<std::string_view, N>& names) {
+    Json object = Json::object();
+    for (std::size_t i = 0; i < N; ++i) {
+        object[std::string(names[i])] = values[i];
+    }
+    return object;
+}
+
+Json row_json(const DurationRow& row) {
+    return {{"frames", row.count},
+            {"kind", name(row.kind())},
+            {"frames_by_kind", by_name(row.frames_by_kind, kStampKindNames)},
+            {"min_ms", or_null(row.min_ms)},
+            {"mean_ms", or_null(row.mean_ms)},
+            {"p50_ms", or_null(row.p50_ms)},
+            {"p95_ms", or_null(row.p95_ms)},
+            {"p99_ms", or_null(row.p99_ms)},
+            {"max_ms", or_null(row.max_ms)}};
+}
+
+}  // namespace
+
+Json summary_json(const SummaryReport& report) {
+    Json durations = Json::object();
+    for (const NamedRow& named : rows_of(report)) {
+        durations[named.key] = row_json(*named.row);
+    }
+    const SummaryConfig& config = report.config;
+    const FrameCounts& frames = report.frames;
+    const bool missed_known = frames.in_time_unknown < frames.rendered;
+    const SampleCounts& samples = report.samples;
+    return {{"verdict", kVerdictNames[static_cast<std::size_t>(report.verdict)]},
+            {"clock", config.clock == LoopClock::Wall ? "wall" : "virtual"},
+            {"display_period_ns", config.period_ns > 0 ? Json(config.period_ns) : Json(nullptr)},
+            {"switching_ns", or_null(config.switching_ns)},
+            {"eye_to_photon_percent_by_kind",
+             report.share_by_kind_percent ? by_name(*report.share_by_kind_percent, kStampKindNames)
+                                          : Json(nullptr)},
+            {"durations", durations},
+            {"frames",
+             {{"total", frames.total},
+              {"rendered", frames.rendered},
+              {"missed", missed_known ? Json(frames.missed) : Json(nullptr)},
+              {"missed_percent", or_null(report.missed_percent())},
+              {"periods_missed", missed_known ? Json(frames.periods_missed) : Json(nullptr)},
+              {"in_time_unknown", frames.in_time_unknown},
+              {"by_gaze_state", by_name(frames.by_state, gaze::kFoveaStateNames)}}},
+            {"gaze",
+             {{"received", report.gaze.received},
+              {"invalid", report.gaze.invalid},
+              {"lost", report.gaze.lost},
+              {"out_of_order", report.gaze.out_of_order}}},
+            {"samples",
+             {{"texels_planned", samples.texels_planned},
+              {"texels_shaded", samples.texels_shaded},
+              {"texels_off_screen", samples.texels_off_screen},
+              {"texels_under_disc", samples.texels_under_disc},
+              {"pixels_direct", samples.pixels_direct},
+              {"pixels_output", samples.pixels_output},
+              {"times_fewer_than_full", or_null(report.samples_saved_factor())}}}};
+}
+
+}  // namespace gazeloop::latency

@@ -1,0 +1,32 @@
+#include "runtime/latency/summary_rows.h"
+
+#include <algorithm>
+
+namespace gazeloop::latency {
+
+std::vector<NamedRow> rows_of(const SummaryReport& report) {
+    std::vector<NamedRow> rows{
+        {"gaze_age_at_latch", "gaze age at latch", &report.gaze_age_at_latch},
+        {"gaze_age_at_display", "gaze age at display", &report.gaze_age_at_display}};
+    for (std::size_t stage = 0; stage < kStageCount; ++stage) {
+        std::string key = "stage_" + std::string(kStageNames[stage]);
+        std::replace(key.begin(), key.end(), ' ', '_');
+        rows.push_back({key, "  " + std::string(kStageNames[stage]), &report.stages[stage]});
+    }
+    rows.push_back({"unaccounted", "  unaccounted", &report.unaccounted});
+    if (report.held_gaze_age_at_display.count > 0) {
+        rows.push_back(
+            {"held_gaze_age_at_display", "held gaze at display", &report.held_gaze_age_at_display});
+    }
+    rows.push_back({"frame_interval", "frame interval", &report.frame_interval});
+    rows.push_back({"loop_time", "loop (cpu)", &report.loop_time});
+    for (std::size_t pass = 0; pass < kPassCount; ++pass) {
+        if (report.passes[pass].count > 0) {
+            rows.push_back({"pass_" + std::string(kPassNames[pass]),
+                            "pass " + std::string(kPassNames[pass]), &report.passes[pass]});
+        }
+    }
+    return rows;
+}
+
+}  // namespace gazeloop::latency

@@ -1,0 +1,88 @@
+#include "runtime/session/column_names.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "runtime/session/record_fields.h"
+
+namespace gazeloop::session {
+namespace {
+
+constexpr std::uint64_t kFrame = 0;
+constexpr gaze::Eye kEye = gaze::Eye::Left;
+constexpr std::string_view kText;
+
+}  // namespace
+
+std::string ColumnNames::insert_into(std::string_view table) const {
+    const std::vector<std::string_view> parameters(names_.size(), "?");
+    return fmt::format("INSERT INTO {} ({}) VALUES ({})", table, fmt::join(names_, ", "),
+                       fmt::join(parameters, ", "));
+}
+
+std::string ColumnNames::update(std::string_view table, std::string_view key) const {
+    return fmt::format("UPDATE {} SET {} = ? WHERE {} = ?", table, fmt::join(names_, " = ?, "),
+                       key);
+}
+
+std::string ColumnNames::select_from(std::string_view table, std::string_view key) const {
+    return fmt::format("SELECT {2}, {0} FROM {1} ORDER BY {2}", fmt::join(names_, ", "), table,
+                       key);
+}
+
+ColumnNames named_value_columns() {
+    ColumnNames names;
+    visit_named_value(names, kText, kText);
+    return names;
+}
+
+ColumnNames sample_columns() {
+    ColumnNames names;
+    const gaze::GazeSample sample;
+    visit_sample(names, kFrame, sample);
+    return names;
+}
+
+ColumnNames frame_columns() {
+    ColumnNames names;
+    const latency::FrameRecord record;
+    visit_frame(names, record);
+    return names;
+}
+
+ColumnNames gpu_columns() {
+    ColumnNames names;
+    const latency::FrameGpuRecord record;
+    visit_gpu(names, record);
+    return names;
+}
+
+ColumnNames whole_frame_columns() {
+    ColumnNames names = frame_columns();
+    const latency::FrameGpuRecord record;
+    visit_gpu(names, record);
+    return names;
+}
+
+ColumnNames view_columns() {
+    ColumnNames names;
+    const gaze::EyeView view;
+    visit_view(names, kFrame, kEye, view);
+    return names;
+}
+
+ColumnNames fovea_columns() {
+    ColumnNames names;
+    const gaze::FoveaPoint fovea;
+    visit_fovea(names, kFrame, kEye, fovea);
+    return names;
+}
+
+ColumnNames event_columns() {
+    ColumnNames names;
+    const latency::Stamp time;
+    visit_event(names, time, kText, kText);
+    return names;
+}
+
+}  // namespace gazeloop::session

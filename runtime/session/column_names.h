@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gazeloop::session {
+
+/// The columns of a record, in the order in which its fields are visited, and SQL with them.
+class ColumnNames {
+  public:
+    /// Visits a field of a record (see record_fields.h).
+    template <typename Field>
+    void operator()(std::string_view head, std::string_view tail, const Field&) {
+        names_.push_back(std::string(head) + std::string(tail));
+    }
+
+    [[nodiscard]] std::string insert_into(std::string_view table) const;
+    /// Sets every column in the row whose `key` is the parameter after theirs.
+    [[nodiscard]] std::string update(std::string_view table, std::string_view key) const;
+    /// The key, one column or several, then these columns, in the order of the key.
+    [[nodiscard]] std::string select_from(std::string_view table, std::string_view key) const;
+
+  private:
+    std::vector<std::string> names_;
+};
+
+ColumnNames named_value_columns();  ///< of meta, config and device
+ColumnNames sample_columns();       ///< of gaze
+ColumnNames frame_columns();        ///< of frame, less those of the GPU part
+ColumnNames gpu_columns();          ///< of frame, the GPU part
+ColumnNames whole_frame_columns();  ///< both, in this order
+ColumnNames view_columns();
+ColumnNames fovea_columns();
+ColumnNames event_columns();
+
+}  // namespace gazeloop::session

@@ -1,0 +1,156 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "runtime/session/record.h"
+
+namespace gazeloop::session {
+
+// Which field of a record lies in which column, in one place for writing and reading. A visitor is
+// called as visit(head, tail, field) for the column named head + tail, always in the same order.
+// Fields are const when a record is written, and are assigned to when one is read.
+
+template <typename Visitor, typename Stamp>
+void visit_stamp(Visitor& visit, std::string_view column, Stamp& stamp) {
+    visit(column, "_ns", stamp.ns);
+    visit(column, "_kind", stamp.kind);
+}
+
+template <typename Visitor, typename Pose>
+void visit_pose(Visitor& visit, std::string_view column, Pose& pose) {
+    visit(column, "_qw", pose.orientation.w);
+    visit(column, "_qx", pose.orientation.x);
+    visit(column, "_qy", pose.orientation.y);
+    visit(column, "_qz", pose.orientation.z);
+    visit(column, "_x_m", pose.position_m.x);
+    visit(column, "_y_m", pose.position_m.y);
+    visit(column, "_z_m", pose.position_m.z);
+}
+
+/// Written where there is no pose: not-a-number becomes NULL.
+inline gaze::Pose no_pose() {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    return {glm::dquat{kNan, kNan, kNan, kNan}, glm::dvec3{kNan}};
+}
+
+template <typename Visitor, typename Frame, typename Sample>
+void visit_sample(Visitor& visit, Frame& frame, Sample& sample) {
+    visit("frame", "", frame);
+    visit("sequence", "", sample.sequence);
+    visit("device", "_ns", sample.device_ns);
+    visit_stamp(visit, "sampled", sample.sampled);
+    visit_stamp(visit, "arrived", sample.arrived);
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const std::string_view name = gaze::kEyeNames[gaze::index(eye)];
+        auto& ray = sample.eyes[gaze::index(eye)];
+        visit(name, "_origin_x_m", ray.origin_m.x);
+        visit(name, "_origin_y_m", ray.origin_m.y);
+        visit(name, "_origin_z_m", ray.origin_m.z);
+        visit(name, "_direction_x", ray.direction.x);
+        visit(name, "_direction_y", ray.direction.y);
+        visit(name, "_direction_z", ray.direction.z);
+        visit(name, "_openness", ray.openness);
+        visit(name, "_confidence", ray.confidence);
+        visit(name, "_valid", ray.valid);
+    }
+    bool has_head = sample.head.has_value();
+    gaze::Pose head = sample.head.value_or(no_pose());
+    visit("has_head", "", has_head);
+    visit_pose(visit, "head", head);
+    if constexpr (!std::is_const_v<Sample>) {
+        sample.head = has_head ? std::optional(head) : std::nullopt;
+    }
+}
+
+template <typename Visitor, typename Record>
+void visit_frame(Visitor& visit, Record& record) {
+    visit("number", "", record.index);
+    visit_stamp(visit, "wake_up", record.stamps.wake_up);
+    visit_stamp(visit, "begin", record.stamps.begin);
+    visit_stamp(visit, "latch", record.stamps.latch);
+    visit_stamp(visit, "submit", record.stamps.submit);
+    visit_stamp(visit, "end_frame", record.stamps.end_frame);
+    visit_stamp(visit, "gpu_begin", record.stamps.gpu_begin);
+    visit_stamp(visit, "gpu_end", record.stamps.gpu_end);
+    visit_stamp(visit, "display", record.stamps.display);
+    visit("period", "_ns", record.period_ns);
+    visit("should_render", "", record.should_render);
+    visit("scene_time", "_s", record.scene_time_s);
+    visit_pose(visit, "head", record.head);
+    visit_stamp(visit, "fovea_latched", record.fovea.latched);
+    visit("texels_planned", "", record.samples.texels_planned);
+    visit("texels_shaded", "", record.samples.texels_shaded);
+    visit("texels_off_screen", "", record.samples.texels_off_screen);
+    visit("texels_under_disc", "", record.samples.texels_under_disc);
+    visit("pixels_direct", "", record.samples.pixels_direct);
+    visit("pixels_output", "", record.samples.pixels_output);
+}
+
+/// The columns of `frame` that are NULL until the GPU has finished it.
+template <typename Visitor, typename Record>
+void visit_gpu(Visitor& visit, Record& record) {
+    visit_stamp(visit, "reported_gpu_begin", record.gpu_begin);
+    visit_stamp(visit, "reported_gpu_end", record.gpu_end);
+    constexpr std::int64_t kDidNotRun = -1;
+    for (std::size_t pass = 0; pass < latency::kPassCount; ++pass) {
+        auto& ns = record.pass_ns[pass];
+        std::optional<std::int64_t> ran = ns == kDidNotRun ? std::nullopt : std::optional(ns);
+        visit(latency::kPassNames[pass], "_ns", ran);
+        if constexpr (!std::is_const_v<Record>) {
+            ns = ran.value_or(kDidNotRun);
+        }
+    }
+    visit("pixel_hash", "", record.pixel_hash);
+}
+
+template <typename Visitor, typename Frame, typename Eye, typename View>
+void visit_view(Visitor& visit, Frame& frame, Eye& eye, View& view) {
+    visit("frame", "", frame);
+    visit("eye", "", eye);
+    visit_pose(visit, "pose", view.pose);
+    visit("left", "_rad", view.fov.left_rad);
+    visit("right", "_rad", view.fov.right_rad);
+    visit("up", "_rad", view.fov.up_rad);
+    visit("down", "_rad", view.fov.down_rad);
+    visit("width", "_px", view.width_px);
+    visit("height", "_px", view.height_px);
+}
+
+template <typename Visitor, typename Frame, typename Eye, typename Fovea>
+void visit_fovea(Visitor& visit, Frame& frame, Eye& eye, Fovea& fovea) {
+    visit("frame", "", frame);
+    visit("eye", "", eye);
+    visit("x", "_px", fovea.position.x_px);
+    visit("y", "_px", fovea.position.y_px);
+    visit("direction", "_x", fovea.direction.x);
+    visit("direction", "_y", fovea.direction.y);
+    visit("direction", "_z", fovea.direction.z);
+    visit("state", "", fovea.state);
+    visit("reason", "", fovea.reason);
+    visit("sample_sequence", "", fovea.sample_sequence);
+    visit_stamp(visit, "sampled", fovea.sampled);
+    visit_stamp(visit, "arrived", fovea.arrived);
+}
+
+/// `kind` and `text` are text of the reader's or the writer's own kind.
+template <typename Visitor, typename Time, typename Text>
+void visit_event(Visitor& visit, Time& time, Text& kind, Text& text) {
+    visit_stamp(visit, "time", time);
+    visit("kind", "", kind);
+    visit("text", "", text);
+}
+
+template <typename Visitor, typename Text>
+void visit_named_value(Visitor& visit, Text& name, Text& value) {
+    visit("name", "", name);
+    visit("value", "", value);
+}
+
+}  // namespace gazeloop::session

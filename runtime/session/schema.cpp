@@ -1,0 +1,155 @@
+#include "runtime/session/schema.h"
+
+namespace gazeloop::session {
+
+// Doubles are declared ANY, because a column declared REAL does not keep the sign of -0.0.
+const char* const kCreateTables = R"sql(
+CREATE TABLE meta (
+    position INTEGER PRIMARY KEY,
+    name     TEXT NOT NULL UNIQUE,
+    value    TEXT NOT NULL
+) STRICT;
+
+CREATE TABLE config (
+    position INTEGER PRIMARY KEY,
+    name     TEXT NOT NULL UNIQUE,
+    value    TEXT NOT NULL
+) STRICT;
+
+CREATE TABLE device (
+    position INTEGER PRIMARY KEY,
+    name     TEXT NOT NULL UNIQUE,
+    value    TEXT NOT NULL
+) STRICT;
+
+CREATE TABLE gaze (
+    position          INTEGER PRIMARY KEY,
+    frame             INTEGER NOT NULL,
+    sequence          INTEGER NOT NULL,
+    device_ns         INTEGER NOT NULL,
+    sampled_ns        INTEGER NOT NULL,
+    sampled_kind      INTEGER NOT NULL,
+    arrived_ns        INTEGER NOT NULL,
+    arrived_kind      INTEGER NOT NULL,
+    left_origin_x_m   ANY,
+    left_origin_y_m   ANY,
+    left_origin_z_m   ANY,
+    left_direction_x  ANY,
+    left_direction_y  ANY,
+    left_direction_z  ANY,
+    left_openness     ANY,
+    left_confidence   ANY,
+    left_valid        INTEGER NOT NULL,
+    right_origin_x_m  ANY,
+    right_origin_y_m  ANY,
+    right_origin_z_m  ANY,
+    right_direction_x ANY,
+    right_direction_y ANY,
+    right_direction_z ANY,
+    right_openness    ANY,
+    right_confidence  ANY,
+    right_valid       INTEGER NOT NULL,
+    has_head          INTEGER NOT NULL,
+    head_qw           ANY,
+    head_qx           ANY,
+    head_qy           ANY,
+    head_qz           ANY,
+    head_x_m          ANY,
+    head_y_m          ANY,
+    head_z_m          ANY
+) STRICT;
+
+CREATE TABLE frame (
+    number                  INTEGER PRIMARY KEY,
+    wake_up_ns              INTEGER NOT NULL,
+    wake_up_kind            INTEGER NOT NULL,
+    begin_ns                INTEGER NOT NULL,
+    begin_kind              INTEGER NOT NULL,
+    latch_ns                INTEGER NOT NULL,
+    latch_kind              INTEGER NOT NULL,
+    submit_ns               INTEGER NOT NULL,
+    submit_kind             INTEGER NOT NULL,
+    end_frame_ns            INTEGER NOT NULL,
+    end_frame_kind          INTEGER NOT NULL,
+    gpu_begin_ns            INTEGER NOT NULL,
+    gpu_begin_kind          INTEGER NOT NULL,
+    gpu_end_ns              INTEGER NOT NULL,
+    gpu_end_kind            INTEGER NOT NULL,
+    display_ns              INTEGER NOT NULL,
+    display_kind            INTEGER NOT NULL,
+    period_ns               INTEGER NOT NULL,
+    should_render           INTEGER NOT NULL,
+    scene_time_s            ANY,
+    head_qw                 ANY,
+    head_qx                 ANY,
+    head_qy                 ANY,
+    head_qz                 ANY,
+    head_x_m                ANY,
+    head_y_m                ANY,
+    head_z_m                ANY,
+    fovea_latched_ns        INTEGER NOT NULL,
+    fovea_latched_kind      INTEGER NOT NULL,
+    texels_planned          INTEGER NOT NULL,
+    texels_shaded           INTEGER NOT NULL,
+    texels_off_screen       INTEGER NOT NULL,
+    texels_under_disc       INTEGER NOT NULL,
+    pixels_direct           INTEGER NOT NULL,
+    pixels_output           INTEGER NOT NULL,
+    reported_gpu_begin_ns   INTEGER,
+    reported_gpu_begin_kind INTEGER,
+    reported_gpu_end_ns     INTEGER,
+    reported_gpu_end_kind   INTEGER,
+    full_ns                 INTEGER,
+    pass_i_ns               INTEGER,
+    resolve_ns              INTEGER,
+    disc_ns                 INTEGER,
+    pixel_hash              INTEGER
+) STRICT;
+
+CREATE TABLE view (
+    frame     INTEGER NOT NULL,
+    eye       INTEGER NOT NULL,
+    pose_qw   ANY,
+    pose_qx   ANY,
+    pose_qy   ANY,
+    pose_qz   ANY,
+    pose_x_m  ANY,
+    pose_y_m  ANY,
+    pose_z_m  ANY,
+    left_rad  ANY,
+    right_rad ANY,
+    up_rad    ANY,
+    down_rad  ANY,
+    width_px  INTEGER NOT NULL,
+    height_px INTEGER NOT NULL,
+    PRIMARY KEY (frame, eye)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE fovea (
+    frame           INTEGER NOT NULL,
+    eye             INTEGER NOT NULL,
+    x_px            ANY,
+    y_px            ANY,
+    direction_x     ANY,
+    direction_y     ANY,
+    direction_z     ANY,
+    state           INTEGER NOT NULL,
+    reason          INTEGER NOT NULL,
+    sample_sequence INTEGER NOT NULL,
+    sampled_ns      INTEGER NOT NULL,
+    sampled_kind    INTEGER NOT NULL,
+    arrived_ns      INTEGER NOT NULL,
+    arrived_kind    INTEGER NOT NULL,
+    PRIMARY KEY (frame, eye)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE event (
+    position  INTEGER PRIMARY KEY,
+    time_ns   INTEGER NOT NULL,
+    time_kind INTEGER NOT NULL,
+    kind      TEXT NOT NULL,
+    text      TEXT NOT NULL
+) STRICT;
+)sql";
+
+}  // namespace gazeloop::session

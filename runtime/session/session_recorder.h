@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/error.h"
+#include "runtime/gaze/gaze_sample.h"
+#include "runtime/latency/frame_record.h"
+
+namespace gazeloop::session {
+
+struct NamedValue {
+    std::string name;
+    std::string value;
+};
+
+/// What a session states about itself before its first frame. Names are unique within each list;
+/// in `meta` the recorder keeps schema_version, records_dropped and closed for itself.
+struct SessionHeader {
+    std::vector<NamedValue> meta{};    ///< program version, command line, start, target, clock
+    std::vector<NamedValue> config{};  ///< every setting in force, by key
+    std::vector<NamedValue> device{};  ///< Vulkan device and driver, OpenXR runtime, gaze source
+};
+
+/// What happened to a recording.
+struct RecordingStatus {
+    std::uint64_t dropped = 0;  ///< records lost because the queue was full
+    std::string failure;        ///< why writing stopped, empty if it did not
+    [[nodiscard]] bool complete() const { return dropped == 0 && failure.empty(); }
+};
+
+/// Writes a session file (SQLite, WAL) from one thread of its own, fed by a bounded lock-free queue
+/// with one producer, the loop. Nothing here blocks the loop or allocates on it. What was handed
+/// over is committed within 50 ms, so that a process killed at any moment lacks at most the last
+/// 100 ms (more only while the disk itself does not answer; then the queue holds it). A full or
+/// unwritable disk ends the writing, not the loop: see failed() and close().
+class SessionRecorder {
+  public:
+    /// Creates the file with mode 0600. Errors (BadInput): the file exists already, or what an
+    /// earlier session left beside it (name another or remove it); the folder is missing or not
+    /// writable; the header has a name twice.
+    static Expected<std::unique_ptr<SessionRecorder>> create(const std::filesystem::path& file,
+                                                             const SessionHeader& header);
+    SessionRecorder(const SessionRecorder&) = delete;
+    SessionRecorder& operator=(const SessionRecorder&) = delete;
+    ~SessionRecorder();
+
+    /// `frame` is the index of the frame that consumed the sample; it does not decrease.
+    void add(const gaze::GazeSample& sample, std::uint64_t frame);
+    void add(const latency::FrameRecord& record);
+    void add(const latency::FrameGpuRecord& record);
+    /// `kind` is one word of at most 32 bytes, e.g. "session-state", "gaze-lost", "interrupted";
+    /// `text` is cut after 240 bytes, between characters.
+    void event(latency::Stamp time, std::string_view kind, std::string_view text);
+
+    /// Whether writing has ended because of an error, which close() names. Does not block.
+    [[nodiscard]] bool failed() const;
+
+    /// Writes what is queued and closes the file, so that a single file remains (while somebody
+    /// reads it, its -wal and -shm stay until they have done). Idempotent; what is added later is
+    /// lost. Called by the destructor.
+    RecordingStatus close();
+
+  private:
+    class Impl;
+    explicit SessionRecorder(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gazeloop::session

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "runtime/session/database.h"
+#include "runtime/session/record.h"
+#include "runtime/session/session_recorder.h"
+#include "runtime/session/statement.h"
+
+namespace gazeloop::session {
+
+/// Writes records into a session file, on one thread at a time. Members throw DatabaseError; the
+/// file then stays readable up to the last commit, and nothing more can be written.
+class SessionWriter {
+  public:
+    /// `file` must be an empty file of its own. The schema and the header are on disk afterwards,
+    /// in the file itself.
+    SessionWriter(const std::filesystem::path& file, const SessionHeader& header);
+
+    void begin();
+    void write(const Record& record);
+    /// `dropped`: records that never came, so far.
+    void commit(std::uint64_t dropped);
+
+    /// Marks the session as closed and folds everything into the one file.
+    void finish();
+
+    /// Whether the file no longer lies where it was created (renamed or deleted).
+    [[nodiscard]] bool moved() const { return database_.moved(); }
+
+  private:
+    void write_one(const SampleRecord& record);
+    void write_one(const latency::FrameRecord& record);
+    void write_one(const latency::FrameGpuRecord& record);
+    void write_one(const EventRecord& record);
+    void set_meta(std::string_view name, std::string_view value);
+
+    Database database_;
+    Statement insert_sample_;
+    Statement insert_frame_;
+    Statement update_gpu_;
+    Statement insert_view_;
+    Statement insert_fovea_;
+    Statement insert_event_;
+    Statement set_meta_;
+    std::uint64_t dropped_written_ = 0;
+};
+
+}  // namespace gazeloop::session

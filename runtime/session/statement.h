@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "runtime/session/database.h"
+
+struct sqlite3_stmt;
+
+namespace gazeloop::session {
+
+/// A prepared statement. Parameters and columns are numbered from 0. Members that can fail throw
+/// DatabaseError.
+class Statement {
+  public:
+    Statement(const Database& database, std::string_view sql);
+
+    void bind_null(int parameter);
+    void bind(int parameter, std::int64_t value);
+    void bind(int parameter, double value);           ///< not-a-number becomes NULL
+    void bind(int parameter, std::string_view text);  ///< must live until the statement has run
+
+    /// Runs a statement that returns no rows, and makes it ready for the next run.
+    void run();
+
+    /// Moves to the next row; false after the last one.
+    bool next();
+
+    enum class Type { Null, Integer, Real, Text, Blob };
+    [[nodiscard]] Type type(int column) const;
+    [[nodiscard]] std::int64_t integer(int column) const;
+    [[nodiscard]] double real(int column) const;
+    [[nodiscard]] std::string_view text(int column) const;  ///< valid until the next move
+    [[nodiscard]] std::string_view name(int column) const;
+
+  private:
+    struct Finalize {
+        void operator()(sqlite3_stmt* statement) const;
+    };
+    void check(int result) const;
+
+    sqlite3* database_;
+    std::unique_ptr<sqlite3_stmt, Finalize> handle_;
+};
+
+}  // namespace gazeloop::session
