@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cmath>
+
+namespace gazeloop::foveation {
+
+/// The kernel K(x) = x^alpha of kernel foveated rendering (Meng et al. 2018, Eq. 9) on [0, 1].
+/// Larger alpha gives the periphery a larger share of the LP-buffer.
+struct PowerKernel {
+    static constexpr double kMinAlpha = 0.25;
+    static constexpr double kMaxAlpha = 16.0;
+
+    double alpha = 4.0;  ///< in [kMinAlpha, kMaxAlpha]
+
+    [[nodiscard]] double operator()(double x) const { return std::pow(x, alpha); }
+    [[nodiscard]] double inverse(double y) const { return std::pow(y, 1.0 / alpha); }
+    /// dK/dx; infinite at 0 for alpha < 1.
+    [[nodiscard]] double derivative(double x) const { return alpha * std::pow(x, alpha - 1.0); }
+};
+
+}  // namespace gazeloop::foveation

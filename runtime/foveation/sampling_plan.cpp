@@ -1,0 +1,105 @@
+#include "runtime/foveation/sampling_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "runtime/foveation/screen_wedge.h"
+
+namespace gazeloop::foveation {
+namespace {
+
+/// Float rounding moves the shader's columns by less than this share of a texel.
+constexpr double kColumnSlack = 0.01;
+constexpr double kRowSlack = 0.01;
+
+/// The columns that bilinear reads between these radii touch.
+Columns columns_between(const LogPolarMap& map, LpSize lp, double min_px, double max_px) {
+    const double last_column = lp.width - 1.0;
+    const double low = std::floor(map.u(min_px) * lp.width - 0.5 - kColumnSlack);
+    const double high = std::floor(map.u(max_px) * lp.width - 0.5 + kColumnSlack) + 1.0;
+    return {static_cast<std::uint32_t>(std::clamp(low, 0.0, last_column)),
+            static_cast<std::uint32_t>(std::clamp(high, 0.0, last_column)) + 1};
+}
+
+void plan_lp_tiles(const LogPolarMap& map, ImageSize image, double core_px, SamplingPlan& plan) {
+    const double row_angle = 2.0 * std::numbers::pi / plan.lp.height;
+    plan.bands.clear();
+    for (std::uint32_t y0 = 0; y0 < plan.lp.height; y0 += kBandRows) {
+        const std::uint32_t y1 = std::min(y0 + kBandRows, plan.lp.height);
+        // A row is read by pixels less than one row away from its centre.
+        const auto on_screen =
+            screen_radii_in_wedge(image, plan.fovea, (y0 - 0.5 - kRowSlack) * row_angle,
+                                  (y1 + 0.5 + kRowSlack) * row_angle);
+        Columns& band = plan.bands.emplace_back();
+        if (!on_screen) {
+            continue;
+        }
+        const Columns needed = columns_between(map, plan.lp, on_screen->min_px, on_screen->max_px);
+        const std::uint64_t rows = y1 - y0;
+        if (on_screen->max_px <= core_px) {
+            plan.texels_under_disc += rows * (needed.end - needed.first);
+            continue;
+        }
+        band =
+            columns_between(map, plan.lp, std::max(on_screen->min_px, core_px), on_screen->max_px);
+        plan.texels_under_disc += rows * (band.first - needed.first);
+        plan.texels_shaded += rows * (band.end - band.first);
+    }
+    append_band_tiles(plan.bands, plan.lp.height, plan.lp_tiles);
+}
+
+void plan_disc_tiles(ImageSize image, SamplingPlan& plan) {
+    const double radius = plan.disc_radius_px;
+    const double width = image.width_px;
+    plan.bands.clear();
+    for (std::uint32_t y0 = 0; y0 < image.height_px; y0 += kBandRows) {
+        const std::uint32_t y1 = std::min(y0 + kBandRows, image.height_px);
+        const double nearest_y = std::clamp(plan.fovea.y_px, y0 + 0.5, y1 - 0.5);
+        const double dy = nearest_y - plan.fovea.y_px;
+        Columns& band = plan.bands.emplace_back();
+        if (std::abs(dy) >= radius) {
+            continue;
+        }
+        const double reach = std::sqrt(radius * radius - dy * dy);
+        // Pixels whose centres lie within reach.
+        band = {static_cast<std::uint32_t>(
+                    std::clamp(std::ceil(plan.fovea.x_px - reach - 0.5), 0.0, width)),
+                static_cast<std::uint32_t>(
+                    std::clamp(std::floor(plan.fovea.x_px + reach + 0.5), 0.0, width))};
+        if (!band.empty()) {
+            plan.pixels_direct += std::uint64_t{y1 - y0} * (band.end - band.first);
+        }
+    }
+    append_band_tiles(plan.bands, image.height_px, plan.disc_tiles);
+}
+
+}  // namespace
+
+void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
+              const gaze::PixelPosition& fovea, SamplingPlan& plan) {
+    const LogPolarMap map(parameters.kernel, image, fovea);
+    plan.lp = lp;
+    plan.fovea = fovea;
+    plan.log2_max_radius = map.log2_max_radius();
+    plan.disc_radius_px = parameters.disc ? map.disc_radius_px(lp) : 0.0;
+    plan.disc_border_px = std::min(parameters.border_px, 0.5 * plan.disc_radius_px);
+    plan.lp_tiles.clear();
+    plan.disc_tiles.clear();
+    plan.texels_shaded = 0;
+    plan.texels_under_disc = 0;
+    plan.pixels_direct = 0;
+    if (plan.disc_radius_px >= map.max_radius_px()) {
+        plan.disc_border_px = 0.0;  // the disc covers the screen: there is nothing to blend with
+    }
+    const double core_px =
+        plan.disc_radius_px > 0.0 ? plan.disc_radius_px - plan.disc_border_px : 0.0;
+    plan_lp_tiles(map, image, core_px, plan);
+    if (plan.disc_radius_px > 0.0) {
+        plan_disc_tiles(image, plan);
+    }
+    plan.texels_off_screen =
+        std::uint64_t{lp.width} * lp.height - plan.texels_shaded - plan.texels_under_disc;
+}
+
+}  // namespace gazeloop::foveation

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/foveation/band_tiles.h"
+#include "runtime/foveation/log_polar_map.h"
+#include "runtime/foveation/tile.h"
+#include "runtime/gaze/view.h"
+
+namespace gazeloop::foveation {
+
+/// Which samples one eye's picture takes at this gaze, and which it leaves out.
+struct SamplingPlan {
+    LpSize lp;
+    gaze::PixelPosition fovea;
+    double log2_max_radius = 0.0;
+    double disc_radius_px = 0.0;   ///< 0: no disc
+    double disc_border_px = 0.0;   ///< the blend lies inside the radius
+    std::vector<Tile> lp_tiles;    ///< texels that some pixel reads; empty: the disc covers all
+    std::vector<Tile> disc_tiles;  ///< pixels that are shaded directly
+    std::uint64_t texels_shaded = 0;
+    std::uint64_t texels_off_screen = 0;
+    std::uint64_t texels_under_disc = 0;
+    std::uint64_t pixels_direct = 0;
+    std::vector<Columns> bands;  ///< scratch, kept for its memory
+};
+
+/// Plans an eye's picture by KFR. Reuses the plan's memory: no allocation once it has grown.
+///
+/// A texel is in the plan exactly if the bilinear read of some pixel centre outside the disc's
+/// unblended core touches it (up to the granularity of kBandRows rows).
+void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
+              const gaze::PixelPosition& fovea, SamplingPlan& plan);
+
+}  // namespace gazeloop::foveation

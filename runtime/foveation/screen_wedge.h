@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "runtime/foveation/log_polar_map.h"
+#include "runtime/gaze/view.h"
+
+namespace gazeloop::foveation {
+
+/// Least and greatest distance from the fovea.
+struct RadiusRange {
+    double min_px = 0.0;
+    double max_px = 0.0;
+};
+
+/// The distances from the fovea at which pixel centres can lie, within the wedge of directions from
+/// `from_rad` to `to_rad` (screen angles, y down; to > from). Nothing: the wedge misses the screen.
+/// The range is exact for the rectangle that the pixel centres span.
+std::optional<RadiusRange> screen_radii_in_wedge(ImageSize image, const gaze::PixelPosition& fovea,
+                                                 double from_rad, double to_rad);
+
+}  // namespace gazeloop::foveation
