@@ -1,0 +1,455 @@
+#include "runtime/render/frame_renderer.h"
+
+#include <fmt/core.h>
+// The state lies on the stack: no allocation per frame.
+#define XXH_STATIC_LINKING_ONLY
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "runtime/error.h"
+#include "runtime/render/eye_uniforms.h"
+#include "runtime/render/pipelines.h"
+
+namespace gazeloop::render {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+using Layout = vk::ImageLayout;
+using latency::Pass;
+
+constexpr std::uint32_t kMaxSegments = 4;  // pass I, resolve, disc, copies
+constexpr std::uint32_t kBytesPerPixel = 4;
+
+bool encodes_srgb(vk::Format format) {
+    return format == vk::Format::eR8G8B8A8Srgb || format == vk::Format::eB8G8R8A8Srgb;
+}
+
+void barrier(const vk::raii::CommandBuffer& commands, const vk::ImageMemoryBarrier2& image) {
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, image));
+}
+
+/// Makes a target ready to be drawn into; what it held is discarded. Earlier frames may still write
+/// or copy it.
+void discard_and_attach(const vk::raii::CommandBuffer& commands, vk::Image image) {
+    barrier(commands, image_barrier(image, Layout::eUndefined, Layout::eColorAttachmentOptimal,
+                                    Stage::eColorAttachmentOutput | Stage::eCopy,
+                                    Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput,
+                                    Access::eColorAttachmentWrite));
+}
+
+void begin_rendering(const vk::raii::CommandBuffer& commands, vk::ImageView view,
+                     vk::Extent2D extent, vk::AttachmentLoadOp load,
+                     const std::array<float, 4>& background = {}) {
+    const vk::RenderingAttachmentInfo attachment(view, Layout::eColorAttachmentOptimal, {}, {}, {},
+                                                 load, vk::AttachmentStoreOp::eStore,
+                                                 vk::ClearColorValue(background));
+    const vk::Rect2D area({0, 0}, extent);
+    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, attachment));
+    commands.setViewport(0, vk::Viewport(0.0F, 0.0F, static_cast<float>(extent.width),
+                                         static_cast<float>(extent.height), 0.0F, 1.0F));
+    commands.setScissor(0, area);
+}
+
+}  // namespace
+
+struct FrameRenderer::EyeSlot {
+    HostBuffer uniforms;
+    HostBuffer tiles;
+    HostBuffer pixels;  ///< for hashing
+    vk::raii::DescriptorSet set{nullptr};
+};
+
+/// What a frame owns until the GPU has finished it. A segment is one command buffer, one submit and
+/// one pair of timestamps: several pairs inside one command buffer are wrong on lavapipe 22.3.
+struct FrameRenderer::Slot {
+    gaze::PerEye<EyeSlot> eyes;
+    vk::raii::CommandPool pool{nullptr};
+    vk::raii::CommandBuffers buffers{nullptr};
+    vk::raii::QueryPool queries{nullptr};
+    std::uint32_t segments = 0;
+    std::array<std::optional<Pass>, kMaxSegments> segment_pass;
+    std::uint32_t timed_segments = 0;  ///< the copies for hashing are no part of the frame's time
+    std::uint64_t frame_index = 0;
+
+    [[nodiscard]] const vk::raii::CommandBuffer& commands() const { return buffers[segments - 1]; }
+};
+
+FrameRenderer::FrameRenderer(const VulkanContext& context, const RendererConfig& config)
+    : context_(&context), config_(config), clock_(context) {
+    if (config.samples < 1 || config.samples > kMaxSamples) {
+        throw SetupError(ExitCode::Usage, fmt::format("render.spp = {}: must lie in [1, {}]",
+                                                      config.samples, kMaxSamples));
+    }
+    const vk::raii::Device& device = context.device();
+    const bool kfr = config.method == Method::Kfr;
+    set_layout_ = make_set_layout(device, kfr ? Inputs::UniformsAndLpMap : Inputs::Uniforms);
+    layout_ = make_pipeline_layout(device, set_layout_);
+    const bool encode = !encodes_srgb(config.format);
+    const auto scene_shader = [&](std::string_view pass) {
+        return fmt::format("{}.{}.frag", config.scene, pass);
+    };
+    if (kfr) {
+        pass_i_ = make_pipeline(device, layout_,
+                                {.vertex = "tiles.vert",
+                                 .fragment = scene_shader("kfr_pass_i"),
+                                 .format = kLpFormat,
+                                 .tiles = true,
+                                 .samples = config.samples});
+        resolve_ = make_pipeline(device, layout_,
+                                 {.vertex = "full_screen.vert",
+                                  .fragment = "log_polar.frag",
+                                  .format = config.format,
+                                  .encode_srgb = encode});
+        using Mode = vk::SamplerAddressMode;
+        sampler_ = vk::raii::Sampler(
+            device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear,
+                                          vk::SamplerMipmapMode::eNearest, Mode::eClampToEdge,
+                                          Mode::eRepeat, Mode::eClampToEdge));
+    } else {
+        full_ = make_pipeline(device, layout_,
+                              {.vertex = "full_screen.vert",
+                               .fragment = scene_shader("full"),
+                               .format = config.format,
+                               .encode_srgb = encode,
+                               .samples = config.samples});
+    }
+
+    const std::uint32_t sets =
+        config.frames_in_flight * static_cast<std::uint32_t>(gaze::kEyeCount);
+    const std::array sizes{
+        vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 2 * sets),
+        vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, 3 * sets),
+        vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 2 * sets)};
+    pool_ = vk::raii::DescriptorPool(
+        device, vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+                                             sets, sizes));
+    const vk::SemaphoreTypeCreateInfo timeline(vk::SemaphoreType::eTimeline, 0);
+    timeline_ = vk::raii::Semaphore(device, vk::SemaphoreCreateInfo({}, &timeline));
+
+    if (kfr) {
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const vk::Extent2D extent = config.extents[gaze::index(eye)];
+            eyes_[gaze::index(eye)] = std::make_unique<KfrEye>(
+                context, config.kfr, foveation::ImageSize{extent.width, extent.height});
+        }
+    }
+    for (std::uint32_t i = 0; i < config.frames_in_flight; ++i) {
+        auto slot = std::make_unique<Slot>();
+        slot->pool = vk::raii::CommandPool(
+            device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient,
+                                              context.queue_family()));
+        slot->buffers = vk::raii::CommandBuffers(
+            device, vk::CommandBufferAllocateInfo(*slot->pool, vk::CommandBufferLevel::ePrimary,
+                                                  kMaxSegments));
+        slot->queries = vk::raii::QueryPool(
+            device, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2 * kMaxSegments));
+        for (const gaze::Eye eye : gaze::kEyes) {
+            EyeSlot& at = slot->eyes[gaze::index(eye)];
+            at.uniforms =
+                HostBuffer(context, sizeof(EyeUniforms), vk::BufferUsageFlagBits::eUniformBuffer);
+            at.set = std::move(vk::raii::DescriptorSets(
+                device, vk::DescriptorSetAllocateInfo(*pool_, *set_layout_))[0]);
+            const auto write_buffer = [&](std::uint32_t binding, vk::DescriptorType type,
+                                          vk::Buffer buffer) {
+                const vk::DescriptorBufferInfo info(buffer, 0, VK_WHOLE_SIZE);
+                device.updateDescriptorSets(
+                    vk::WriteDescriptorSet(*at.set, binding, 0, type, {}, info), {});
+            };
+            write_buffer(kEyeUniformsBinding, vk::DescriptorType::eUniformBuffer,
+                         at.uniforms.buffer());
+            if (const KfrEye* const kfr_eye = eyes_[gaze::index(eye)].get()) {
+                at.tiles = HostBuffer(context, kfr_eye->max_tiles() * sizeof(foveation::Tile),
+                                      vk::BufferUsageFlagBits::eStorageBuffer);
+                write_buffer(kMapTablesBinding, vk::DescriptorType::eUniformBuffer,
+                             kfr_eye->map_tables());
+                write_buffer(kColumnTableBinding, vk::DescriptorType::eStorageBuffer,
+                             kfr_eye->column_table());
+                write_buffer(kRowTableBinding, vk::DescriptorType::eStorageBuffer,
+                             kfr_eye->row_table());
+                write_buffer(kTilesBinding, vk::DescriptorType::eStorageBuffer, at.tiles.buffer());
+                const auto write_image = [&](std::uint32_t binding, const ColorImage& image) {
+                    const vk::DescriptorImageInfo info(*sampler_, image.view(),
+                                                       Layout::eShaderReadOnlyOptimal);
+                    device.updateDescriptorSets(
+                        vk::WriteDescriptorSet(*at.set, binding, 0,
+                                               vk::DescriptorType::eCombinedImageSampler, info),
+                        {});
+                };
+                write_image(kLpBufferBinding, kfr_eye->lp_buffer());
+                write_image(kDirectBufferBinding, kfr_eye->direct_buffer());
+            }
+            if (config.hash) {
+                const vk::Extent2D extent = config.extents[gaze::index(eye)];
+                at.pixels = HostBuffer(
+                    context, vk::DeviceSize{extent.width} * extent.height * kBytesPerPixel,
+                    vk::BufferUsageFlagBits::eTransferDst);
+            }
+        }
+        slots_.push_back(std::move(slot));
+    }
+}
+
+FrameRenderer::~FrameRenderer() {
+    try {
+        wait_idle();
+    } catch (const vk::SystemError&) {
+        // The device is lost: nothing is running on it any more.
+    }
+}
+
+const KfrEye* FrameRenderer::kfr_eye(gaze::Eye eye) const { return eyes_[gaze::index(eye)].get(); }
+
+const foveation::SamplingPlan& FrameRenderer::last_plan(gaze::Eye eye) const {
+    return plans_[gaze::index(eye)];
+}
+
+void FrameRenderer::wait_for_slot() { wait_for_slot(config_.frames_in_flight); }
+
+void FrameRenderer::wait_for_slot(std::uint32_t in_flight) {
+    if (submitted_ < in_flight) {
+        return;
+    }
+    const std::uint64_t needed = submitted_ - in_flight + 1;
+    const vk::Result result = context_->device().waitSemaphores(
+        vk::SemaphoreWaitInfo({}, *timeline_, needed), std::numeric_limits<std::uint64_t>::max());
+    if (result != vk::Result::eSuccess) {
+        throw SetupError(ExitCode::SessionLost,
+                         "the GPU did not finish a frame: " + vk::to_string(result));
+    }
+}
+
+latency::SampleCounts FrameRenderer::render(const FrameRequest& request) {
+    Slot& slot = *slots_[submitted_ % slots_.size()];
+    slot.pool.reset();
+    slot.segments = 0;
+    slot.timed_segments = 0;
+    slot.frame_index = request.index;
+
+    latency::SampleCounts counts;
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const std::size_t e = gaze::index(eye);
+        const gaze::EyeView& view = request.views[e];
+        const std::uint64_t pixels = std::uint64_t{view.width_px} * view.height_px;
+        counts.pixels_output += pixels;
+        EyeSlot& at = slot.eyes[e];
+        foveation::SamplingPlan* plan = nullptr;
+        if (const KfrEye* const kfr = eyes_[e].get()) {
+            plan = &plans_[e];
+            foveation::plan_kfr(kfr->parameters(), kfr->lp(), kfr->image(), request.foveae[e],
+                                *plan);
+            at.tiles.write(std::span<const foveation::Tile>(plan->lp_tiles));
+            at.tiles.write(std::span<const foveation::Tile>(plan->disc_tiles),
+                           plan->lp_tiles.size() * sizeof(foveation::Tile));
+            counts.texels_planned += std::uint64_t{plan->lp.width} * plan->lp.height;
+            counts.texels_shaded += plan->texels_shaded;
+            counts.texels_off_screen += plan->texels_off_screen;
+            counts.texels_under_disc += plan->texels_under_disc;
+            counts.pixels_direct += plan->pixels_direct;
+        } else {
+            counts.pixels_direct += pixels;
+        }
+        at.uniforms.write(eye_uniforms(view, request.scene_time_s, config_.samples, plan));
+    }
+    if (config_.method == Method::Kfr) {
+        record_kfr(slot, request);
+    } else {
+        record_full(slot, request);
+    }
+    slot.timed_segments = slot.segments;
+    if (config_.hash) {
+        record_copies(slot, request);
+    }
+    end_segments(slot);
+    submit(slot);
+    return counts;
+}
+
+void FrameRenderer::begin_segment(Slot& slot, std::optional<Pass> pass) {
+    if (slot.segments > 0 && pass && !config_.profile) {
+        return;  // one segment for all passes
+    }
+    const std::uint32_t segment = slot.segments++;
+    slot.segment_pass[segment] = config_.profile ? pass : std::nullopt;
+    const vk::raii::CommandBuffer& commands = slot.commands();
+    commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+    commands.resetQueryPool(*slot.queries, 2 * segment, 2);
+    commands.writeTimestamp2(Stage::eTopOfPipe, *slot.queries, 2 * segment);
+}
+
+void FrameRenderer::end_segments(Slot& slot) {
+    for (std::uint32_t segment = 0; segment < slot.segments; ++segment) {
+        slot.buffers[segment].writeTimestamp2(Stage::eBottomOfPipe, *slot.queries, 2 * segment + 1);
+        slot.buffers[segment].end();
+    }
+}
+
+/// Shades tiles of one eye into a buffer and makes it readable for the resolve. Tiles may be none:
+/// the resolve then reads nothing of it, but its layout must be right.
+void FrameRenderer::shade_tiles(Slot& slot, std::size_t eye, const ColorImage& target,
+                                std::size_t first_tile, std::size_t tiles) {
+    const vk::raii::CommandBuffer& commands = slot.commands();
+    barrier(commands,
+            image_barrier(target.image(), Layout::eUndefined, Layout::eColorAttachmentOptimal,
+                          Stage::eFragmentShader | Stage::eCopy, Access::eNone,
+                          Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite));
+    const bool clear = config_.lp_background.has_value();
+    if (tiles > 0 || clear) {
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pass_i_);
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0,
+                                    *slot.eyes[eye].set, {});
+        begin_rendering(commands, target.view(), target.extent(),
+                        clear ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare,
+                        config_.lp_background.value_or(std::array<float, 4>{}));
+        commands.draw(4, static_cast<std::uint32_t>(tiles), 0,
+                      static_cast<std::uint32_t>(first_tile));
+        commands.endRendering();
+    }
+    barrier(commands, image_barrier(target.image(), Layout::eColorAttachmentOptimal,
+                                    Layout::eShaderReadOnlyOptimal, Stage::eColorAttachmentOutput,
+                                    Access::eColorAttachmentWrite, Stage::eFragmentShader,
+                                    Access::eShaderSampledRead));
+}
+
+void FrameRenderer::record_full(Slot& slot, const FrameRequest& request) {
+    begin_segment(slot, Pass::Full);
+    const vk::raii::CommandBuffer& commands = slot.commands();
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *full_);
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const std::size_t e = gaze::index(eye);
+        discard_and_attach(commands, request.targets[e].image);
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0,
+                                    *slot.eyes[e].set, {});
+        begin_rendering(commands, request.targets[e].view, config_.extents[e],
+                        vk::AttachmentLoadOp::eDontCare);
+        commands.draw(3, 1, 0, 0);
+        commands.endRendering();
+    }
+}
+
+void FrameRenderer::record_kfr(Slot& slot, const FrameRequest& request) {
+    const bool any_lp = !plans_[0].lp_tiles.empty() || !plans_[1].lp_tiles.empty();
+    const bool any_disc = !plans_[0].disc_tiles.empty() || !plans_[1].disc_tiles.empty();
+    // A pass without any tile is not submitted for itself; what it has to prepare goes along with
+    // the resolve.
+    const auto lp_pass = [&] {
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            shade_tiles(slot, e, eyes_[e]->lp_buffer(), 0, plans_[e].lp_tiles.size());
+        }
+    };
+    const auto disc_pass = [&] {
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            shade_tiles(slot, e, eyes_[e]->direct_buffer(), plans_[e].lp_tiles.size(),
+                        plans_[e].disc_tiles.size());
+        }
+    };
+    if (any_lp) {
+        begin_segment(slot, Pass::PassI);
+        lp_pass();
+    }
+    if (any_disc) {
+        begin_segment(slot, Pass::Disc);
+        disc_pass();
+    }
+    begin_segment(slot, Pass::Resolve);
+    if (!any_lp) {
+        lp_pass();
+    }
+    if (!any_disc) {
+        disc_pass();
+    }
+    const vk::raii::CommandBuffer& commands = slot.commands();
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_);
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        discard_and_attach(commands, request.targets[e].image);
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0,
+                                    *slot.eyes[e].set, {});
+        begin_rendering(commands, request.targets[e].view, config_.extents[e],
+                        vk::AttachmentLoadOp::eDontCare);
+        commands.draw(3, 1, 0, 0);
+        commands.endRendering();
+    }
+}
+
+void FrameRenderer::record_copies(Slot& slot, const FrameRequest& request) {
+    begin_segment(slot, std::nullopt);
+    const vk::raii::CommandBuffer& commands = slot.commands();
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const std::size_t e = gaze::index(eye);
+        const vk::Extent2D extent = config_.extents[e];
+        const vk::Image image = request.targets[e].image;
+        barrier(commands,
+                image_barrier(image, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
+                              Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+                              Stage::eCopy, Access::eTransferRead));
+        commands.copyImageToBuffer(
+            image, Layout::eTransferSrcOptimal, slot.eyes[e].pixels.buffer(),
+            vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},
+                                vk::Extent3D(extent, 1)));
+        barrier(commands,
+                image_barrier(image, Layout::eTransferSrcOptimal, Layout::eColorAttachmentOptimal,
+                              Stage::eCopy, Access::eNone, Stage::eColorAttachmentOutput,
+                              Access::eColorAttachmentRead | Access::eColorAttachmentWrite));
+    }
+    const vk::MemoryBarrier2 to_host(Stage::eCopy, Access::eTransferWrite, Stage::eHost,
+                                     Access::eHostRead);
+    commands.pipelineBarrier2(vk::DependencyInfo({}, to_host));
+}
+
+void FrameRenderer::submit(Slot& slot) {
+    ++submitted_;
+    for (std::uint32_t segment = 0; segment < slot.segments; ++segment) {
+        const vk::CommandBufferSubmitInfo commands(*slot.buffers[segment]);
+        const vk::SemaphoreSubmitInfo done(*timeline_, submitted_, Stage::eAllCommands);
+        const bool last = segment + 1 == slot.segments;
+        context_->queue().submit2(
+            vk::SubmitInfo2({}, 0, nullptr, 1, &commands, last ? 1U : 0U, &done));
+    }
+}
+
+std::optional<latency::FrameGpuRecord> FrameRenderer::next_finished() {
+    if (collected_ == submitted_ || timeline_.getCounterValue() <= collected_) {
+        return std::nullopt;
+    }
+    return collect(*slots_[collected_++ % slots_.size()]);
+}
+
+latency::FrameGpuRecord FrameRenderer::collect(Slot& slot) {
+    latency::FrameGpuRecord record;
+    record.index = slot.frame_index;
+    std::array<std::uint64_t, 2 * kMaxSegments> ticks{};
+    const vk::Result result =
+        (*context_->device())
+            .getQueryPoolResults(*slot.queries, 0, 2 * slot.segments,
+                                 2 * slot.segments * sizeof(std::uint64_t), ticks.data(),
+                                 sizeof(std::uint64_t), vk::QueryResultFlagBits::e64,
+                                 *context_->device().getDispatcher());
+    if (result == vk::Result::eSuccess) {
+        for (std::uint32_t segment = 0; segment < slot.timed_segments; ++segment) {
+            if (const auto pass = slot.segment_pass[segment]) {
+                record.pass_ns[static_cast<std::size_t>(*pass)] =
+                    std::llround(static_cast<double>(ticks[2 * segment + 1] - ticks[2 * segment]) *
+                                 context_->timestamp_period_ns());
+            }
+        }
+        record.gpu_begin = clock_.host_time(ticks[0]);
+        record.gpu_end = clock_.host_time(ticks[2 * slot.timed_segments - 1]);
+    }
+    if (config_.hash) {
+        XXH3_state_t state;
+        XXH3_64bits_reset(&state);
+        for (const EyeSlot& eye : slot.eyes) {
+            const std::span<const std::byte> pixels = eye.pixels.mapped();
+            XXH3_64bits_update(&state, pixels.data(), pixels.size());
+        }
+        record.pixel_hash = XXH3_64bits_digest(&state);
+    }
+    return record;
+}
+
+void FrameRenderer::wait_idle() { context_->device().waitIdle(); }
+
+}  // namespace gazeloop::render

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/foveation/sampling_plan.h"
+#include "runtime/gaze/view.h"
+#include "runtime/latency/frame_record.h"
+#include "runtime/render/gpu_clock.h"
+#include "runtime/render/gpu_memory.h"
+#include "runtime/render/kfr_eye.h"
+#include "runtime/render/method.h"
+
+namespace gazeloop::render {
+
+struct RendererConfig {
+    Method method = Method::Kfr;
+    std::string scene = "raymarch";
+    std::uint32_t samples = 1;  ///< a texel or pixel, [1, kMaxSamples]
+    foveation::KfrParameters kfr;
+    gaze::PerEye<vk::Extent2D> extents;
+    vk::Format format = vk::Format::eR8G8B8A8Srgb;
+    bool profile = true;                 ///< a submit and a pair of timestamps for each pass
+    bool hash = false;                   ///< read every picture back and hash it
+    std::uint32_t frames_in_flight = 2;  ///< [1, 3]
+    /// Radiance that texels outside the plan hold; unset: anything, since no pixel reads them.
+    std::optional<std::array<float, 4>> lp_background;
+};
+
+struct EyeTarget {
+    vk::Image image;
+    vk::ImageView view;
+};
+
+/// One frame to render: everything that depends on time, head or gaze.
+struct FrameRequest {
+    std::uint64_t index = 0;
+    double scene_time_s = 0.0;
+    gaze::StereoView views;
+    gaze::PerEye<gaze::PixelPosition> foveae;
+    gaze::PerEye<EyeTarget> targets;  ///< any layout before, COLOR_ATTACHMENT_OPTIMAL after
+};
+
+/// Renders both eyes' pictures by scene x method, times every pass and counts its samples.
+///
+/// Per frame: wait_for_slot(), next_finished() until it yields nothing, then read the gaze, then
+/// render(); so that waiting for the GPU never makes the gaze older. Finished frames come back
+/// through next_finished() in order.
+class FrameRenderer {
+  public:
+    /// Throws SetupError (Usage) for parameters out of range or an unknown scene.
+    FrameRenderer(const VulkanContext& context, const RendererConfig& config);
+    FrameRenderer(const FrameRenderer&) = delete;
+    FrameRenderer& operator=(const FrameRenderer&) = delete;
+    ~FrameRenderer();
+
+    /// Blocks until at most `in_flight` - 1 frames are unfinished on the GPU. `in_flight` is at
+    /// most the configured number, which is the default.
+    void wait_for_slot();
+    void wait_for_slot(std::uint32_t in_flight);
+
+    /// Submits a frame. Precondition: wait_for_slot() and the drained next_finished() since the
+    /// last call.
+    latency::SampleCounts render(const FrameRequest& request);
+
+    /// The next frame that the GPU has finished, if there is one.
+    std::optional<latency::FrameGpuRecord> next_finished();
+
+    /// Waits for the GPU; next_finished() then yields every frame left.
+    void wait_idle();
+
+    [[nodiscard]] const RendererConfig& config() const { return config_; }
+    /// The LP-buffer as the last frame left it (SHADER_READ_ONLY_OPTIMAL); null for Method::Full,
+    /// and texels that the plan left out hold anything.
+    [[nodiscard]] const KfrEye* kfr_eye(gaze::Eye eye) const;
+    [[nodiscard]] const foveation::SamplingPlan& last_plan(gaze::Eye eye) const;
+    [[nodiscard]] std::uint64_t clock_deviation_ns() const { return clock_.max_deviation_ns(); }
+
+  private:
+    struct EyeSlot;
+    struct Slot;
+
+    void begin_segment(Slot& slot, std::optional<latency::Pass> pass);
+    void end_segments(Slot& slot);
+    void shade_tiles(Slot& slot, std::size_t eye, const ColorImage& target, std::size_t first_tile,
+                     std::size_t tiles);
+    void record_full(Slot& slot, const FrameRequest& request);
+    void record_kfr(Slot& slot, const FrameRequest& request);
+    void record_copies(Slot& slot, const FrameRequest& request);
+    void submit(Slot& slot);
+    [[nodiscard]] latency::FrameGpuRecord collect(Slot& slot);
+
+    const VulkanContext* context_;
+    RendererConfig config_;
+    GpuClock clock_;
+    vk::raii::DescriptorSetLayout set_layout_{nullptr};
+    vk::raii::PipelineLayout layout_{nullptr};
+    vk::raii::Pipeline full_{nullptr};
+    vk::raii::Pipeline pass_i_{nullptr};
+    vk::raii::Pipeline resolve_{nullptr};
+    vk::raii::Sampler sampler_{nullptr};
+    vk::raii::DescriptorPool pool_{nullptr};
+    vk::raii::Semaphore timeline_{nullptr};
+    std::uint64_t submitted_ = 0;  ///< frames; the timeline's value
+    std::uint64_t collected_ = 0;
+    gaze::PerEye<std::unique_ptr<KfrEye>> eyes_;
+    gaze::PerEye<foveation::SamplingPlan> plans_;
+    std::vector<std::unique_ptr<Slot>> slots_;
+};
+
+}  // namespace gazeloop::render

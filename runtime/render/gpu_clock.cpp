@@ -1,0 +1,51 @@
+#include "runtime/render/gpu_clock.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gazeloop::render {
+namespace {
+
+constexpr double kCalibrateAgainNs = 1e9;
+
+}  // namespace
+
+GpuClock::GpuClock(const VulkanContext& context) : context_(&context) {
+    if (context.has_calibrated_timestamps()) {
+        const auto domains = context.physical().getCalibrateableTimeDomainsEXT();
+        usable_ = std::ranges::find(domains, vk::TimeDomainEXT::eClockMonotonic) != domains.end() &&
+                  std::ranges::find(domains, vk::TimeDomainEXT::eDevice) != domains.end();
+    }
+    if (usable_) {
+        calibrate();
+    }
+}
+
+void GpuClock::calibrate() {
+    const std::array<vk::CalibratedTimestampInfoEXT, 2> infos{
+        vk::CalibratedTimestampInfoEXT(vk::TimeDomainEXT::eDevice),
+        vk::CalibratedTimestampInfoEXT(vk::TimeDomainEXT::eClockMonotonic)};
+    const auto [stamps, deviation] = context_->device().getCalibratedTimestampsEXT(infos);
+    gpu_ticks_ = stamps[0];
+    host_ns_ = stamps[1];
+    max_deviation_ns_ = deviation;
+}
+
+latency::Stamp GpuClock::host_time(std::uint64_t gpu_ticks) {
+    if (!usable_) {
+        return {};
+    }
+    const auto since_calibration_ns = [&] {
+        // Signed: a stamp may lie before the calibration.
+        return static_cast<double>(static_cast<std::int64_t>(gpu_ticks - gpu_ticks_)) *
+               context_->timestamp_period_ns();
+    };
+    if (std::abs(since_calibration_ns()) > kCalibrateAgainNs) {
+        calibrate();
+    }
+    return {static_cast<std::int64_t>(host_ns_) + std::llround(since_calibration_ns()),
+            latency::StampKind::Measured};
+}
+
+}  // namespace gazeloop::render

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/latency/stamp.h"
+#include "runtime/render/vulkan_context.h"
+
+namespace gazeloop::render {
+
+/// Turns GPU timestamps into CLOCK_MONOTONIC by VK_EXT_calibrated_timestamps, calibrated anew every
+/// second, because the two clocks drift.
+class GpuClock {
+  public:
+    explicit GpuClock(const VulkanContext& context);
+
+    /// Unknown where the device cannot relate its clock to CLOCK_MONOTONIC.
+    [[nodiscard]] latency::Stamp host_time(std::uint64_t gpu_ticks);
+
+    /// The device's own bound on the calibration's error, of the last calibration.
+    [[nodiscard]] std::uint64_t max_deviation_ns() const { return max_deviation_ns_; }
+    [[nodiscard]] bool usable() const { return usable_; }
+
+  private:
+    void calibrate();
+
+    const VulkanContext* context_;
+    bool usable_ = false;
+    std::uint64_t gpu_ticks_ = 0;
+    std::uint64_t host_ns_ = 0;
+    std::uint64_t max_deviation_ns_ = 0;
+};
+
+}  // namespace gazeloop::render

@@ -1,0 +1,64 @@
+#include "runtime/render/gpu_memory.h"
+
+namespace gazeloop::render {
+namespace {
+
+constexpr vk::ImageSubresourceRange kWholeColor{vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
+
+}  // namespace
+
+HostBuffer::HostBuffer(const VulkanContext& context, vk::DeviceSize bytes,
+                       vk::BufferUsageFlags usage)
+    : bytes_(bytes) {
+    const vk::raii::Device& device = context.device();
+    buffer_ = vk::raii::Buffer(device, vk::BufferCreateInfo({}, bytes, usage));
+    const vk::MemoryRequirements needs = buffer_.getMemoryRequirements();
+    memory_ = vk::raii::DeviceMemory(
+        device,
+        vk::MemoryAllocateInfo(needs.size,
+                               context.memory_type(needs.memoryTypeBits,
+                                                   vk::MemoryPropertyFlagBits::eHostVisible |
+                                                       vk::MemoryPropertyFlagBits::eHostCoherent)));
+    buffer_.bindMemory(*memory_, 0);
+    mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+}
+
+ColorImage::ColorImage(const VulkanContext& context, vk::Extent2D extent, vk::Format format,
+                       vk::ImageUsageFlags usage)
+    : extent_(extent), format_(format) {
+    const vk::raii::Device& device = context.device();
+    image_ = vk::raii::Image(
+        device, vk::ImageCreateInfo({}, vk::ImageType::e2D, format,
+                                    vk::Extent3D(extent.width, extent.height, 1), 1, 1,
+                                    vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage));
+    const vk::MemoryRequirements needs = image_.getMemoryRequirements();
+    memory_ = vk::raii::DeviceMemory(
+        device, vk::MemoryAllocateInfo(
+                    needs.size, context.memory_type(needs.memoryTypeBits,
+                                                    vk::MemoryPropertyFlagBits::eDeviceLocal)));
+    image_.bindMemory(*memory_, 0);
+    view_ = make_color_view(context, *image_, format);
+}
+
+vk::raii::ImageView make_color_view(const VulkanContext& context, vk::Image image,
+                                    vk::Format format) {
+    return {context.device(),
+            vk::ImageViewCreateInfo({}, image, vk::ImageViewType::e2D, format, {}, kWholeColor)};
+}
+
+vk::ImageMemoryBarrier2 image_barrier(vk::Image image, vk::ImageLayout from, vk::ImageLayout to,
+                                      vk::PipelineStageFlags2 after, vk::AccessFlags2 writes,
+                                      vk::PipelineStageFlags2 before, vk::AccessFlags2 reads) {
+    return {after,
+            writes,
+            before,
+            reads,
+            from,
+            to,
+            VK_QUEUE_FAMILY_IGNORED,
+            VK_QUEUE_FAMILY_IGNORED,
+            image,
+            kWholeColor};
+}
+
+}  // namespace gazeloop::render

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace gazeloop::render {
+
+/// Which samples a picture takes.
+enum class Method : std::uint8_t {
+    Full,  ///< every pixel
+    Kfr,   ///< kernel foveated rendering (Meng et al. 2018), variant B
+};
+inline constexpr std::array<std::string_view, 2> kMethodNames{"full", "kfr"};
+
+[[nodiscard]] constexpr std::string_view name(Method method) {
+    return kMethodNames[static_cast<std::size_t>(method)];
+}
+
+/// Scenes by the name of their file in shaders/scenes.
+inline constexpr std::array<std::string_view, 1> kSceneNames{"raymarch"};
+
+}  // namespace gazeloop::render

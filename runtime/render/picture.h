@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "runtime/error.h"
+#include "runtime/gaze/view.h"
+#include "runtime/render/gpu_memory.h"
+
+namespace gazeloop::render {
+
+/// A picture on the host: 8 bits a channel, sRGB-encoded RGB, top row first.
+struct Picture {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::array<std::uint8_t, 3>> pixels;
+};
+
+/// Reads back an image that lies in `layout` (and is left in it); waits for the queue. Formats:
+/// R8G8B8A8, B8G8R8A8 (SRGB or UNORM: bytes as they are) and R16G16B16A16_SFLOAT (linear: clamped
+/// to [0, 1] and sRGB-encoded).
+Picture read_back(const VulkanContext& context, vk::Image image, vk::Extent2D extent,
+                  vk::Format format, vk::ImageLayout layout);
+
+/// |a - b| times `gain` for each channel, clamped. Precondition: equal sizes.
+Picture amplified_difference(const Picture& a, const Picture& b, double gain);
+
+/// Draws a ring and a cross around a position; parts beyond the picture are left out.
+void mark_fovea(Picture& picture, const gaze::PixelPosition& fovea, double radius_px);
+
+/// Errors (BadInput): the file cannot be written; it names file and reason.
+Expected<void> write_png(const Picture& picture, const std::filesystem::path& file);
+
+}  // namespace gazeloop::render

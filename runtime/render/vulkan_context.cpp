@@ -1,0 +1,250 @@
+#include "runtime/render/vulkan_context.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "runtime/error.h"
+
+namespace gazeloop::render {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* kNoDeviceRemedy =
+    "install a Vulkan 1.3 driver (on Debian without a GPU: apt-get install mesa-vulkan-drivers) "
+    "and "
+    "check it with vulkaninfo; VK_ICD_FILENAMES, if set, must name an existing driver";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                          VkDebugUtilsMessageTypeFlagsEXT,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                          void* user) {
+    static_cast<std::atomic<std::uint64_t>*>(user)->fetch_add(1);
+    spdlog::error("Vulkan validation: {}", data->pMessage);
+    return VK_FALSE;
+}
+
+bool supports(const vk::raii::PhysicalDevice& device) {
+    if (device.getProperties().apiVersion < VK_API_VERSION_1_3) {
+        return false;
+    }
+    const auto features =
+        device
+            .getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceTimelineSemaphoreFeatures,
+                          vk::PhysicalDeviceVulkan13Features>();
+    const auto& v13 = features.get<vk::PhysicalDeviceVulkan13Features>();
+    return v13.dynamicRendering != VK_FALSE && v13.synchronization2 != VK_FALSE &&
+           features.get<vk::PhysicalDeviceTimelineSemaphoreFeatures>().timelineSemaphore !=
+               VK_FALSE;
+}
+
+int rank(vk::PhysicalDeviceType type) {
+    switch (type) {
+        case vk::PhysicalDeviceType::eDiscreteGpu:
+            return 4;
+        case vk::PhysicalDeviceType::eIntegratedGpu:
+            return 3;
+        case vk::PhysicalDeviceType::eVirtualGpu:
+            return 2;
+        case vk::PhysicalDeviceType::eCpu:
+            return 1;
+        default:
+            return 0;
+    }
+}
+
+SetupError no_device(std::string_view what) {
+    return {ExitCode::NoDevice, fmt::format("{}: {}", what, kNoDeviceRemedy)};
+}
+
+/// Creates the objects without any runtime's help.
+class DirectFactory final : public VulkanFactory {
+  public:
+    VkInstance create_instance(PFN_vkGetInstanceProcAddr get_proc,
+                               const VkInstanceCreateInfo& info) override {
+        const auto create =
+            reinterpret_cast<PFN_vkCreateInstance>(get_proc(VK_NULL_HANDLE, "vkCreateInstance"));
+        VkInstance instance = VK_NULL_HANDLE;
+        check(create(&info, nullptr, &instance), "no Vulkan instance could be created");
+        return instance;
+    }
+    VkPhysicalDevice choose_physical_device(VkInstance) override { return VK_NULL_HANDLE; }
+    VkDevice create_device(PFN_vkGetInstanceProcAddr, VkPhysicalDevice physical,
+                           const VkDeviceCreateInfo& info) override {
+        VkDevice device = VK_NULL_HANDLE;
+        check(vkCreateDevice(physical, &info, nullptr, &device),
+              "the Vulkan device could not be opened");
+        return device;
+    }
+
+  private:
+    static void check(VkResult result, std::string_view what) {
+        if (result != VK_SUCCESS) {
+            throw no_device(fmt::format("{} ({})", what, vk::to_string(vk::Result{result})));
+        }
+    }
+};
+
+bool has_layer(const vk::raii::Context& context, std::string_view name) {
+    return std::ranges::any_of(context.enumerateInstanceLayerProperties(),
+                               [&](const auto& layer) { return name == layer.layerName.data(); });
+}
+
+}  // namespace
+
+VulkanContext::VulkanContext(const VulkanOptions& options, VulkanFactory* factory) {
+    DirectFactory direct;
+    VulkanFactory* const creator = factory != nullptr ? factory : &direct;
+    try {
+        create_instance(options, creator);
+        choose_device(options, creator);
+        create_device(creator);
+    } catch (const vk::SystemError& error) {
+        throw no_device(fmt::format("Vulkan could not be set up ({})", error.what()));
+    }
+}
+
+void VulkanContext::create_instance(const VulkanOptions& options, VulkanFactory* factory) {
+    const vk::ApplicationInfo application("gazeloop", 1, "gazeloop", 1, VK_API_VERSION_1_3);
+    std::vector<const char*> layers;
+    std::vector<const char*> extensions;
+    const std::array enabled{vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+    const vk::ValidationFeaturesEXT validation(enabled, {});
+    const vk::DebugUtilsMessengerCreateInfoEXT messages(
+        {},
+        vk::DebugUtilsMessageSeverityFlagBitsEXT::eWarning |
+            vk::DebugUtilsMessageSeverityFlagBitsEXT::eError,
+        vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation |
+            vk::DebugUtilsMessageTypeFlagBitsEXT::ePerformance,
+        on_message, &validation_messages_);
+    if (options.validation) {
+        if (!has_layer(context_, kValidationLayer)) {
+            throw SetupError(ExitCode::NoDevice,
+                             fmt::format("vulkan.validation is on, but the layer {} is not "
+                                         "installed (Debian: vulkan-validationlayers)",
+                                         kValidationLayer));
+        }
+        layers.push_back(kValidationLayer);
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+    }
+    vk::InstanceCreateInfo info({}, &application, layers, extensions);
+    if (options.validation) {
+        info.pNext = &validation;
+    }
+    const auto get_proc = context_.getDispatcher()->vkGetInstanceProcAddr;
+    instance_ = vk::raii::Instance(
+        context_, factory->create_instance(get_proc, static_cast<VkInstanceCreateInfo>(info)));
+    if (options.validation) {
+        messenger_ = vk::raii::DebugUtilsMessengerEXT(instance_, messages);
+    }
+}
+
+void VulkanContext::choose_device(const VulkanOptions& options, VulkanFactory* factory) {
+    if (const VkPhysicalDevice chosen = factory->choose_physical_device(*instance_)) {
+        physical_ = vk::raii::PhysicalDevice(instance_, chosen);
+        if (!supports(physical_)) {
+            throw no_device(
+                fmt::format("the OpenXR runtime asks for the Vulkan device '{}', which "
+                            "lacks Vulkan 1.3 with dynamic rendering",
+                            device_name()));
+        }
+        return;
+    }
+    std::string seen;
+    std::optional<vk::raii::PhysicalDevice> best;
+    for (vk::raii::PhysicalDevice& candidate : vk::raii::PhysicalDevices(instance_)) {
+        const vk::PhysicalDeviceProperties properties = candidate.getProperties();
+        const std::string_view name = properties.deviceName.data();
+        seen += fmt::format("{}'{}'", seen.empty() ? "" : ", ", name);
+        if (!supports(candidate) || name.find(options.device) == std::string_view::npos) {
+            continue;
+        }
+        if (!best || rank(properties.deviceType) > rank(best->getProperties().deviceType)) {
+            best.emplace(std::move(candidate));
+        }
+    }
+    if (!best) {
+        if (!options.device.empty() && !seen.empty()) {
+            throw SetupError(
+                ExitCode::NoDevice,
+                fmt::format("vulkan.device = '{}': no usable Vulkan device has that in "
+                            "its name; there are: {}",
+                            options.device, seen));
+        }
+        throw no_device(seen.empty() ? std::string("there is no Vulkan device")
+                                     : "no device has Vulkan 1.3 with dynamic rendering (there "
+                                       "are: " +
+                                           seen + ")");
+    }
+    physical_ = std::move(*best);
+}
+
+void VulkanContext::create_device(VulkanFactory* factory) {
+    memory_ = physical_.getMemoryProperties();
+    const auto families = physical_.getQueueFamilyProperties();
+    const auto family = std::ranges::find_if(families, [](const auto& candidate) {
+        return bool(candidate.queueFlags & vk::QueueFlagBits::eGraphics) &&
+               candidate.timestampValidBits > 0;
+    });
+    if (family == families.end()) {
+        throw no_device("the Vulkan device has no graphics queue with timestamps");
+    }
+    queue_family_ = static_cast<std::uint32_t>(family - families.begin());
+    timestamp_period_ns_ = physical_.getProperties().limits.timestampPeriod;
+
+    std::vector<const char*> extensions;
+    calibrated_timestamps_ = std::ranges::any_of(
+        physical_.enumerateDeviceExtensionProperties(), [](const auto& extension) {
+            return std::string_view(extension.extensionName.data()) ==
+                   VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME;
+        });
+    if (calibrated_timestamps_) {
+        extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
+    }
+    const float priority = 1.0F;
+    const vk::DeviceQueueCreateInfo queue({}, queue_family_, 1, &priority);
+    // The structures of single features: a runtime may chain its own, and the aggregate ones for
+    // 1.2 and 1.3 must not meet them.
+    vk::StructureChain<vk::DeviceCreateInfo, vk::PhysicalDeviceTimelineSemaphoreFeatures,
+                       vk::PhysicalDeviceSynchronization2Features,
+                       vk::PhysicalDeviceDynamicRenderingFeatures>
+        chain(vk::DeviceCreateInfo({}, queue, {}, extensions),
+              vk::PhysicalDeviceTimelineSemaphoreFeatures(VK_TRUE),
+              vk::PhysicalDeviceSynchronization2Features(VK_TRUE),
+              vk::PhysicalDeviceDynamicRenderingFeatures(VK_TRUE));
+    const auto get_proc = context_.getDispatcher()->vkGetInstanceProcAddr;
+    device_ = vk::raii::Device(
+        physical_,
+        factory->create_device(get_proc, *physical_,
+                               static_cast<VkDeviceCreateInfo>(chain.get<vk::DeviceCreateInfo>())));
+    queue_ = vk::raii::Queue(device_, queue_family_, 0);
+}
+
+std::uint32_t VulkanContext::memory_type(std::uint32_t mask, vk::MemoryPropertyFlags wanted) const {
+    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
+        if ((mask & (1U << i)) != 0 && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) {
+            return i;
+        }
+    }
+    throw SetupError(ExitCode::NoDevice, fmt::format("'{}' has no memory that is {}", device_name(),
+                                                     vk::to_string(wanted)));
+}
+
+std::string VulkanContext::device_name() const {
+    return physical_.getProperties().deviceName.data();
+}
+
+std::string VulkanContext::driver() const {
+    const auto chain =
+        physical_
+            .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+    const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+    return fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
+}
+
+}  // namespace gazeloop::render

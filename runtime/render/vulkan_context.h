@@ -1,0 +1,65 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vulkan/vulkan_raii.hpp>
+
+#include "runtime/render/vulkan_factory.h"
+
+namespace gazeloop::render {
+
+struct VulkanOptions {
+    bool validation = false;  ///< Khronos validation layer with synchronization validation
+    std::string device;  ///< part of the device's name; empty: the best one (no factory choice)
+};
+
+/// Instance, device and queue. Vulkan 1.3 with dynamic rendering, synchronization2 and timeline
+/// semaphores is required, calibrated timestamps are used where the device has them.
+class VulkanContext {
+  public:
+    /// With a null factory the program creates everything itself. Throws SetupError (NoDevice).
+    VulkanContext(const VulkanOptions& options, VulkanFactory* factory);
+
+    VulkanContext(const VulkanContext&) = delete;
+    VulkanContext& operator=(const VulkanContext&) = delete;
+
+    [[nodiscard]] const vk::raii::Instance& instance() const { return instance_; }
+    [[nodiscard]] const vk::raii::PhysicalDevice& physical() const { return physical_; }
+    [[nodiscard]] const vk::raii::Device& device() const { return device_; }
+    [[nodiscard]] const vk::raii::Queue& queue() const { return queue_; }
+    [[nodiscard]] std::uint32_t queue_family() const { return queue_family_; }
+    [[nodiscard]] bool has_calibrated_timestamps() const { return calibrated_timestamps_; }
+    [[nodiscard]] double timestamp_period_ns() const { return timestamp_period_ns_; }
+
+    /// A memory type that the mask allows and that has the wanted properties. Throws SetupError.
+    [[nodiscard]] std::uint32_t memory_type(std::uint32_t mask,
+                                            vk::MemoryPropertyFlags wanted) const;
+
+    [[nodiscard]] std::string device_name() const;
+    [[nodiscard]] std::string driver() const;
+
+    /// Warnings and errors of the validation layer so far, from any thread.
+    [[nodiscard]] std::uint64_t validation_messages() const { return validation_messages_; }
+
+  private:
+    void create_instance(const VulkanOptions& options, VulkanFactory* factory);
+    void choose_device(const VulkanOptions& options, VulkanFactory* factory);
+    void create_device(VulkanFactory* factory);
+
+    std::atomic<std::uint64_t> validation_messages_{0};
+    vk::raii::Context context_;
+    vk::raii::Instance instance_{nullptr};
+    vk::raii::DebugUtilsMessengerEXT messenger_{nullptr};
+    vk::raii::PhysicalDevice physical_{nullptr};
+    vk::raii::Device device_{nullptr};
+    vk::raii::Queue queue_{nullptr};
+    vk::PhysicalDeviceMemoryProperties memory_;
+    std::uint32_t queue_family_ = 0;
+    bool calibrated_timestamps_ = false;
+    double timestamp_period_ns_ = 1.0;
+};
+
+}  // namespace gazeloop::render
