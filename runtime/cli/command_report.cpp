@@ -1,0 +1,82 @@
+#include <fmt/core.h>
+
+#include <charconv>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "runtime/cli/commands.h"
+#include "runtime/cli/output_file.h"
+#include "runtime/cli/run_options.h"
+#include "runtime/latency/latency_summary.h"
+#include "runtime/latency/summary_json.h"
+#include "runtime/latency/summary_text.h"
+#include "runtime/session/session_file.h"
+
+namespace gazeloop::cli {
+namespace {
+
+struct ReportCommand {
+    CommonOptions common;
+    std::string file;
+    std::string json;
+};
+
+std::optional<std::int64_t> meta_ns(const session::SessionFile& session, std::string_view name) {
+    const auto text = session.meta(name);
+    std::int64_t value = 0;
+    if (!text ||
+        std::from_chars(text->data(), text->data() + text->size(), value).ec != std::errc{}) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+ExitCode report(const ReportCommand& command) {
+    const session::SessionFile session = value_or_throw(session::read_session(command.file));
+    latency::LatencySummary summary({.clock = session.meta("clock") == "virtual"
+                                                  ? latency::LoopClock::Virtual
+                                                  : latency::LoopClock::Wall,
+                                     .period_ns = meta_ns(session, "display_period_ns").value_or(0),
+                                     .switching_ns = meta_ns(session, "display_switching_ns")});
+    for (const session::RecordedSample& sample : session.samples) {
+        summary.add(sample.sample);
+    }
+    for (const session::RecordedFrame& frame : session.frames) {
+        summary.add(frame.frame);
+        summary.add(frame.gpu);
+    }
+    const latency::SummaryReport result = summary.report();
+    if (command.json != "-" && !command.common.quiet) {
+        fmt::print("{}", latency::summary_text(result));
+        if (!session.closed_cleanly) {
+            fmt::print("The recording was cut off: it lacks at most its last 100 ms.\n");
+        }
+        if (session.records_dropped > 0) {
+            fmt::print("The recording lacks {} records that the disk was too slow for.\n",
+                       session.records_dropped);
+        }
+    }
+    if (!command.json.empty()) {
+        value_or_throw(write_text(command.json, latency::summary_json(result).dump(2) + "\n"));
+    }
+    return ExitCode::Ok;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& program, Action& action) {
+    CLI::App* const app = program.add_subcommand("report", "where a session's latency went");
+    const auto command = std::make_shared<ReportCommand>();
+    app->add_option("file", command->file, "a session written by --record")
+        ->required()
+        ->type_name("SESSION");
+    app->add_option("--json", command->json, "write the report as JSON; - is stdout")
+        ->type_name("FILE");
+    command->common.add_to(*app);
+    app->callback([=, &action] {
+        command->common.apply_log_level();
+        action = [=] { return report(*command); };
+    });
+}
+
+}  // namespace gazeloop::cli

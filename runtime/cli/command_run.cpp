@@ -1,0 +1,49 @@
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "runtime/cli/commands.h"
+#include "runtime/cli/gaze_sources.h"
+#include "runtime/cli/profiles.h"
+#include "runtime/cli/run_options.h"
+
+namespace gazeloop::cli {
+namespace {
+
+struct RunCommand {
+    RunOptions options;
+    std::string gaze = "fixed:0,0";
+};
+
+ExitCode run(const RunCommand& command, const std::string& command_line) {
+    Settings settings;
+    value_or_throw(command.options.apply_to(settings, true));
+    if (command.options.print_config) {
+        fmt::print("{}", settings.describe());
+        return ExitCode::Ok;
+    }
+    FrameRunRequest request;
+    request.settings = &settings;
+    request.command_line = command_line;
+    const TrackerProfile tracker = value_or_throw(load_tracker(settings.values().profile.tracker));
+    request.make_source = value_or_throw(gaze_source_named(command.gaze, tracker));
+    command.options.fill(request);
+    request.loop.end_with_source = !command.options.frames && !command.options.seconds;
+    return frame_run(request);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, const std::string& command_line, Action& action) {
+    CLI::App* const app = program.add_subcommand("run", "run the gaze-contingent frame loop");
+    const auto command = std::make_shared<RunCommand>();
+    app->add_option("--gaze", command->gaze, "trace:FILE or fixed:AZ,EL (degrees, right, up)")
+        ->type_name("SOURCE");
+    command->options.add_to(*app);
+    app->callback([=, &action] {
+        command->options.common.apply_log_level();
+        action = [=] { return run(*command, command_line); };
+    });
+}
+
+}  // namespace gazeloop::cli

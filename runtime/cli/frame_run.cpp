@@ -1,0 +1,415 @@
+#include "runtime/cli/frame_run.h"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "runtime/cli/interrupt.h"
+#include "runtime/cli/output_file.h"
+#include "runtime/cli/profiles.h"
+#include "runtime/cli/replay_check.h"
+#include "runtime/cli/version.h"
+#include "runtime/latency/clock.h"
+#include "runtime/latency/latency_summary.h"
+#include "runtime/latency/summary_json.h"
+#include "runtime/latency/summary_text.h"
+#include "runtime/present/headless_target.h"
+#include "runtime/present/openxr/openxr_target.h"
+#include "runtime/render/snapshot.h"
+#include "runtime/session/session_recorder.h"
+
+namespace gazeloop::cli {
+namespace {
+
+std::int64_t ms_to_ns(double ms) { return std::llround(ms * 1e6); }
+
+gaze::FoveaPolicy fovea_policy(const SettingValues& values) {
+    return {.stale_ns = ms_to_ns(values.gaze.stale_ms),
+            .hold_ns = ms_to_ns(values.gaze.hold_ms),
+            .return_ns = ms_to_ns(values.gaze.return_ms),
+            .minimum_confidence = values.gaze.minimum_confidence,
+            .fixation_distance_m = values.gaze.fixation_distance_m};
+}
+
+render::Method method_named(std::string_view text) {
+    const auto at = std::ranges::find(render::kMethodNames, text);
+    return static_cast<render::Method>(at - render::kMethodNames.begin());
+}
+
+vk::Format format_named(std::string_view text) {
+    for (const vk::Format format : {vk::Format::eR8G8B8A8Srgb, vk::Format::eB8G8R8A8Srgb,
+                                    vk::Format::eR8G8B8A8Unorm, vk::Format::eB8G8R8A8Unorm}) {
+        if (text == vk::to_string(format)) {
+            return format;
+        }
+    }
+    throw SetupError(ExitCode::BadInput,
+                     fmt::format("the session was rendered in the format '{}', which this version "
+                                 "does not know",
+                                 text));
+}
+
+gaze::PerEye<vk::Extent2D> scaled_extents(const present::DisplayProfile& display, double scale) {
+    const auto scaled = [&](std::uint32_t side) {
+        return std::clamp(static_cast<std::uint32_t>(std::lround(side * scale)), 2U, 16384U);
+    };
+    const vk::Extent2D extent(scaled(display.width_px), scaled(display.height_px));
+    return {extent, extent};
+}
+
+std::unique_ptr<present::FrameTarget> make_target(const FrameRunRequest& request,
+                                                  const present::DisplayProfile& display) {
+    const SettingValues& values = request.settings->values();
+    if (values.target.name == "openxr") {
+        return present::make_openxr_target({.display = display,
+                                            .scale = values.render.scale,
+                                            .validation = values.target.validation});
+    }
+    present::HeadlessTarget::Options options{
+        .display = display,
+        .extents = scaled_extents(display, values.render.scale),
+        .paced = request.clock == RunClock::Wall};
+    if (request.clock == RunClock::Recorded && !request.session->frames.empty()) {
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const gaze::EyeView& view =
+                request.session->frames.front().frame.views[gaze::index(eye)];
+            options.extents[gaze::index(eye)] = vk::Extent2D(view.width_px, view.height_px);
+        }
+        if (const auto format = request.session->meta("target_format")) {
+            options.format = format_named(*format);
+        }
+    }
+    return std::make_unique<present::HeadlessTarget>(options);
+}
+
+/// The profile's eyes at the target's picture sizes, head at the origin.
+gaze::StereoView profile_views(const present::DisplayProfile& display,
+                               const gaze::PerEye<vk::Extent2D>& extents) {
+    gaze::StereoView views;
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const std::size_t e = gaze::index(eye);
+        const double side = eye == gaze::Eye::Left ? -0.5 : 0.5;
+        views[e] = {.pose = {.position_m = {side * display.ipd_m, 0.0, 0.0}},
+                    .fov = display.fov[e],
+                    .width_px = extents[e].width,
+                    .height_px = extents[e].height};
+    }
+    return views;
+}
+
+/// Passes on to the session's recorder.
+class Recording final : public FrameObserver {
+  public:
+    explicit Recording(session::SessionRecorder& recorder) : recorder_(recorder) {}
+    void on_sample(const gaze::GazeSample& sample, std::uint64_t frame) override {
+        recorder_.add(sample, frame);
+    }
+    void on_frame(const latency::FrameRecord& record) override { recorder_.add(record); }
+    void on_gpu(const latency::FrameGpuRecord& record) override { recorder_.add(record); }
+    void on_event(latency::Stamp time, std::string_view kind, std::string_view text) override {
+        recorder_.event(time, kind, text);
+    }
+
+  private:
+    session::SessionRecorder& recorder_;
+};
+
+/// Passes on to the summary.
+class Summing final : public FrameObserver {
+  public:
+    explicit Summing(latency::LatencySummary& summary) : summary_(summary) {}
+    void on_sample(const gaze::GazeSample& sample, std::uint64_t) override { summary_.add(sample); }
+    void on_frame(const latency::FrameRecord& record) override { summary_.add(record); }
+    void on_gpu(const latency::FrameGpuRecord& record) override { summary_.add(record); }
+
+  private:
+    latency::LatencySummary& summary_;
+};
+
+/// Says what happens as it happens.
+class Logging final : public FrameObserver {
+  public:
+    void on_event(latency::Stamp, std::string_view kind, std::string_view text) override {
+        spdlog::debug("{}: {}", kind, text);
+    }
+};
+
+/// First draws compile shaders; in wall-clock runs that is not to look like a slow first frame.
+void warm_up(const render::VulkanContext& context, const render::RendererConfig& config,
+             const gaze::StereoView& views) {
+    render::FrameRequest request;
+    request.views = views;
+    gaze::PerEye<render::ColorImage> images;
+    render::FrameRenderer renderer(context, config);
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const std::size_t e = gaze::index(eye);
+        images[e] = render::ColorImage(
+            context, config.extents[e], config.format,
+            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
+        request.targets[e] = {images[e].image(), images[e].view()};
+        request.foveae[e] = {views[e].width_px / 2.0, views[e].height_px / 2.0};
+    }
+    renderer.wait_for_slot();
+    renderer.render(request);
+    renderer.wait_idle();
+}
+
+std::string_view end_text(LoopEnd end) {
+    switch (end) {
+        case LoopEnd::Limit:
+            return "limit reached";
+        case LoopEnd::SourceEnd:
+            return "gaze source ended";
+        case LoopEnd::Interrupted:
+            return "interrupted";
+        case LoopEnd::TargetEnd:
+            return "ended by the runtime";
+    }
+    return "";
+}
+
+class FrameRun {
+  public:
+    explicit FrameRun(const FrameRunRequest& request)
+        : request_(request),
+          values_(request.settings->values()),
+          display_(value_or_throw(load_display(values_.profile.display))) {}
+
+    ExitCode run() {
+        target_ = make_target(request_, display_);
+        context_ = std::make_unique<render::VulkanContext>(
+            render::VulkanOptions{.validation = values_.vulkan.validation,
+                                  .device = values_.vulkan.device},
+            target_->vulkan_factory());
+        target_->start(*context_);
+        config_ = renderer_config();
+        render::FrameRenderer renderer(*context_, config_);
+        spdlog::info("Vulkan: {} ({})", context_->device_name(), context_->driver());
+        spdlog::info("{}x{} per eye, method {}, scene {}, {} samples, target {}",
+                     config_.extents[0].width, config_.extents[0].height, values_.render.method,
+                     values_.render.scene, values_.render.spp, values_.target.name);
+        if (request_.clock == RunClock::Wall) {
+            warm_up(*context_, config_, profile_views(display_, target_->extents()));
+        }
+        open_recording();
+
+        latency::LatencySummary summary({.clock = request_.clock == RunClock::Virtual
+                                                      ? latency::LoopClock::Virtual
+                                                      : latency::LoopClock::Wall,
+                                         .period_ns = display_.period_ns(),
+                                         .switching_ns = display_.switching_ns});
+        run_loop(renderer, summary);
+        finish(summary);
+        return code_;
+    }
+
+  private:
+    [[nodiscard]] render::RendererConfig renderer_config() const {
+        return {.method = method_named(values_.render.method),
+                .scene = values_.render.scene,
+                .samples = static_cast<std::uint32_t>(values_.render.spp),
+                .kfr = {.sigma = values_.kfr.sigma,
+                        .kernel = {values_.kfr.alpha},
+                        .disc = values_.kfr.disc,
+                        .border_px = values_.kfr.border_px},
+                .extents = target_->extents(),
+                .format = target_->format(),
+                .profile = values_.render.profile,
+                .hash = request_.hash,
+                .frames_in_flight = static_cast<std::uint32_t>(values_.render.frames_in_flight),
+                .lp_background = std::nullopt};
+    }
+
+    void open_recording() {
+        if (!request_.record) {
+            return;
+        }
+        session::SessionHeader header;
+        header.meta = {{"program", fmt::format("gazeloop {}", kVersion)},
+                       {"command_line", request_.command_line},
+                       {"started_utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                                                   fmt::gmtime(std::chrono::system_clock::to_time_t(
+                                                       std::chrono::system_clock::now())))},
+                       {"clock", request_.clock == RunClock::Virtual ? "virtual" : "wall"},
+                       {"target", values_.target.name},
+                       {"target_format", vk::to_string(target_->format())},
+                       {"display_period_ns", fmt::format("{}", display_.period_ns())},
+                       {"display_switching_ns", fmt::format("{}", display_.switching_ns)}};
+        header.config = request_.settings->list();
+        for (const auto& [name, value] : target_->properties()) {
+            header.device.push_back({name, value});
+        }
+        header.device.push_back({"vulkan device", context_->device_name()});
+        header.device.push_back({"vulkan driver", context_->driver()});
+        recorder_ = value_or_throw(session::SessionRecorder::create(*request_.record, header));
+        recording_ = std::make_unique<Recording>(*recorder_);
+    }
+
+    [[nodiscard]] std::unique_ptr<FrameTimeline> make_timeline() const {
+        switch (request_.clock) {
+            case RunClock::Wall:
+                break;
+            case RunClock::Virtual:
+                return std::make_unique<VirtualTimeline>(
+                    VirtualTimeline::Model{.period_ns = display_.period_ns(),
+                                           .gpu_ns = ms_to_ns(values_.virtual_time.gpu_ms),
+                                           .views = profile_views(display_, target_->extents())});
+            case RunClock::Recorded: {
+                std::vector<RecordedTimeline::Frame> frames;
+                for (const session::RecordedFrame& recorded : request_.session->frames) {
+                    frames.push_back({recorded.frame, recorded.gpu});
+                }
+                return std::make_unique<RecordedTimeline>(std::move(frames));
+            }
+        }
+        return std::make_unique<LiveTimeline>(latency::measured_now().ns);
+    }
+
+    void run_loop(render::FrameRenderer& renderer, latency::LatencySummary& summary) {
+        gaze::GazeToFovea gaze(fovea_policy(values_));
+        Summing summing(summary);
+        Logging logging;
+        if (request_.session != nullptr && request_.clock == RunClock::Recorded) {
+            check_.emplace(*request_.session, request_.same_rendering);
+        }
+        LoopParts parts{.target = *target_,
+                        .renderer = renderer,
+                        .gaze = gaze,
+                        .make_timeline = [this] { return make_timeline(); },
+                        .make_source =
+                            [this](std::int64_t start_ns) {
+                                auto source = request_.make_source(start_ns);
+                                spdlog::info("gaze: {}", source->description());
+                                if (recorder_ != nullptr) {
+                                    recorder_->event(latency::Stamp{}, "gaze-source",
+                                                     source->description());
+                                }
+                                return source;
+                            },
+                        .observers = {&summing, &logging}};
+        if (recording_ != nullptr) {
+            parts.observers.push_back(recording_.get());
+        }
+        if (request_.hash) {
+            parts.observers.push_back(&hash_);
+        }
+        if (check_) {
+            parts.observers.push_back(&*check_);
+        }
+        LoopOptions options = request_.loop;
+        options.stop = interrupted;
+        try {
+            result_ = run_frame_loop(parts, options);
+            if (result_.end == LoopEnd::Interrupted) {
+                code_ = ExitCode::Interrupted;
+            }
+            spdlog::info("{} frames, {}", result_.frames, end_text(result_.end));
+        } catch (const SetupError& error) {
+            fail(error.code(), error.what());
+        } catch (const vk::DeviceLostError& error) {
+            fail(ExitCode::SessionLost,
+                 fmt::format("the Vulkan device was lost ({})", error.what()));
+        } catch (const vk::SystemError& error) {
+            fail(ExitCode::SessionLost, fmt::format("Vulkan failed ({})", error.what()));
+        }
+    }
+
+    /// The first failure decides the exit code.
+    void fail(ExitCode code, const std::string& message) {
+        spdlog::error("{}", message);
+        if (recorder_ != nullptr) {
+            recorder_->event(latency::measured_now(), "error", message);
+        }
+        if (code_ == ExitCode::Ok) {
+            code_ = code;
+        }
+    }
+
+    void finish(const latency::LatencySummary& summary) {
+        if (recorder_ != nullptr) {
+            const session::RecordingStatus status = recorder_->close();
+            if (!status.failure.empty()) {
+                fail(ExitCode::RecordingIncomplete, status.failure);
+            } else if (status.dropped > 0) {
+                fail(ExitCode::RecordingIncomplete,
+                     fmt::format("{}: {} records were dropped: the disk was too slow",
+                                 request_.record->string(), status.dropped));
+            } else {
+                spdlog::info("recorded to {}", request_.record->string());
+            }
+        }
+        if (context_->validation_messages() > 0) {
+            fail(ExitCode::GateFailed,
+                 fmt::format("Vulkan validation: {} messages", context_->validation_messages()));
+        }
+        const latency::SummaryReport report = summary.report();
+        std::string text;
+        if (!request_.quiet) {
+            text = latency::summary_text(report);
+        }
+        if (check_) {
+            text += check_->text();
+            if (!check_->equal()) {
+                fail(ExitCode::GateFailed, "the replay differs from the recording");
+            }
+        }
+        if (request_.hash) {
+            text += hash_.text();
+        }
+        std::fputs(text.c_str(), stdout);
+        if (request_.json) {
+            if (const auto written =
+                    write_text(*request_.json, latency::summary_json(report).dump(2) + "\n");
+                !written) {
+                fail(written.error().code, written.error().message);
+            }
+        }
+        take_snapshot();
+    }
+
+    void take_snapshot() {
+        if (!request_.snapshot) {
+            return;
+        }
+        if (!result_.last) {
+            fail(ExitCode::GateFailed, "--snapshot: no frame was rendered");
+            return;
+        }
+        const auto files = render::write_snapshot(
+            *context_, config_, *result_.last,
+            {.folder = *request_.snapshot, .mark_fovea = request_.mark_fovea});
+        if (!files) {
+            fail(files.error().code, files.error().message);
+            return;
+        }
+        for (const auto& file : *files) {
+            fmt::print("snapshot {}\n", file.string());
+        }
+    }
+
+    const FrameRunRequest& request_;
+    const SettingValues& values_;
+    present::DisplayProfile display_;
+    // The target's swapchains live on the context's device: they go first.
+    std::unique_ptr<render::VulkanContext> context_;
+    std::unique_ptr<present::FrameTarget> target_;
+    render::RendererConfig config_;
+    std::unique_ptr<session::SessionRecorder> recorder_;
+    std::unique_ptr<Recording> recording_;
+    ReplayHash hash_;
+    std::optional<ReplayCheck> check_;
+    LoopResult result_;
+    ExitCode code_ = ExitCode::Ok;
+};
+
+}  // namespace
+
+ExitCode frame_run(const FrameRunRequest& request) { return FrameRun(request).run(); }
+
+}  // namespace gazeloop::cli

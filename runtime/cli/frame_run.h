@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "drivers/gaze_source.h"
+#include "runtime/cli/settings.h"
+#include "runtime/error.h"
+#include "runtime/frame_loop.h"
+#include "runtime/session/session_file.h"
+
+namespace gazeloop::cli {
+
+/// Which time line a run follows.
+enum class RunClock {
+    Wall,
+    Virtual,
+    Recorded,  ///< a session's own
+};
+
+/// A run of the loop, ready to go; everything that can be refused without a device has been.
+struct FrameRunRequest {
+    const Settings* settings = nullptr;
+    std::string command_line;
+    RunClock clock = RunClock::Wall;
+    std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)> make_source;
+    const session::SessionFile* session = nullptr;  ///< with Recorded, and to be compared with
+    bool same_rendering = true;                     ///< as the session's
+    LoopOptions loop;
+    bool hash = false;
+    bool mark_fovea = false;
+    bool quiet = false;
+    std::optional<std::filesystem::path> record;
+    std::optional<std::filesystem::path> snapshot;
+    std::optional<std::filesystem::path> json;
+};
+
+/// Sets up target, device and renderer, runs the loop, prints the summary to stdout. What went
+/// wrong after the first frame is reported after the summary; the returned code says it. Throws
+/// SetupError for what goes wrong before.
+ExitCode frame_run(const FrameRunRequest& request);
+
+}  // namespace gazeloop::cli

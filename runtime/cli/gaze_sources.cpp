@@ -1,0 +1,51 @@
+#include "runtime/cli/gaze_sources.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drivers/fixed/fixed_source.h"
+#include "drivers/trace/read_trace.h"
+#include "drivers/trace/trace_source.h"
+#include "runtime/cli/nearest_name.h"
+
+namespace gazeloop::cli {
+
+Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfile& tracker) {
+    const std::size_t colon = text.find(':');
+    const std::string_view kind = text.substr(0, colon);
+    const std::string_view argument =
+        colon == std::string_view::npos ? std::string_view{} : text.substr(colon + 1);
+    if (kind == "trace" && !argument.empty()) {
+        auto trace = drivers::read_trace(std::string(argument));
+        if (!trace) {
+            return std::unexpected(std::move(trace.error()));
+        }
+        return trace_player(std::move(*trace), tracker, 1.0);
+    }
+    if (kind == "fixed" && !argument.empty()) {
+        const auto gaze = drivers::parse_fixed_gaze(argument);
+        if (!gaze) {
+            return std::unexpected(gaze.error());
+        }
+        return
+            [gaze = *gaze](std::int64_t) { return std::make_unique<drivers::FixedSource>(gaze); };
+    }
+    const std::vector<std::string> known{"trace:FILE", "fixed:AZ,EL"};
+    return std::unexpected(
+        Error{ExitCode::Usage, "--gaze: " + unknown_name("source", text, known)});
+}
+
+MakeSource trace_player(drivers::Trace trace, const TrackerProfile& tracker, double speed) {
+    for (gaze::GazeSample& sample : trace.samples) {
+        for (latency::Stamp* const stamp : {&sample.sampled, &sample.arrived}) {
+            stamp->ns = std::llround(static_cast<double>(stamp->ns) / speed);
+        }
+    }
+    return [trace = std::move(trace), delay_ns = tracker.delay_ns](std::int64_t start_ns) {
+        return std::make_unique<drivers::TraceSource>(trace, start_ns, delay_ns);
+    };
+}
+
+}  // namespace gazeloop::cli

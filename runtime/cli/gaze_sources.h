@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include "drivers/gaze_source.h"
+#include "drivers/trace/trace.h"
+#include "runtime/cli/profiles.h"
+#include "runtime/error.h"
+
+namespace gazeloop::cli {
+
+using MakeSource = std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)>;
+
+/// What --gaze names: trace:FILE or fixed:AZ,EL. Reads a trace at once. Errors: Usage for an
+/// unknown source, otherwise the source's own.
+Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfile& tracker);
+
+/// Plays a trace, `speed` times as fast as it was recorded.
+MakeSource trace_player(drivers::Trace trace, const TrackerProfile& tracker, double speed);
+
+}  // namespace gazeloop::cli

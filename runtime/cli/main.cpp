@@ -1,0 +1,94 @@
+#include <fmt/core.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/cli/commands.h"
+#include "runtime/cli/interrupt.h"
+#include "runtime/cli/nearest_name.h"
+#include "runtime/cli/version.h"
+
+namespace {
+
+using gazeloop::ExitCode;
+
+std::string joined(int count, char** arguments) {
+    std::string line;
+    for (int i = 0; i < count; ++i) {
+        line += fmt::format("{}{}", i > 0 ? " " : "", arguments[i]);
+    }
+    return line;
+}
+
+int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
+
+/// CLI11 does not say which word it could not place.
+std::optional<std::string> unknown_command(const CLI::App& program, int count, char** arguments) {
+    if (count < 2 || arguments[1][0] == '-') {
+        return std::nullopt;
+    }
+    std::vector<std::string> known;
+    for (const CLI::App* const command : program.get_subcommands({})) {
+        known.push_back(command->get_name());
+    }
+    if (std::ranges::find(known, arguments[1]) != known.end()) {
+        return std::nullopt;
+    }
+    return gazeloop::cli::unknown_name("command", arguments[1], known);
+}
+
+int gazeloop_main(int count, char** arguments) {
+    const auto log = spdlog::stderr_color_mt("gazeloop");
+    log->set_pattern("%^%l%$: %v");
+    spdlog::set_default_logger(log);
+    // Writing to a closed pipe or past a file size limit is an error to report, not a death.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+    gazeloop::cli::catch_interrupts();
+
+    CLI::App program("An eye-tracked HMD runtime with a gaze-contingent frame loop", "gazeloop");
+    program.set_version_flag("--version", fmt::format("gazeloop {}", gazeloop::cli::kVersion));
+    program.require_subcommand(1);
+    gazeloop::cli::Action action;
+    const std::string command_line = joined(count, arguments);
+    gazeloop::cli::add_run_command(program, command_line, action);
+    gazeloop::cli::add_replay_command(program, command_line, action);
+    gazeloop::cli::add_report_command(program, action);
+    gazeloop::cli::add_simulate_command(program, action);
+    if (const auto refusal = unknown_command(program, count, arguments)) {
+        spdlog::error("{}", *refusal);
+        return code(ExitCode::Usage);
+    }
+    try {
+        program.parse(count, arguments);
+    } catch (const CLI::ParseError& error) {
+        return program.exit(error) == 0 ? code(ExitCode::Ok) : code(ExitCode::Usage);
+    }
+    try {
+        return code(action());
+    } catch (const gazeloop::SetupError& error) {
+        spdlog::error("{}", error.what());
+        return code(error.code());
+    } catch (const std::bad_alloc&) {
+        spdlog::error("out of memory: use a smaller picture (--set render.scale=0.5) or trace");
+        return code(ExitCode::NoDevice);
+    }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    try {
+        return gazeloop_main(count, arguments);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return code(ExitCode::SessionLost);
+    }
+}

@@ -1,0 +1,106 @@
+#include "runtime/cli/replay_check.h"
+
+#include <fmt/core.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace gazeloop::cli {
+namespace {
+
+/// What of a frame's foveae the picture depends on, as bits.
+using FoveaBits = std::array<std::uint64_t, 7 * gaze::kEyeCount>;
+
+FoveaBits bits(const gaze::FrameFovea& fovea) {
+    FoveaBits all{};
+    std::size_t i = 0;
+    for (const gaze::FoveaPoint& point : fovea.eyes) {
+        for (const double value : {point.position.x_px, point.position.y_px, point.direction.x,
+                                   point.direction.y, point.direction.z}) {
+            all[i++] = std::bit_cast<std::uint64_t>(value);
+        }
+        all[i++] = static_cast<std::uint64_t>(point.state);
+        all[i++] = point.sample_sequence;
+    }
+    return all;
+}
+
+std::uint64_t fold(std::uint64_t seed, const void* data, std::size_t bytes) {
+    return XXH3_64bits_withSeed(data, bytes, seed);
+}
+
+}  // namespace
+
+void ReplayHash::on_frame(const latency::FrameRecord& record) {
+    const FoveaBits fovea = bits(record.fovea);
+    foveae_ = fold(foveae_, fovea.data(), sizeof fovea);
+    ++fovea_frames_;
+}
+
+void ReplayHash::on_gpu(const latency::FrameGpuRecord& record) {
+    if (record.pixel_hash) {
+        pixels_ = fold(pixels_, &*record.pixel_hash, sizeof *record.pixel_hash);
+        ++pixel_frames_;
+    }
+}
+
+std::string ReplayHash::text() const {
+    std::string text = fmt::format("hash foveae {:016x} over {} frames\n", foveae_, fovea_frames_);
+    if (pixel_frames_ > 0) {
+        text += fmt::format("hash pixels {:016x} over {} frames\n", pixels_, pixel_frames_);
+    }
+    return text;
+}
+
+void ReplayCheck::on_frame(const latency::FrameRecord& record) {
+    if (record.index >= session_.frames.size()) {
+        return;
+    }
+    ++foveae_compared_;
+    if (bits(record.fovea) == bits(session_.frames[record.index].frame.fovea)) {
+        ++foveae_equal_;
+    } else if (!first_difference_) {
+        first_difference_ = record.index;
+    }
+}
+
+void ReplayCheck::on_gpu(const latency::FrameGpuRecord& record) {
+    if (!same_rendering_ || record.index >= session_.frames.size()) {
+        return;
+    }
+    const auto& recorded = session_.frames[record.index].gpu.pixel_hash;
+    if (!record.pixel_hash || !recorded) {
+        return;
+    }
+    ++pixels_compared_;
+    if (*record.pixel_hash == *recorded) {
+        ++pixels_equal_;
+    } else {
+        first_difference_ = std::min(first_difference_.value_or(record.index), record.index);
+    }
+}
+
+bool ReplayCheck::equal() const {
+    return foveae_equal_ == foveae_compared_ && pixels_equal_ == pixels_compared_;
+}
+
+std::string ReplayCheck::text() const {
+    std::string text = fmt::format("replay: foveae bit-equal in {} of {} frames\n", foveae_equal_,
+                                   foveae_compared_);
+    if (pixels_compared_ > 0) {
+        text += fmt::format("replay: pictures equal in {} of {} frames\n", pixels_equal_,
+                            pixels_compared_);
+    } else {
+        text += fmt::format("replay: pictures not compared: {}\n",
+                            same_rendering_ ? "not hashed in both runs (--hash)"
+                                            : "the rendering differs from the recorded one");
+    }
+    if (first_difference_) {
+        text += fmt::format("replay: first difference in frame {}\n", *first_difference_);
+    }
+    return text;
+}
+
+}  // namespace gazeloop::cli

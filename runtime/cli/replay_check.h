@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "runtime/frame_observer.h"
+#include "runtime/session/session_file.h"
+
+namespace gazeloop::cli {
+
+/// Folds everything a replay must reproduce into two numbers: every frame's fovea points bit by
+/// bit, and every frame's pixel hash.
+class ReplayHash final : public FrameObserver {
+  public:
+    void on_frame(const latency::FrameRecord& record) override;
+    void on_gpu(const latency::FrameGpuRecord& record) override;
+
+    /// "foveae HEX over N frames" and, where pixels were hashed, "pixels HEX over N frames".
+    [[nodiscard]] std::string text() const;
+
+  private:
+    std::uint64_t foveae_ = 0;
+    std::uint64_t pixels_ = 0;
+    std::uint64_t fovea_frames_ = 0;
+    std::uint64_t pixel_frames_ = 0;
+};
+
+/// Compares a replay with the recorded frames: fovea points bit by bit, and pixel hashes where both
+/// have them.
+class ReplayCheck final : public FrameObserver {
+  public:
+    /// `session` must outlive this. Pixels are compared only if `same_rendering`.
+    ReplayCheck(const session::SessionFile& session, bool same_rendering)
+        : session_(session), same_rendering_(same_rendering) {}
+
+    void on_frame(const latency::FrameRecord& record) override;
+    void on_gpu(const latency::FrameGpuRecord& record) override;
+
+    [[nodiscard]] bool equal() const;
+    [[nodiscard]] std::string text() const;
+
+  private:
+    const session::SessionFile& session_;
+    bool same_rendering_;
+    std::uint64_t foveae_equal_ = 0;
+    std::uint64_t foveae_compared_ = 0;
+    std::uint64_t pixels_equal_ = 0;
+    std::uint64_t pixels_compared_ = 0;
+    std::optional<std::uint64_t> first_difference_;
+};
+
+}  // namespace gazeloop::cli

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/cli/frame_run.h"
+#include "runtime/cli/settings.h"
+
+namespace gazeloop::cli {
+
+/// The options that every command has.
+struct CommonOptions {
+    std::vector<std::string> config_files;
+    std::vector<std::string> assignments;  ///< --set KEY=VALUE
+    std::string log_level = "info";
+    bool quiet = false;
+
+    void add_to(CLI::App& command);
+    void apply_log_level() const;
+};
+
+/// The options that `run` and `replay` share.
+struct RunOptions {
+    CommonOptions common;
+    /// Options that are a setting by another name: the flag, its key, its text if given.
+    struct Alias {
+        const char* flag;
+        const char* key;
+        const char* meaning;
+        std::string text;
+    };
+    std::vector<Alias> aliases{
+        {"--target", "target.name", "openxr or headless", ""},
+        {"--scene", "render.scene", "what is rendered", ""},
+        {"--method", "render.method", "which samples a picture takes: full, kfr", ""},
+        {"--display", "profile.display", "display profile, by name or .toml file", ""},
+        {"--sigma", "kfr.sigma", "picture width over LP-buffer width, .5 to 32", ""},
+        {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16", ""},
+        {"--spp", "render.spp", "samples a texel or pixel, 1 to 16", ""},
+    };
+    std::optional<std::uint64_t> frames;
+    std::optional<double> seconds;
+    std::string record;
+    std::string snapshot;
+    std::string json;
+    bool mark_fovea = false;
+    bool hash = false;
+    bool print_config = false;
+
+    void add_to(CLI::App& command);
+
+    /// Applies --config, --set and the aliases, in this order. `standard_files`: the user's and the
+    /// system's configuration first.
+    Expected<void> apply_to(Settings& settings, bool standard_files) const;
+
+    /// What these options say of a run.
+    void fill(FrameRunRequest& request) const;
+};
+
+}  // namespace gazeloop::cli

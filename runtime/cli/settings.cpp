@@ -1,0 +1,241 @@
+#include "runtime/cli/settings.h"
+
+#include <fmt/core.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include "runtime/cli/nearest_name.h"
+#include "runtime/cli/profiles.h"
+#include "runtime/foveation/log_polar_map.h"
+#include "runtime/render/eye_uniforms.h"
+#include "runtime/render/method.h"
+
+namespace gazeloop::cli {
+namespace {
+
+template <typename T>
+std::optional<T> parse_number(std::string_view text) {
+    T value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+template <std::size_t N>
+std::vector<std::string> names(const std::array<std::string_view, N>& views) {
+    return {views.begin(), views.end()};
+}
+
+std::unexpected<Error> refuse(std::string_view origin, std::string message) {
+    return std::unexpected(
+        Error{ExitCode::Usage, fmt::format("{}: {}", origin, std::move(message))});
+}
+
+std::string scalar_text(const toml::node& node) {
+    if (const auto text = node.value_exact<std::string>()) {
+        return *text;
+    }
+    if (const auto whole = node.value_exact<std::int64_t>()) {
+        return fmt::format("{}", *whole);
+    }
+    if (const auto number = node.value_exact<double>()) {
+        return fmt::format("{}", *number);
+    }
+    if (const auto flag = node.value_exact<bool>()) {
+        return *flag ? "true" : "false";
+    }
+    return "";
+}
+
+Expected<void> load_table(Settings& settings, const toml::table& table, const std::string& prefix,
+                          const std::string& file) {
+    for (const auto& [name, node] : table) {
+        const std::string key = prefix + std::string(name.str());
+        if (const toml::table* const inner = node.as_table()) {
+            if (auto loaded = load_table(settings, *inner, key + ".", file); !loaded) {
+                return loaded;
+            }
+            continue;
+        }
+        const std::string origin = fmt::format("{}:{}", file, node.source().begin.line);
+        if (node.is_array() || node.is_date() || node.is_time() || node.is_date_time()) {
+            return refuse(origin, fmt::format("{}: one value is expected", key));
+        }
+        if (auto set = settings.set(key, scalar_text(node), origin); !set) {
+            return set;
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Settings::Settings() {
+    using foveation::KfrParameters;
+    using foveation::PowerKernel;
+    SettingValues& v = values_;
+    const double forever_ms = 1e7;
+    entries_ = {
+        {"gaze.fixation_distance_m", "distance at which gaze is held in world, m",
+         Number{&v.gaze.fixation_distance_m, 0.1, 1000.0}},
+        {"gaze.hold_ms", "lost gaze: hold the last point for this long",
+         Number{&v.gaze.hold_ms, 0.0, forever_ms}},
+        {"gaze.minimum_confidence", "samples that state less are invalid",
+         Number{&v.gaze.minimum_confidence, 0.0, 1.0}},
+        {"gaze.return_ms", "lost gaze: then return to straight ahead in this time",
+         Number{&v.gaze.return_ms, 0.0, forever_ms}},
+        {"gaze.stale_ms", "samples older than this at the latch count as lost",
+         Number{&v.gaze.stale_ms, 0.0, forever_ms}},
+        {"kfr.alpha", "kernel K(x) = x^alpha",
+         Number{&v.kfr.alpha, PowerKernel::kMinAlpha, PowerKernel::kMaxAlpha}},
+        {"kfr.border_px", "width of the blend between disc and LP-buffer",
+         Number{&v.kfr.border_px, 0.0, 64.0}},
+        {"kfr.disc", "shade pixels directly where a texel a pixel is offered", &v.kfr.disc},
+        {"kfr.sigma", "picture width over LP-buffer width",
+         Number{&v.kfr.sigma, KfrParameters::kMinSigma, KfrParameters::kMaxSigma}},
+        {"profile.display", "display profile, or a .toml file", Choice{&v.profile.display, {}}},
+        {"profile.tracker", "tracker profile, or a .toml file", Choice{&v.profile.tracker, {}}},
+        {"render.frames_in_flight", "frames that the GPU may be working on",
+         Whole{&v.render.frames_in_flight, 1, 3}},
+        {"render.method", "which samples a picture takes",
+         Choice{&v.render.method, names(render::kMethodNames)}},
+        {"render.profile", "time every pass apart, a submit each", &v.render.profile},
+        {"render.scale", "picture size over the display's", Number{&v.render.scale, 0.01, 2.0}},
+        {"render.scene", "what is rendered", Choice{&v.render.scene, names(render::kSceneNames)}},
+        {"render.spp", "samples a texel or pixel", Whole{&v.render.spp, 1, render::kMaxSamples}},
+        {"target.name", "where pictures go", Choice{&v.target.name, {"openxr", "headless"}}},
+        {"target.validation", "OpenXR core validation layer", &v.target.validation},
+        {"virtual_time.gpu_ms", "modelled time on the GPU of a frame in virtual time",
+         Number{&v.virtual_time.gpu_ms, 0.0, 1000.0}},
+        {"vulkan.device", "part of the Vulkan device's name (headless)",
+         Choice{&v.vulkan.device, {}}},
+        {"vulkan.validation", "Khronos validation layer, with synchronization",
+         &v.vulkan.validation},
+    };
+}
+
+std::vector<std::string> Settings::keys() const {
+    std::vector<std::string> keys;
+    for (const Entry& entry : entries_) {
+        keys.push_back(entry.key);
+    }
+    return keys;
+}
+
+Expected<void> Settings::set(std::string_view key, std::string_view text, std::string_view origin) {
+    const auto entry = std::ranges::find(entries_, key, &Entry::key);
+    if (entry == entries_.end()) {
+        return refuse(origin, unknown_name("key", key, keys()));
+    }
+    if (Number* const number = std::get_if<Number>(&entry->slot)) {
+        const auto value = parse_number<double>(text);
+        if (!value) {
+            return refuse(origin, fmt::format("{} = '{}': not a number", key, text));
+        }
+        if (!(*value >= number->least && *value <= number->greatest)) {
+            return refuse(origin, fmt::format("{} = {}: must lie in [{}, {}]", key, text,
+                                              number->least, number->greatest));
+        }
+        *number->value = *value;
+    } else if (Whole* const whole = std::get_if<Whole>(&entry->slot)) {
+        const auto value = parse_number<std::int64_t>(text);
+        if (!value) {
+            return refuse(origin, fmt::format("{} = '{}': not a whole number", key, text));
+        }
+        if (*value < whole->least || *value > whole->greatest) {
+            return refuse(origin, fmt::format("{} = {}: must lie in [{}, {}]", key, text,
+                                              whole->least, whole->greatest));
+        }
+        *whole->value = *value;
+    } else if (bool** const flag = std::get_if<bool*>(&entry->slot)) {
+        if (text != "true" && text != "false") {
+            return refuse(origin, fmt::format("{} = '{}': must be true or false", key, text));
+        }
+        **flag = text == "true";
+    } else {
+        Choice& choice = std::get<Choice>(entry->slot);
+        if (!choice.names.empty() && std::ranges::find(choice.names, text) == choice.names.end()) {
+            const std::string_view what = key.substr(key.find('.') + 1);
+            return refuse(origin,
+                          unknown_name(what == "name" ? "target" : what, text, choice.names));
+        }
+        *choice.value = text;
+    }
+    entry->origin = origin;
+    return {};
+}
+
+Expected<void> Settings::load(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    if (!in) {
+        return std::unexpected(
+            Error{ExitCode::BadInput,
+                  fmt::format("{}: the configuration cannot be read", file.string())});
+    }
+    try {
+        return load_table(*this, toml::parse(in, file.string()), "", file.string());
+    } catch (const toml::parse_error& error) {
+        return std::unexpected(
+            Error{ExitCode::BadInput, fmt::format("{}:{}: {}", file.string(),
+                                                  error.source().begin.line, error.description())});
+    }
+}
+
+Expected<void> Settings::load_standard_files() {
+    std::vector<std::filesystem::path> folders{"/etc"};
+    if (const char* const config = std::getenv("XDG_CONFIG_HOME"); config && *config) {
+        folders.emplace_back(config);
+    } else if (const char* const home = std::getenv("HOME"); home && *home) {
+        folders.push_back(std::filesystem::path(home) / ".config");
+    }
+    for (const std::filesystem::path& folder : folders) {
+        const std::filesystem::path file = folder / "gazeloop" / "config.toml";
+        std::error_code ignored;
+        if (std::filesystem::exists(file, ignored)) {
+            if (auto loaded = load(file); !loaded) {
+                return loaded;
+            }
+        }
+    }
+    return {};
+}
+
+std::string Settings::text(const Entry& entry) {
+    if (const auto* const number = std::get_if<Number>(&entry.slot)) {
+        return fmt::format("{}", *number->value);
+    }
+    if (const auto* const whole = std::get_if<Whole>(&entry.slot)) {
+        return fmt::format("{}", *whole->value);
+    }
+    if (bool* const* const flag = std::get_if<bool*>(&entry.slot)) {
+        return **flag ? "true" : "false";
+    }
+    return *std::get<Choice>(entry.slot).value;
+}
+
+std::vector<session::NamedValue> Settings::list() const {
+    std::vector<session::NamedValue> values;
+    for (const Entry& entry : entries_) {
+        values.push_back({entry.key, text(entry)});
+    }
+    return values;
+}
+
+std::string Settings::describe() const {
+    std::string table;
+    for (const Entry& entry : entries_) {
+        table += fmt::format("{:26} = {:12} # {:9} {}\n", entry.key, text(entry), entry.origin,
+                             entry.meaning);
+    }
+    return table;
+}
+
+}  // namespace gazeloop::cli

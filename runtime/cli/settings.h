@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "runtime/error.h"
+#include "runtime/session/session_recorder.h"
+
+namespace gazeloop::cli {
+
+/// Everything that can be configured, with its built-in value. Keys are the names below with their
+/// group: kfr.sigma, gaze.hold_ms ...
+struct SettingValues {
+    struct {
+        double stale_ms = 100.0;
+        double hold_ms = 300.0;
+        double return_ms = 150.0;
+        double minimum_confidence = 0.6;
+        double fixation_distance_m = 1.5;
+    } gaze;
+    struct {
+        double sigma = 1.8;
+        double alpha = 4.0;
+        bool disc = true;
+        double border_px = 6.0;
+    } kfr;
+    struct {
+        std::string method = "kfr";
+        std::string scene = "raymarch";
+        std::int64_t spp = 1;
+        double scale = 1.0;
+        bool profile = true;
+        std::int64_t frames_in_flight = 2;
+    } render;
+    struct {
+        std::string name = "openxr";
+        bool validation = false;
+    } target;
+    struct {
+        std::string device;
+        bool validation = false;
+    } vulkan;
+    struct {
+        std::string display = "fove0";
+        std::string tracker = "generic";
+    } profile;
+    struct {
+        double gpu_ms = 8.0;
+    } virtual_time;
+};
+
+/// The settings in force, key by key, each with where its value came from.
+class Settings {
+  public:
+    Settings();
+    Settings(const Settings&) = delete;
+    Settings& operator=(const Settings&) = delete;
+
+    [[nodiscard]] const SettingValues& values() const { return values_; }
+
+    /// Sets a key from text. Errors (Usage): unknown key (nearest one named), not a value of its
+    /// kind, out of range; `origin` ("--set", "FILE:LINE") is part of the message.
+    Expected<void> set(std::string_view key, std::string_view text, std::string_view origin);
+
+    /// Sets all keys of a TOML file. Errors: BadInput if it cannot be read or parsed (line named),
+    /// else as set().
+    Expected<void> load(const std::filesystem::path& file);
+
+    /// Loads /etc/gazeloop/config.toml and $XDG_CONFIG_HOME/gazeloop/config.toml where they exist.
+    Expected<void> load_standard_files();
+
+    /// Key and value of every setting, in the order of the keys.
+    [[nodiscard]] std::vector<session::NamedValue> list() const;
+
+    /// A table of keys, values, origins and meanings.
+    [[nodiscard]] std::string describe() const;
+
+  private:
+    struct Number {
+        double* value;
+        double least;
+        double greatest;
+    };
+    struct Whole {
+        std::int64_t* value;
+        std::int64_t least;
+        std::int64_t greatest;
+    };
+    struct Choice {
+        std::string* value;
+        std::vector<std::string> names;  ///< empty: any text
+    };
+    struct Entry {
+        std::string key;
+        std::string meaning;
+        std::variant<Number, Whole, bool*, Choice> slot;
+        std::string origin = "built-in";
+    };
+
+    [[nodiscard]] static std::string text(const Entry& entry);
+    [[nodiscard]] std::vector<std::string> keys() const;
+
+    SettingValues values_;
+    std::vector<Entry> entries_;
+};
+
+}  // namespace gazeloop::cli

@@ -1,0 +1,232 @@
+#include "runtime/frame_loop.h"
+
+#include <fmt/core.h>
+
+#include <array>
+
+namespace gazeloop {
+namespace {
+
+class FrameLoop {
+  public:
+    FrameLoop(const LoopParts& parts, const LoopOptions& options)
+        : parts_(parts), options_(options) {}
+
+    LoopResult run() {
+        for (;;) {
+            ask_for_end();
+            const present::TargetState state = parts_.target.poll();
+            report_target_events();
+            if (state == present::TargetState::Ended) {
+                break;
+            }
+            if (state == present::TargetState::Idle) {
+                continue;
+            }
+            if (ending_) {
+                pass_empty_frame();
+            } else {
+                begin_time();
+                one_frame();
+            }
+        }
+        parts_.renderer.wait_idle();
+        report_finished_frames();
+        return result_;
+    }
+
+  private:
+    void begin_time() {
+        if (timeline_ == nullptr) {
+            timeline_ = parts_.make_timeline();
+            start_ns_ = timeline_->now().ns;
+            source_ = parts_.make_source(start_ns_);
+            head_fixed_ = source_->fixed_in_head();
+        }
+    }
+
+    /// The limits end the loop between frames: the target is asked, and winds down by itself.
+    void ask_for_end() {
+        if (ending_) {
+            return;
+        }
+        if (options_.stop && options_.stop()) {
+            end(LoopEnd::Interrupted);
+        } else if ((options_.frames && result_.frames >= *options_.frames) ||
+                   (options_.seconds && time_is_up())) {
+            end(LoopEnd::Limit);
+        } else if (timeline_ != nullptr && (timeline_->over(result_.frames) ||
+                                            (options_.end_with_source && source_->finished()))) {
+            end(LoopEnd::SourceEnd);
+        }
+    }
+
+    [[nodiscard]] bool time_is_up() const {
+        return timeline_ != nullptr &&
+               static_cast<double>(planned_.display.ns - start_ns_) * 1e-9 >= *options_.seconds;
+    }
+
+    void end(LoopEnd why) {
+        ending_ = true;
+        result_.end = why;
+        parts_.target.request_exit();
+    }
+
+    void pass_empty_frame() {
+        parts_.target.wait_frame(target_frame_);
+        parts_.target.begin_frame();
+        parts_.target.end_frame(target_frame_, false);
+    }
+
+    void one_frame() {
+        timeline_->begin(result_.frames);
+        latency::FrameRecord record;
+        record.index = result_.frames;
+
+        parts_.target.wait_frame(target_frame_);
+        record.stamps.wake_up = timeline_->now();
+        parts_.target.begin_frame();
+        record.stamps.begin = timeline_->now();
+        parts_.target.locate(target_frame_);
+        timeline_->plan(target_frame_, source_->head_track(), planned_);
+        record.stamps.display = planned_.display;
+        record.period_ns = planned_.period_ns;
+        record.should_render = planned_.should_render;
+        record.scene_time_s = planned_.scene_time_s;
+        record.head = planned_.head;
+        record.views = planned_.views;
+
+        // A frame that is not to be drawn still takes the gaze, so that none is late for the next.
+        gaze::PerEye<render::EyeTarget> images{};
+        if (planned_.should_render) {
+            images = parts_.target.acquire();
+            wait_for_gpu();
+            report_finished_frames();
+        }
+        record.stamps.latch = timeline_->latch();
+        read_gaze(record.stamps.latch.ns);
+        record.fovea = parts_.gaze.latch(record.stamps.latch, planned_.head, planned_.views);
+        if (planned_.should_render) {
+            render(images, record);
+        }
+        parts_.target.end_frame(target_frame_, planned_.should_render);
+        record.stamps.end_frame = timeline_->now();
+        timeline_->settle(record);
+
+        report_gaze_changes(record.fovea);
+        for (FrameObserver* const observer : parts_.observers) {
+            observer->on_frame(record);
+        }
+        ++result_.frames;
+    }
+
+    void read_gaze(std::int64_t now_ns) {
+        samples_.clear();
+        source_->poll(now_ns, samples_);
+        for (gaze::GazeSample& sample : samples_) {
+            if (!sample.head && !head_fixed_ && timeline_->asks_target_for_head() &&
+                sample.sampled.known()) {
+                sample.head = parts_.target.head_at(sample.sampled.ns);
+            }
+            parts_.gaze.add(sample);
+            for (FrameObserver* const observer : parts_.observers) {
+                observer->on_sample(sample, result_.frames);
+            }
+        }
+    }
+
+    void render(const gaze::PerEye<render::EyeTarget>& images, latency::FrameRecord& record) {
+        if (!result_.last) {
+            result_.last.emplace();
+        }
+        render::FrameRequest& request = *result_.last;
+        request.index = record.index;
+        request.scene_time_s = planned_.scene_time_s;
+        request.views = planned_.views;
+        for (const gaze::Eye eye : gaze::kEyes) {
+            request.foveae[gaze::index(eye)] = record.fovea.eyes[gaze::index(eye)].position;
+        }
+        request.targets = images;
+        record.samples = parts_.renderer.render(request);
+        record.stamps.submit = timeline_->now();
+    }
+
+    /// Frames overlap on the GPU only while it keeps up with the display: behind a backlog the gaze
+    /// would age by whole frames between latch and display.
+    void wait_for_gpu() {
+        if (last_gpu_ns_ > planned_.period_ns) {
+            parts_.renderer.wait_for_slot(1);
+        } else {
+            parts_.renderer.wait_for_slot();
+        }
+    }
+
+    void report_finished_frames() {
+        while (auto finished = parts_.renderer.next_finished()) {
+            if (finished->gpu_begin.known() && finished->gpu_end.known()) {
+                last_gpu_ns_ = finished->gpu_end.ns - finished->gpu_begin.ns;
+            }
+            timeline_->settle(*finished);
+            for (FrameObserver* const observer : parts_.observers) {
+                observer->on_gpu(*finished);
+            }
+        }
+    }
+
+    void report_gaze_changes(const gaze::FrameFovea& fovea) {
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const gaze::FoveaPoint& point = fovea.eyes[gaze::index(eye)];
+            Seen& seen = seen_[gaze::index(eye)];
+            if (seen.state == point.state && seen.reason == point.reason) {
+                continue;
+            }
+            seen = {point.state, point.reason};
+            std::array<char, 96> text{};
+            const auto end = fmt::format_to_n(
+                text.data(), text.size(), "{} eye: {} ({})", gaze::kEyeNames[gaze::index(eye)],
+                gaze::kFoveaStateNames[static_cast<std::size_t>(point.state)],
+                gaze::kLossReasonNames[static_cast<std::size_t>(point.reason)]);
+            report_event(fovea.latched, "gaze", {text.data(), end.size});
+        }
+    }
+
+    void report_target_events() {
+        for (const std::string& text : parts_.target.take_events()) {
+            report_event(timeline_ != nullptr ? timeline_->now() : latency::Stamp{}, "session",
+                         text);
+        }
+    }
+
+    void report_event(latency::Stamp time, std::string_view kind, std::string_view text) {
+        for (FrameObserver* const observer : parts_.observers) {
+            observer->on_event(time, kind, text);
+        }
+    }
+
+    struct Seen {
+        gaze::FoveaState state = gaze::FoveaState::Centre;
+        gaze::LossReason reason = gaze::LossReason::Never;
+    };
+
+    const LoopParts& parts_;
+    const LoopOptions& options_;
+    std::unique_ptr<FrameTimeline> timeline_;
+    std::unique_ptr<drivers::GazeSource> source_;
+    std::int64_t start_ns_ = 0;
+    std::int64_t last_gpu_ns_ = 0;
+    bool head_fixed_ = false;
+    bool ending_ = false;
+    present::TargetFrame target_frame_;
+    PlannedFrame planned_;
+    std::vector<gaze::GazeSample> samples_;
+    gaze::PerEye<Seen> seen_;
+    LoopResult result_{.end = LoopEnd::TargetEnd, .frames = 0, .last = std::nullopt};
+};
+
+}  // namespace
+
+LoopResult run_frame_loop(const LoopParts& parts, const LoopOptions& options) {
+    return FrameLoop(parts, options).run();
+}
+
+}  // namespace gazeloop

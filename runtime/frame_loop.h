@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "drivers/gaze_source.h"
+#include "runtime/frame_observer.h"
+#include "runtime/frame_timeline.h"
+#include "runtime/gaze/gaze_to_fovea.h"
+#include "runtime/present/frame_target.h"
+#include "runtime/render/frame_renderer.h"
+
+namespace gazeloop {
+
+/// Why a loop ended.
+enum class LoopEnd {
+    Limit,        ///< the asked number of frames or seconds
+    SourceEnd,    ///< the trace or the recorded session is over
+    Interrupted,  ///< stop() said so
+    TargetEnd,    ///< the runtime wanted it
+};
+
+struct LoopOptions {
+    std::optional<std::uint64_t> frames;
+    std::optional<double> seconds;  ///< of the time line, from its start
+    bool end_with_source = false;
+    std::function<bool()> stop;  ///< asked once a frame
+};
+
+struct LoopResult {
+    LoopEnd end = LoopEnd::Limit;
+    std::uint64_t frames = 0;
+    std::optional<render::FrameRequest> last;  ///< the last frame that was rendered
+};
+
+/// The parts of a running loop. Time line and source are made at the first frame that the target
+/// asks for, so that no recorded gaze is lost to set-up.
+struct LoopParts {
+    present::FrameTarget& target;
+    render::FrameRenderer& renderer;
+    gaze::GazeToFovea& gaze;
+    std::function<std::unique_ptr<FrameTimeline>()> make_timeline;
+    std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)> make_source;
+    std::vector<FrameObserver*> observers;
+};
+
+/// The gaze-contingent frame loop: wait, begin, locate, wait for the GPU, read the gaze as late as
+/// possible, render for it, end. Throws SetupError (SessionLost) when the target is lost; the
+/// observers then have everything up to that frame.
+LoopResult run_frame_loop(const LoopParts& parts, const LoopOptions& options);
+
+}  // namespace gazeloop

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string_view>
+
+#include "runtime/gaze/gaze_sample.h"
+#include "runtime/latency/frame_record.h"
+
+namespace gazeloop {
+
+/// Is told what the loop does, on the loop's thread: must not block and, in steady state, not
+/// allocate.
+class FrameObserver {
+  public:
+    FrameObserver() = default;
+    FrameObserver(const FrameObserver&) = delete;
+    FrameObserver& operator=(const FrameObserver&) = delete;
+    virtual ~FrameObserver() = default;
+
+    /// A gaze sample that the frame has consumed, head pose filled in where it is known.
+    virtual void on_sample(const gaze::GazeSample&, std::uint64_t /*frame*/) {}
+    /// A frame that was handed to the target.
+    virtual void on_frame(const latency::FrameRecord&) {}
+    /// The GPU has finished a frame.
+    virtual void on_gpu(const latency::FrameGpuRecord&) {}
+    /// `kind` is one word: session, gaze, loop.
+    virtual void on_event(latency::Stamp, std::string_view /*kind*/, std::string_view /*text*/) {}
+};
+
+}  // namespace gazeloop

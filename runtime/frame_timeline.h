@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/gaze/head_track.h"
+#include "runtime/latency/frame_record.h"
+#include "runtime/present/frame_target.h"
+
+namespace gazeloop {
+
+/// What a frame is rendered for.
+struct PlannedFrame {
+    latency::Stamp display;
+    std::int64_t period_ns = 0;
+    bool should_render = true;
+    double scene_time_s = 0.0;
+    gaze::Pose head;         ///< in world
+    gaze::StereoView views;  ///< in world
+};
+
+/// Who says what time it is: the clock on the wall, a model of it, or a recording. The loop asks
+/// here for every time, display time and view, so that it runs the same in all three.
+class FrameTimeline {
+  public:
+    FrameTimeline() = default;
+    FrameTimeline(const FrameTimeline&) = delete;
+    FrameTimeline& operator=(const FrameTimeline&) = delete;
+    virtual ~FrameTimeline() = default;
+
+    /// The time now. Called at each of the frame's points in the order of FrameStamps.
+    virtual latency::Stamp now() = 0;
+
+    /// The frame's time line begins; from here to the next call now() refers to it.
+    virtual void begin(std::uint64_t /*frame*/) {}
+
+    /// What to render, given what the target announced. `head` is the gaze source's head motion, or
+    /// null.
+    virtual void plan(const present::TargetFrame& target, const gaze::HeadTrack* head,
+                      PlannedFrame& frame) = 0;
+
+    /// When the gaze is read: the time now, unless it was decided before.
+    virtual latency::Stamp latch() { return now(); }
+
+    /// Puts a frame's points into this time line (the loop has filled them in from now()).
+    virtual void settle(latency::FrameRecord&) {}
+    virtual void settle(latency::FrameGpuRecord&) {}
+
+    /// Whether a sample without a head pose is to get it from the target.
+    [[nodiscard]] virtual bool asks_target_for_head() const { return false; }
+
+    /// Whether the frame lies past the end of the recording.
+    [[nodiscard]] virtual bool over(std::uint64_t /*frame*/) const { return false; }
+};
+
+/// Wall clock; the target's announcements stand. Where the gaze source recorded the head, that head
+/// looks around: the world moves about the target's head so that the views are the recorded ones.
+class LiveTimeline final : public FrameTimeline {
+  public:
+    explicit LiveTimeline(std::int64_t start_ns) : start_ns_(start_ns) {}
+
+    latency::Stamp now() override;
+    void plan(const present::TargetFrame& target, const gaze::HeadTrack* head,
+              PlannedFrame& frame) override;
+    [[nodiscard]] bool asks_target_for_head() const override { return true; }
+
+  private:
+    std::int64_t start_ns_;
+};
+
+/// Virtual time: frame k wakes, latches and submits at k periods, is on the GPU for the modelled
+/// duration and is displayed a period later. Nothing that is measured enters, so that the same
+/// trace gives the same frames on every machine; a target is only a sink.
+class VirtualTimeline final : public FrameTimeline {
+  public:
+    struct Model {
+        std::int64_t period_ns;
+        std::int64_t gpu_ns;
+        gaze::StereoView views;  ///< with the head at the origin
+    };
+    explicit VirtualTimeline(const Model& model) : model_(model) {}
+
+    latency::Stamp now() override;
+    void begin(std::uint64_t frame) override { frame_ = frame; }
+    void plan(const present::TargetFrame& target, const gaze::HeadTrack* head,
+              PlannedFrame& frame) override;
+    void settle(latency::FrameRecord& record) override;
+    void settle(latency::FrameGpuRecord& record) override;
+
+  private:
+    Model model_;
+    std::uint64_t frame_ = 0;
+};
+
+/// A recorded session's frames: their views, display and latch times are used again.
+class RecordedTimeline final : public FrameTimeline {
+  public:
+    struct Frame {
+        latency::FrameRecord frame;
+        latency::FrameGpuRecord gpu;
+    };
+    /// Precondition: frames by index, none missing.
+    explicit RecordedTimeline(std::vector<Frame> frames) : frames_(std::move(frames)) {}
+
+    latency::Stamp now() override;
+    void begin(std::uint64_t frame) override { frame_ = frame; }
+    void plan(const present::TargetFrame& target, const gaze::HeadTrack* head,
+              PlannedFrame& frame) override;
+    latency::Stamp latch() override;
+    void settle(latency::FrameRecord& record) override;
+    void settle(latency::FrameGpuRecord& record) override;
+    [[nodiscard]] bool over(std::uint64_t frame) const override { return frame >= frames_.size(); }
+
+  private:
+    std::vector<Frame> frames_;
+    std::uint64_t frame_ = 0;
+};
+
+}  // namespace gazeloop

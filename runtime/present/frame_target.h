@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+#include <vulkan/vulkan_raii.hpp>
+
+#include "runtime/gaze/view.h"
+#include "runtime/latency/stamp.h"
+#include "runtime/render/frame_renderer.h"
+#include "runtime/render/vulkan_context.h"
+
+namespace gazeloop::present {
+
+/// What the target knows of the frame that is about to begin.
+struct TargetFrame {
+    latency::Stamp display;      ///< announced middle of the display's emission, host time
+    std::int64_t period_ns = 0;  ///< of the display
+    bool should_render = true;   ///< false: begin and end it, but draw nothing
+    gaze::Pose head;             ///< in world, at the display time
+    gaze::StereoView views;      ///< in world, at the display time
+};
+
+/// Whether the target wants frames.
+enum class TargetState {
+    Running,  ///< go on with wait_frame
+    Idle,     ///< not now; poll again
+    Ended,    ///< never again
+};
+
+/// Where pictures go: an OpenXR runtime, or nowhere. The loop calls, per frame, in this order:
+/// poll, wait_frame, begin_frame, locate, acquire (if should_render), end_frame.
+class FrameTarget {
+  public:
+    FrameTarget() = default;
+    FrameTarget(const FrameTarget&) = delete;
+    FrameTarget& operator=(const FrameTarget&) = delete;
+    virtual ~FrameTarget() = default;
+
+    /// Who must create the Vulkan objects; null: nobody cares.
+    virtual render::VulkanFactory* vulkan_factory() = 0;
+
+    /// Makes swapchains or images for the context, once, before anything below.
+    /// Throws SetupError.
+    virtual void start(const render::VulkanContext& context) = 0;
+
+    [[nodiscard]] virtual gaze::PerEye<vk::Extent2D> extents() const = 0;
+    [[nodiscard]] virtual vk::Format format() const = 0;
+    [[nodiscard]] virtual std::int64_t nominal_period_ns() const = 0;
+
+    /// Handles what the target has to say; waits a few milliseconds while it is idle.
+    /// Throws SetupError (SessionLost) when it is lost.
+    virtual TargetState poll() = 0;
+
+    /// Blocks until it is time for the next frame.
+    virtual void wait_frame(TargetFrame& frame) = 0;
+    virtual void begin_frame() = 0;
+    /// Fills in head and views at the frame's display time.
+    virtual void locate(TargetFrame& frame) = 0;
+    virtual gaze::PerEye<render::EyeTarget> acquire() = 0;
+    /// Hands over the pictures, if any were acquired, as seen from the frame's views.
+    virtual void end_frame(const TargetFrame& frame, bool rendered) = 0;
+
+    /// The head pose in world at a past host time, where the target knows it.
+    virtual std::optional<gaze::Pose> head_at(std::int64_t time_ns) = 0;
+
+    /// Asks the target to end; frames go on until poll() says Ended.
+    virtual void request_exit() = 0;
+
+    /// Name and value pairs for log and session: runtime, its version, system, format ...
+    [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> properties() const = 0;
+
+    /// What happened since the last call, one line each ("session state: FOCUSED").
+    virtual std::vector<std::string> take_events() = 0;
+};
+
+}  // namespace gazeloop::present

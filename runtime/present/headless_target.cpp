@@ -1,0 +1,66 @@
+#include "runtime/present/headless_target.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "runtime/latency/clock.h"
+
+namespace gazeloop::present {
+
+HeadlessTarget::HeadlessTarget(const Options& options) : options_(options) {}
+
+void HeadlessTarget::start(const render::VulkanContext& context) {
+    for (const gaze::Eye eye : gaze::kEyes) {
+        images_[gaze::index(eye)] = render::ColorImage(
+            context, options_.extents[gaze::index(eye)], options_.format,
+            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
+    }
+    first_emission_ns_ = latency::monotonic_ns();
+}
+
+gaze::PerEye<vk::Extent2D> HeadlessTarget::extents() const { return options_.extents; }
+vk::Format HeadlessTarget::format() const { return options_.format; }
+std::int64_t HeadlessTarget::nominal_period_ns() const { return options_.display.period_ns(); }
+
+void HeadlessTarget::wait_frame(TargetFrame& frame) {
+    const std::int64_t period = options_.display.period_ns();
+    frame.period_ns = period;
+    if (options_.paced) {
+        // The emission after the last announced one, or if that is too close, the first one that
+        // leaves a period for the work; the loop wakes a period before it.
+        const std::int64_t since = latency::monotonic_ns() - first_emission_ns_;
+        const std::int64_t first_in_time = (since + period - 1) / period + 1;
+        next_emission_ = std::max(next_emission_ + 1, first_in_time);
+        latency::sleep_until_ns(first_emission_ns_ + (next_emission_ - 1) * period);
+    } else {
+        ++next_emission_;
+    }
+    frame.display = {first_emission_ns_ + next_emission_ * period, latency::StampKind::Predicted};
+    frame.should_render = true;
+}
+
+void HeadlessTarget::locate(TargetFrame& frame) {
+    frame.head = {};
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const std::size_t e = gaze::index(eye);
+        const double side = eye == gaze::Eye::Left ? -0.5 : 0.5;
+        frame.views[e] = {.pose = {.position_m = {side * options_.display.ipd_m, 0.0, 0.0}},
+                          .fov = options_.display.fov[e],
+                          .width_px = options_.extents[e].width,
+                          .height_px = options_.extents[e].height};
+    }
+}
+
+gaze::PerEye<render::EyeTarget> HeadlessTarget::acquire() {
+    return {render::EyeTarget{images_[0].image(), images_[0].view()},
+            render::EyeTarget{images_[1].image(), images_[1].view()}};
+}
+
+std::vector<std::pair<std::string, std::string>> HeadlessTarget::properties() const {
+    return {{"target", "headless"},
+            {"display", options_.display.name},
+            {"target format", vk::to_string(options_.format)}};
+}
+
+}  // namespace gazeloop::present

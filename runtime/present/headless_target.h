@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+
+#include "runtime/present/display_profile.h"
+#include "runtime/present/frame_target.h"
+
+namespace gazeloop::present {
+
+/// Pictures into images that nobody sees, at the rate of a display that is not there. Its
+/// "emissions" lie at multiples of the profile's period from start(); a frame is announced for the
+/// first one that is at least a period ahead. Without pacing (virtual time, benchmarks) it never
+/// waits and announces one emission after the other.
+class HeadlessTarget final : public FrameTarget {
+  public:
+    struct Options {
+        DisplayProfile display;
+        gaze::PerEye<vk::Extent2D> extents;
+        vk::Format format = vk::Format::eR8G8B8A8Srgb;
+        bool paced = true;
+    };
+    explicit HeadlessTarget(const Options& options);
+
+    render::VulkanFactory* vulkan_factory() override { return nullptr; }
+    void start(const render::VulkanContext& context) override;
+    [[nodiscard]] gaze::PerEye<vk::Extent2D> extents() const override;
+    [[nodiscard]] vk::Format format() const override;
+    [[nodiscard]] std::int64_t nominal_period_ns() const override;
+    TargetState poll() override {
+        return exit_requested_ ? TargetState::Ended : TargetState::Running;
+    }
+    void wait_frame(TargetFrame& frame) override;
+    void begin_frame() override {}
+    void locate(TargetFrame& frame) override;
+    gaze::PerEye<render::EyeTarget> acquire() override;
+    void end_frame(const TargetFrame&, bool) override {}
+    std::optional<gaze::Pose> head_at(std::int64_t) override { return gaze::Pose{}; }
+    void request_exit() override { exit_requested_ = true; }
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> properties() const override;
+    std::vector<std::string> take_events() override { return {}; }
+
+  private:
+    Options options_;
+    gaze::PerEye<render::ColorImage> images_;
+    std::int64_t first_emission_ns_ = 0;
+    std::int64_t next_emission_ = 0;
+    bool exit_requested_ = false;
+};
+
+}  // namespace gazeloop::present

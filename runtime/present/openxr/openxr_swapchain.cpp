@@ -1,0 +1,78 @@
+#include "runtime/present/openxr/openxr_swapchain.h"
+
+#include <utility>
+
+#include "runtime/error.h"
+#include "runtime/render/gpu_memory.h"
+
+namespace gazeloop::present {
+
+OpenXrSwapchain::OpenXrSwapchain(const render::VulkanContext& context, XrSession session,
+                                 vk::Extent2D extent, vk::Format format)
+    : extent_(extent) {
+    auto info = typed<XrSwapchainCreateInfo>(XR_TYPE_SWAPCHAIN_CREATE_INFO);
+    info.usageFlags = XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_TRANSFER_SRC_BIT;
+    info.format = static_cast<std::int64_t>(format);
+    info.sampleCount = 1;
+    info.width = extent.width;
+    info.height = extent.height;
+    info.faceCount = 1;
+    info.arraySize = 1;
+    info.mipCount = 1;
+    xr_check(xrCreateSwapchain(session, &info, &swapchain_), "xrCreateSwapchain");
+    std::uint32_t count = 0;
+    xr_check(xrEnumerateSwapchainImages(swapchain_, 0, &count, nullptr),
+             "xrEnumerateSwapchainImages");
+    std::vector<XrSwapchainImageVulkan2KHR> images(
+        count, typed<XrSwapchainImageVulkan2KHR>(XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR));
+    xr_check(
+        xrEnumerateSwapchainImages(swapchain_, count, &count,
+                                   reinterpret_cast<XrSwapchainImageBaseHeader*>(images.data())),
+        "xrEnumerateSwapchainImages");
+    for (const XrSwapchainImageVulkan2KHR& image : images) {
+        images_.emplace_back(image.image);
+        views_.push_back(render::make_color_view(context, image.image, format));
+    }
+}
+
+OpenXrSwapchain::OpenXrSwapchain(OpenXrSwapchain&& other) noexcept
+    : swapchain_(std::exchange(other.swapchain_, XR_NULL_HANDLE)),
+      extent_(other.extent_),
+      images_(std::move(other.images_)),
+      views_(std::move(other.views_)) {}
+
+OpenXrSwapchain::~OpenXrSwapchain() {
+    views_.clear();
+    if (swapchain_ != XR_NULL_HANDLE) {
+        xrDestroySwapchain(swapchain_);
+    }
+}
+
+render::EyeTarget OpenXrSwapchain::acquire() {
+    std::uint32_t index = 0;
+    const auto acquire = typed<XrSwapchainImageAcquireInfo>(XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO);
+    xr_check(xrAcquireSwapchainImage(swapchain_, &acquire, &index), "xrAcquireSwapchainImage");
+    auto wait = typed<XrSwapchainImageWaitInfo>(XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
+    constexpr XrDuration kPatienceNs = 5'000'000'000;
+    wait.timeout = kPatienceNs;
+    if (xr_check(xrWaitSwapchainImage(swapchain_, &wait), "xrWaitSwapchainImage") ==
+        XR_TIMEOUT_EXPIRED) {
+        throw SetupError(ExitCode::SessionLost,
+                         "OpenXR: the runtime kept a swapchain image for 5 s: it hangs");
+    }
+    return {images_[index], *views_[index]};
+}
+
+void OpenXrSwapchain::release() {
+    const auto release = typed<XrSwapchainImageReleaseInfo>(XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO);
+    xr_check(xrReleaseSwapchainImage(swapchain_, &release), "xrReleaseSwapchainImage");
+}
+
+XrSwapchainSubImage OpenXrSwapchain::sub_image() const {
+    return {swapchain_,
+            {{0, 0},
+             {static_cast<std::int32_t>(extent_.width), static_cast<std::int32_t>(extent_.height)}},
+            0};
+}
+
+}  // namespace gazeloop::present

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/present/openxr/xr_check.h"
+#include "runtime/render/frame_renderer.h"
+
+namespace gazeloop::present {
+
+/// One eye's swapchain with views of its images.
+class OpenXrSwapchain {
+  public:
+    OpenXrSwapchain(const render::VulkanContext& context, XrSession session, vk::Extent2D extent,
+                    vk::Format format);
+    OpenXrSwapchain(OpenXrSwapchain&& other) noexcept;
+    OpenXrSwapchain& operator=(OpenXrSwapchain&&) = delete;
+    OpenXrSwapchain(const OpenXrSwapchain&) = delete;
+    OpenXrSwapchain& operator=(const OpenXrSwapchain&) = delete;
+    ~OpenXrSwapchain();
+
+    /// Acquires the next image and waits until the compositor has let go of it.
+    render::EyeTarget acquire();
+    void release();
+
+    [[nodiscard]] XrSwapchainSubImage sub_image() const;
+
+  private:
+    XrSwapchain swapchain_ = XR_NULL_HANDLE;
+    vk::Extent2D extent_;
+    std::vector<vk::Image> images_;
+    std::vector<vk::raii::ImageView> views_;
+};
+
+}  // namespace gazeloop::present

@@ -1,0 +1,498 @@
+#include "runtime/present/openxr/openxr_target.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <thread>
+
+#include "runtime/error.h"
+#include "runtime/present/openxr/openxr_swapchain.h"
+#include "runtime/present/openxr/runtime_choice.h"
+#include "runtime/present/openxr/xr_check.h"
+
+namespace gazeloop::present {
+namespace {
+
+constexpr XrViewConfigurationType kStereo = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+constexpr const char* kCoreValidationLayer = "XR_APILAYER_LUNARG_core_validation";
+constexpr auto kIdleWait = std::chrono::milliseconds(5);
+
+std::string_view state_name(XrSessionState state) {
+    constexpr std::array<std::string_view, 9> kNames{"UNKNOWN",      "IDLE",         "READY",
+                                                     "SYNCHRONIZED", "VISIBLE",      "FOCUSED",
+                                                     "STOPPING",     "LOSS_PENDING", "EXITING"};
+    const auto index = static_cast<std::size_t>(state);
+    return index < kNames.size() ? kNames[index] : "?";
+}
+
+template <typename T, typename Enumerate>
+std::vector<T> enumerate(const T& blank, const char* what, Enumerate&& call) {
+    std::uint32_t count = 0;
+    xr_check(call(0, &count, nullptr), what);
+    std::vector<T> items(count, blank);
+    if (count > 0) {
+        xr_check(call(count, &count, items.data()), what);
+    }
+    items.resize(count);
+    return items;
+}
+
+/// Instance and system; also the factory of the Vulkan objects the runtime asks for.
+class OpenXrInstance final : public render::VulkanFactory {
+  public:
+    OpenXrInstance(const RuntimeChoice& choice, bool validation) {
+        const std::array required{XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME,
+                                  XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME};
+        const auto offered = enumerate(
+            typed<XrExtensionProperties>(XR_TYPE_EXTENSION_PROPERTIES),
+            "the OpenXR runtime could not be loaded; check XR_RUNTIME_JSON, run ./dev setup to "
+            "build Monado, or use --target headless",
+            [](auto... a) { return xrEnumerateInstanceExtensionProperties(nullptr, a...); });
+        for (const char* name : required) {
+            if (std::ranges::none_of(offered, [&](const XrExtensionProperties& extension) {
+                    return std::strcmp(extension.extensionName, name) == 0;
+                })) {
+                throw SetupError(ExitCode::NoDevice,
+                                 fmt::format("the OpenXR runtime {} lacks {}: use another runtime "
+                                             "(XR_RUNTIME_JSON) or --target headless",
+                                             choice.manifest, name));
+            }
+        }
+        auto info = typed<XrInstanceCreateInfo>(XR_TYPE_INSTANCE_CREATE_INFO);
+        std::strcpy(info.applicationInfo.applicationName, "gazeloop");
+        std::strcpy(info.applicationInfo.engineName, "gazeloop");
+        info.applicationInfo.applicationVersion = 1;
+        info.applicationInfo.engineVersion = 1;
+        info.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
+        info.enabledExtensionCount = static_cast<std::uint32_t>(required.size());
+        info.enabledExtensionNames = required.data();
+        if (validation) {
+            info.enabledApiLayerCount = 1;
+            info.enabledApiLayerNames = &kCoreValidationLayer;
+        }
+        const XrResult created = xrCreateInstance(&info, &instance_);
+        if (created == XR_ERROR_API_LAYER_NOT_PRESENT) {
+            throw SetupError(ExitCode::NoDevice,
+                             "openxr.validation is on, but its layer is not installed (Debian: "
+                             "openxr-layer-corevalidation)");
+        }
+        xr_check(created, fmt::format("the runtime {} did not start; is its service running? Run "
+                                      "./dev setup to build an in-process Monado, or use --target "
+                                      "headless",
+                                      choice.manifest));
+        auto properties = typed<XrInstanceProperties>(XR_TYPE_INSTANCE_PROPERTIES);
+        xr_check(xrGetInstanceProperties(instance_, &properties), "xrGetInstanceProperties");
+        runtime_name_ = fmt::format("{} {}.{}.{}", properties.runtimeName,
+                                    XR_VERSION_MAJOR(properties.runtimeVersion),
+                                    XR_VERSION_MINOR(properties.runtimeVersion),
+                                    XR_VERSION_PATCH(properties.runtimeVersion));
+        auto system = typed<XrSystemGetInfo>(XR_TYPE_SYSTEM_GET_INFO);
+        system.formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY;
+        xr_check(xrGetSystem(instance_, &system, &system_),
+                 fmt::format("{} has no head-mounted display now; connect one, or use --target "
+                             "headless",
+                             runtime_name_));
+        auto system_properties = typed<XrSystemProperties>(XR_TYPE_SYSTEM_PROPERTIES);
+        xr_check(xrGetSystemProperties(instance_, system_, &system_properties),
+                 "xrGetSystemProperties");
+        system_name_ = system_properties.systemName;
+    }
+    ~OpenXrInstance() override {
+        if (instance_ != XR_NULL_HANDLE) {
+            xrDestroyInstance(instance_);
+        }
+    }
+
+    VkInstance create_instance(PFN_vkGetInstanceProcAddr get_proc,
+                               const VkInstanceCreateInfo& info) override {
+        auto requirements =
+            typed<XrGraphicsRequirementsVulkan2KHR>(XR_TYPE_GRAPHICS_REQUIREMENTS_VULKAN2_KHR);
+        xr_check(xr_function<PFN_xrGetVulkanGraphicsRequirements2KHR>(
+                     instance_, "xrGetVulkanGraphicsRequirements2KHR")(instance_, system_,
+                                                                       &requirements),
+                 "xrGetVulkanGraphicsRequirements2KHR");
+        auto create = typed<XrVulkanInstanceCreateInfoKHR>(XR_TYPE_VULKAN_INSTANCE_CREATE_INFO_KHR);
+        create.systemId = system_;
+        create.pfnGetInstanceProcAddr = get_proc;
+        create.vulkanCreateInfo = &info;
+        VkInstance instance = VK_NULL_HANDLE;
+        VkResult vulkan = VK_SUCCESS;
+        xr_check(xr_function<PFN_xrCreateVulkanInstanceKHR>(instance_, "xrCreateVulkanInstanceKHR")(
+                     instance_, &create, &instance, &vulkan),
+                 "xrCreateVulkanInstanceKHR");
+        check_vulkan(vulkan, "a Vulkan instance");
+        return instance;
+    }
+    VkPhysicalDevice choose_physical_device(VkInstance instance) override {
+        auto get =
+            typed<XrVulkanGraphicsDeviceGetInfoKHR>(XR_TYPE_VULKAN_GRAPHICS_DEVICE_GET_INFO_KHR);
+        get.systemId = system_;
+        get.vulkanInstance = instance;
+        VkPhysicalDevice device = VK_NULL_HANDLE;
+        xr_check(xr_function<PFN_xrGetVulkanGraphicsDevice2KHR>(
+                     instance_, "xrGetVulkanGraphicsDevice2KHR")(instance_, &get, &device),
+                 "xrGetVulkanGraphicsDevice2KHR");
+        return device;
+    }
+    VkDevice create_device(PFN_vkGetInstanceProcAddr get_proc, VkPhysicalDevice physical,
+                           const VkDeviceCreateInfo& info) override {
+        auto create = typed<XrVulkanDeviceCreateInfoKHR>(XR_TYPE_VULKAN_DEVICE_CREATE_INFO_KHR);
+        create.systemId = system_;
+        create.pfnGetInstanceProcAddr = get_proc;
+        create.vulkanPhysicalDevice = physical;
+        create.vulkanCreateInfo = &info;
+        VkDevice device = VK_NULL_HANDLE;
+        VkResult vulkan = VK_SUCCESS;
+        xr_check(xr_function<PFN_xrCreateVulkanDeviceKHR>(instance_, "xrCreateVulkanDeviceKHR")(
+                     instance_, &create, &device, &vulkan),
+                 "xrCreateVulkanDeviceKHR");
+        check_vulkan(vulkan, "a Vulkan device");
+        return device;
+    }
+
+    [[nodiscard]] XrInstance handle() const { return instance_; }
+    [[nodiscard]] XrSystemId system() const { return system_; }
+    [[nodiscard]] const std::string& runtime_name() const { return runtime_name_; }
+    [[nodiscard]] const std::string& system_name() const { return system_name_; }
+
+  private:
+    void check_vulkan(VkResult result, std::string_view what) const {
+        if (result != VK_SUCCESS) {
+            throw SetupError(ExitCode::NoDevice,
+                             fmt::format("{} could not create {} ({}): install a Vulkan 1.3 driver "
+                                         "(Debian: mesa-vulkan-drivers); VK_ICD_FILENAMES, if set, "
+                                         "must name an existing one",
+                                         runtime_name_, what, vk::to_string(vk::Result{result})));
+        }
+    }
+
+    XrInstance instance_ = XR_NULL_HANDLE;
+    XrSystemId system_ = XR_NULL_SYSTEM_ID;
+    std::string runtime_name_;
+    std::string system_name_;
+};
+
+class OpenXrTarget final : public FrameTarget {
+  public:
+    explicit OpenXrTarget(const OpenXrOptions& options)
+        : options_(options),
+          choice_(choose_runtime(options.display)),
+          instance_(choice_, options.validation) {
+        spdlog::info("OpenXR runtime: {} ({}: {})", instance_.runtime_name(), choice_.reason,
+                     choice_.manifest);
+        to_timespec_ = xr_function<PFN_xrConvertTimeToTimespecTimeKHR>(
+            instance_.handle(), "xrConvertTimeToTimespecTimeKHR");
+        from_timespec_ = xr_function<PFN_xrConvertTimespecTimeToTimeKHR>(
+            instance_.handle(), "xrConvertTimespecTimeToTimeKHR");
+        const auto sizes =
+            enumerate(typed<XrViewConfigurationView>(XR_TYPE_VIEW_CONFIGURATION_VIEW),
+                      "xrEnumerateViewConfigurationViews", [&](auto... a) {
+                          return xrEnumerateViewConfigurationViews(
+                              instance_.handle(), instance_.system(), kStereo, a...);
+                      });
+        if (sizes.size() != gaze::kEyeCount) {
+            throw SetupError(ExitCode::NoDevice,
+                             fmt::format("{} offers {} views for stereo, 2 are needed",
+                                         instance_.runtime_name(), sizes.size()));
+        }
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const XrViewConfigurationView& size = sizes[gaze::index(eye)];
+            const auto scaled = [&](std::uint32_t side, std::uint32_t most) {
+                return std::clamp(static_cast<std::uint32_t>(std::lround(side * options.scale)), 2U,
+                                  most);
+            };
+            extents_[gaze::index(eye)] =
+                vk::Extent2D(scaled(size.recommendedImageRectWidth, size.maxImageRectWidth),
+                             scaled(size.recommendedImageRectHeight, size.maxImageRectHeight));
+        }
+    }
+
+    ~OpenXrTarget() override {
+        swapchains_.clear();
+        for (const XrSpace space : {view_space_, local_space_}) {
+            if (space != XR_NULL_HANDLE) {
+                xrDestroySpace(space);
+            }
+        }
+        if (session_ != XR_NULL_HANDLE) {
+            xrDestroySession(session_);
+        }
+    }
+
+    render::VulkanFactory* vulkan_factory() override { return &instance_; }
+
+    void start(const render::VulkanContext& context) override {
+        auto binding = typed<XrGraphicsBindingVulkan2KHR>(XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR);
+        binding.instance = *context.instance();
+        binding.physicalDevice = *context.physical();
+        binding.device = *context.device();
+        binding.queueFamilyIndex = context.queue_family();
+        binding.queueIndex = 0;
+        auto info = typed<XrSessionCreateInfo>(XR_TYPE_SESSION_CREATE_INFO);
+        info.next = &binding;
+        info.systemId = instance_.system();
+        xr_check(xrCreateSession(instance_.handle(), &info, &session_), "xrCreateSession");
+        local_space_ = make_space(XR_REFERENCE_SPACE_TYPE_LOCAL);
+        view_space_ = make_space(XR_REFERENCE_SPACE_TYPE_VIEW);
+        choose_format();
+        for (const gaze::Eye eye : gaze::kEyes) {
+            swapchains_.emplace_back(context, session_, extents_[gaze::index(eye)], format_);
+        }
+    }
+
+    [[nodiscard]] gaze::PerEye<vk::Extent2D> extents() const override { return extents_; }
+    [[nodiscard]] vk::Format format() const override { return format_; }
+    [[nodiscard]] std::int64_t nominal_period_ns() const override {
+        return options_.display.period_ns();
+    }
+
+    TargetState poll() override {
+        auto event = typed<XrEventDataBuffer>(XR_TYPE_EVENT_DATA_BUFFER);
+        while (xr_check(xrPollEvent(instance_.handle(), &event), "xrPollEvent") == XR_SUCCESS) {
+            handle(event);
+            event = typed<XrEventDataBuffer>(XR_TYPE_EVENT_DATA_BUFFER);
+        }
+        if (ended_) {
+            return TargetState::Ended;
+        }
+        if (!session_running_) {
+            if (exit_requested_ && !was_running_) {
+                return TargetState::Ended;  // the runtime never let us begin
+            }
+            std::this_thread::sleep_for(kIdleWait);
+            return TargetState::Idle;
+        }
+        return TargetState::Running;
+    }
+
+    void wait_frame(TargetFrame& frame) override {
+        const auto wait = typed<XrFrameWaitInfo>(XR_TYPE_FRAME_WAIT_INFO);
+        auto state = typed<XrFrameState>(XR_TYPE_FRAME_STATE);
+        xr_check(xrWaitFrame(session_, &wait, &state), "xrWaitFrame");
+        display_time_ = state.predictedDisplayTime;
+        frame.display = {to_host_ns(state.predictedDisplayTime), latency::StampKind::Predicted};
+        frame.period_ns = state.predictedDisplayPeriod;
+        frame.should_render = state.shouldRender == XR_TRUE;
+    }
+
+    void begin_frame() override {
+        const auto begin = typed<XrFrameBeginInfo>(XR_TYPE_FRAME_BEGIN_INFO);
+        if (xr_check(xrBeginFrame(session_, &begin), "xrBeginFrame") == XR_FRAME_DISCARDED) {
+            events_.emplace_back("frame discarded by the runtime");
+        }
+    }
+
+    void locate(TargetFrame& frame) override {
+        auto info = typed<XrViewLocateInfo>(XR_TYPE_VIEW_LOCATE_INFO);
+        info.viewConfigurationType = kStereo;
+        info.displayTime = display_time_;
+        info.space = local_space_;
+        auto state = typed<XrViewState>(XR_TYPE_VIEW_STATE);
+        std::array<XrView, gaze::kEyeCount> views{typed<XrView>(XR_TYPE_VIEW),
+                                                  typed<XrView>(XR_TYPE_VIEW)};
+        std::uint32_t count = 0;
+        xr_check(xrLocateViews(session_, &info, &state, views.size(), &count, views.data()),
+                 "xrLocateViews");
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            // While tracking is lost the last known pose stands.
+            if ((state.viewStateFlags & XR_VIEW_STATE_ORIENTATION_VALID_BIT) != 0) {
+                views_[e].pose.orientation = from_xr(views[e].pose).orientation;
+            }
+            if ((state.viewStateFlags & XR_VIEW_STATE_POSITION_VALID_BIT) != 0) {
+                views_[e].pose.position_m = from_xr(views[e].pose).position_m;
+            }
+            const XrFovf& fov = views[e].fov;
+            views_[e].fov = {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown};
+            views_[e].width_px = extents_[e].width;
+            views_[e].height_px = extents_[e].height;
+        }
+        if (const auto head = locate_head(display_time_)) {
+            head_ = *head;
+        }
+        frame.views = views_;
+        frame.head = head_;
+    }
+
+    gaze::PerEye<render::EyeTarget> acquire() override {
+        return {swapchains_[0].acquire(), swapchains_[1].acquire()};
+    }
+
+    void end_frame(const TargetFrame& frame, bool rendered) override {
+        std::array<XrCompositionLayerProjectionView, gaze::kEyeCount> layer_views{};
+        auto layer = typed<XrCompositionLayerProjection>(XR_TYPE_COMPOSITION_LAYER_PROJECTION);
+        const XrCompositionLayerBaseHeader* const layers[] = {
+            reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer)};
+        if (rendered) {
+            for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+                swapchains_[e].release();
+                const gaze::EyeView& view = frame.views[e];
+                layer_views[e].type = XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW;
+                layer_views[e].pose = to_xr(view.pose);
+                layer_views[e].fov = {
+                    static_cast<float>(view.fov.left_rad), static_cast<float>(view.fov.right_rad),
+                    static_cast<float>(view.fov.up_rad), static_cast<float>(view.fov.down_rad)};
+                layer_views[e].subImage = swapchains_[e].sub_image();
+            }
+            layer.space = local_space_;
+            layer.viewCount = static_cast<std::uint32_t>(layer_views.size());
+            layer.views = layer_views.data();
+        }
+        auto end = typed<XrFrameEndInfo>(XR_TYPE_FRAME_END_INFO);
+        end.displayTime = display_time_;
+        end.environmentBlendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+        end.layerCount = rendered ? 1 : 0;
+        end.layers = rendered ? layers : nullptr;
+        xr_check(xrEndFrame(session_, &end), "xrEndFrame");
+    }
+
+    std::optional<gaze::Pose> head_at(std::int64_t time_ns) override {
+        const timespec time{time_ns / 1'000'000'000, time_ns % 1'000'000'000};
+        XrTime xr_time = 0;
+        if (time_ns <= 0 || XR_FAILED(from_timespec_(instance_.handle(), &time, &xr_time)) ||
+            xr_time <= 0) {
+            return std::nullopt;
+        }
+        return locate_head(xr_time);
+    }
+
+    void request_exit() override {
+        if (!exit_requested_ && session_running_) {
+            xr_check(xrRequestExitSession(session_), "xrRequestExitSession");
+        }
+        exit_requested_ = true;
+    }
+
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> properties() const override {
+        return {{"target", "openxr"},
+                {"display", options_.display.name},
+                {"openxr runtime", instance_.runtime_name()},
+                {"openxr system", instance_.system_name()},
+                {"openxr manifest", choice_.manifest},
+                {"openxr runtime chosen by", choice_.reason},
+                {"target format", vk::to_string(format_)}};
+    }
+
+    std::vector<std::string> take_events() override { return std::exchange(events_, {}); }
+
+  private:
+    XrSpace make_space(XrReferenceSpaceType type) {
+        auto info = typed<XrReferenceSpaceCreateInfo>(XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
+        info.referenceSpaceType = type;
+        info.poseInReferenceSpace = to_xr({});
+        XrSpace space = XR_NULL_HANDLE;
+        xr_check(xrCreateReferenceSpace(session_, &info, &space), "xrCreateReferenceSpace");
+        return space;
+    }
+
+    /// Formats that encode sRGB by themselves first; among them the runtime's preference.
+    void choose_format() {
+        const auto formats =
+            enumerate(std::int64_t{0}, "xrEnumerateSwapchainFormats",
+                      [&](auto... a) { return xrEnumerateSwapchainFormats(session_, a...); });
+        for (const auto& wanted :
+             {std::array{vk::Format::eR8G8B8A8Srgb, vk::Format::eB8G8R8A8Srgb},
+              std::array{vk::Format::eR8G8B8A8Unorm, vk::Format::eB8G8R8A8Unorm}}) {
+            for (const std::int64_t format : formats) {
+                if (std::ranges::find(wanted, static_cast<vk::Format>(format)) != wanted.end()) {
+                    format_ = static_cast<vk::Format>(format);
+                    return;
+                }
+            }
+        }
+        throw SetupError(
+            ExitCode::NoDevice,
+            fmt::format("{} offers no 8-bit RGBA swapchain format; use another runtime "
+                        "or --target headless",
+                        instance_.runtime_name()));
+    }
+
+    void handle(const XrEventDataBuffer& event) {
+        if (event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) {
+            throw SetupError(ExitCode::SessionLost,
+                             fmt::format("OpenXR: {} is going away (instance loss pending)",
+                                         instance_.runtime_name()));
+        }
+        if (event.type == XR_TYPE_EVENT_DATA_EVENTS_LOST) {
+            events_.emplace_back("OpenXR events were lost");
+        }
+        if (event.type != XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) {
+            return;
+        }
+        XrEventDataSessionStateChanged changed{};
+        std::memcpy(&changed, &event, sizeof changed);
+        events_.push_back(fmt::format("session state: {}", state_name(changed.state)));
+        switch (changed.state) {
+            case XR_SESSION_STATE_READY: {
+                auto begin = typed<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
+                begin.primaryViewConfigurationType = kStereo;
+                xr_check(xrBeginSession(session_, &begin), "xrBeginSession");
+                session_running_ = true;
+                was_running_ = true;
+                break;
+            }
+            case XR_SESSION_STATE_STOPPING:
+                session_running_ = false;
+                xr_check(xrEndSession(session_), "xrEndSession");
+                break;
+            case XR_SESSION_STATE_EXITING:
+                ended_ = true;
+                break;
+            case XR_SESSION_STATE_LOSS_PENDING:
+                throw SetupError(ExitCode::SessionLost,
+                                 fmt::format("OpenXR: {} ends the session (session loss pending)",
+                                             instance_.runtime_name()));
+            default:
+                break;
+        }
+    }
+
+    std::optional<gaze::Pose> locate_head(XrTime time) const {
+        auto location = typed<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
+        xr_check(xrLocateSpace(view_space_, local_space_, time, &location), "xrLocateSpace");
+        constexpr XrSpaceLocationFlags kNeeded =
+            XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
+        if ((location.locationFlags & kNeeded) != kNeeded) {
+            return std::nullopt;
+        }
+        return from_xr(location.pose);
+    }
+
+    [[nodiscard]] std::int64_t to_host_ns(XrTime time) const {
+        timespec host{};
+        xr_check(to_timespec_(instance_.handle(), time, &host), "xrConvertTimeToTimespecTimeKHR");
+        return std::int64_t{host.tv_sec} * 1'000'000'000 + host.tv_nsec;
+    }
+
+    OpenXrOptions options_;
+    RuntimeChoice choice_;
+    OpenXrInstance instance_;
+    PFN_xrConvertTimeToTimespecTimeKHR to_timespec_ = nullptr;
+    PFN_xrConvertTimespecTimeToTimeKHR from_timespec_ = nullptr;
+    XrSession session_ = XR_NULL_HANDLE;
+    XrSpace local_space_ = XR_NULL_HANDLE;
+    XrSpace view_space_ = XR_NULL_HANDLE;
+    gaze::PerEye<vk::Extent2D> extents_;
+    vk::Format format_ = vk::Format::eUndefined;
+    std::vector<OpenXrSwapchain> swapchains_;
+    XrTime display_time_ = 0;
+    gaze::Pose head_;
+    gaze::StereoView views_;
+    std::vector<std::string> events_;
+    bool session_running_ = false;
+    bool was_running_ = false;
+    bool exit_requested_ = false;
+    bool ended_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameTarget> make_openxr_target(const OpenXrOptions& options) {
+    return std::make_unique<OpenXrTarget>(options);
+}
+
+}  // namespace gazeloop::present

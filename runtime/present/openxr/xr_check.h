@@ -1,0 +1,44 @@
+#pragma once
+
+#define XR_USE_GRAPHICS_API_VULKAN
+#define XR_USE_TIMESPEC
+#include <time.h>
+#include <vulkan/vulkan.h>
+// After what it needs.
+#include <openxr/openxr.h>
+#include <openxr/openxr_platform.h>
+
+#include <string_view>
+
+#include "runtime/gaze/pose.h"
+
+namespace gazeloop::present {
+
+/// Throws SetupError for a failed call: SessionLost when instance, session or runtime went away,
+/// NoDevice otherwise. `what` names the call and, where there is one, the remedy. Success codes
+/// (also XR_SESSION_LOSS_PENDING, XR_FRAME_DISCARDED) pass and are returned.
+XrResult xr_check(XrResult result, std::string_view what);
+
+/// The name of a result, "XR_ERROR_..." .
+std::string_view xr_name(XrResult result);
+
+/// An OpenXR structure of its type, all else zero.
+template <typename Structure>
+Structure typed(XrStructureType type) {
+    Structure structure{};
+    structure.type = type;
+    return structure;
+}
+
+gaze::Pose from_xr(const XrPosef& pose);
+XrPosef to_xr(const gaze::Pose& pose);
+
+/// An extension's function. Throws SetupError (NoDevice) if the runtime has none by that name.
+template <typename Function>
+Function xr_function(XrInstance instance, const char* name) {
+    PFN_xrVoidFunction function = nullptr;
+    xr_check(xrGetInstanceProcAddr(instance, name, &function), name);
+    return reinterpret_cast<Function>(function);
+}
+
+}  // namespace gazeloop::present
