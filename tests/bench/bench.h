@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gazeloop::bench {
+
+/// One figure. Speed figures are ratios measured in one process, interleaved.
+struct Figure {
+    std::string bench;
+    std::string name;  ///< the case, e.g. "1920x1080"
+    std::string metric;
+    double value = 0.0;
+    std::string unit;  ///< "x", "ms" ...
+    std::string better = "higher";
+    std::optional<double> bound{};   ///< what no implementation could beat
+    std::optional<double> target{};  ///< what we want to reach
+};
+
+struct Options {
+    std::optional<unsigned> samples{};  ///< --spp
+    unsigned rounds = 3;                ///< --rounds
+};
+
+/// Speed of KFR over full resolution on the ray-marched scene, fovea centred.
+std::vector<Figure> kfr_raycast(const Options& options);
+
+/// The median; of an even number, the mean of the middle two. Precondition: not empty.
+[[nodiscard]] double median(std::vector<double> values);
+
+}  // namespace gazeloop::bench

@@ -1,0 +1,110 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "runtime/error.h"
+#include "tests/bench/bench.h"
+
+namespace gazeloop::bench {
+namespace {
+
+struct Named {
+    std::string_view name;
+    std::vector<Figure> (*run)(const Options&);
+};
+constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast}};
+
+void print(const std::vector<Figure>& figures) {
+    fmt::print("{:12} {:22} {:24} {:>10} {:5} {:>8} {:>8}\n", "bench", "case", "metric", "value",
+               "unit", "bound", "target");
+    const auto optional = [](const std::optional<double>& value) {
+        return value ? fmt::format("{:.2f}", *value) : std::string("-");
+    };
+    for (const Figure& figure : figures) {
+        fmt::print("{:12} {:22} {:24} {:10.2f} {:5} {:>8} {:>8}\n", figure.bench, figure.name,
+                   figure.metric, figure.value, figure.unit, optional(figure.bound),
+                   optional(figure.target));
+    }
+}
+
+nlohmann::ordered_json json(const std::vector<Figure>& figures) {
+    auto list = nlohmann::ordered_json::array();
+    for (const Figure& figure : figures) {
+        nlohmann::ordered_json entry{{"bench", figure.bench},   {"case", figure.name},
+                                     {"metric", figure.metric}, {"value", figure.value},
+                                     {"unit", figure.unit},     {"better", figure.better}};
+        if (figure.bound) {
+            entry["bound"] = *figure.bound;
+        }
+        if (figure.target) {
+            entry["target"] = *figure.target;
+        }
+        list.push_back(entry);
+    }
+    return list;
+}
+
+int bench_main(int count, char** arguments) {
+    CLI::App program("Measures gazeloop", "gazeloop_bench");
+    std::string name;
+    std::string json_file;
+    Options options;
+    program.add_option("name", name, "which one; all without it");
+    program.add_option("--json", json_file, "also write the figures as JSON");
+    program.add_option("--spp", options.samples, "samples a texel or pixel")
+        ->check(CLI::Range(1, 16));
+    program.add_option("--rounds", options.rounds, "interleaved rounds; medians are printed")
+        ->check(CLI::Range(1, 100));
+    CLI11_PARSE(program, count, arguments);
+    std::vector<Figure> figures;
+    bool found = false;
+    for (const Named& bench : kBenches) {
+        if (name.empty() || name == bench.name) {
+            found = true;
+            const std::vector<Figure> more = bench.run(options);
+            figures.insert(figures.end(), more.begin(), more.end());
+        }
+    }
+    if (!found) {
+        fmt::print(stderr, "error: there is no bench '{}'; there are:", name);
+        for (const Named& bench : kBenches) {
+            fmt::print(stderr, " {}", bench.name);
+        }
+        fmt::print(stderr, "\n");
+        return static_cast<int>(ExitCode::Usage);
+    }
+    print(figures);
+    if (!json_file.empty()) {
+        std::ofstream out(json_file);
+        out << json(figures).dump(2) << '\n';
+        if (!out.flush()) {
+            fmt::print(stderr, "error: {} cannot be written\n", json_file);
+            return static_cast<int>(ExitCode::BadInput);
+        }
+    }
+    return 0;
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+}  // namespace gazeloop::bench
+
+int main(int count, char** arguments) {
+    try {
+        return gazeloop::bench::bench_main(count, arguments);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return static_cast<int>(gazeloop::ExitCode::NoDevice);
+    }
+}

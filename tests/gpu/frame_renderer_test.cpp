@@ -1,0 +1,343 @@
+#include "runtime/render/frame_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <vector>
+
+#include "runtime/error.h"
+#include "runtime/render/picture.h"
+
+namespace gazeloop::render {
+namespace {
+
+using Pictures = gaze::PerEye<Picture>;
+
+class FrameRendererTest : public testing::Test {
+  protected:
+    static VulkanContext& context() {
+        static VulkanContext context({.validation = true, .device = ""}, nullptr);
+        return context;
+    }
+
+    void TearDown() override { EXPECT_EQ(context().validation_messages(), 0U); }
+
+    static RendererConfig config(Method method, std::uint32_t width = 160,
+                                 std::uint32_t height = 120) {
+        RendererConfig config;
+        config.method = method;
+        config.extents = {vk::Extent2D(width, height), vk::Extent2D(width, height)};
+        return config;
+    }
+
+    /// Both eyes from where a head at the origin has them; both foveae at the same position.
+    static FrameRequest request(const RendererConfig& config, gaze::PixelPosition fovea) {
+        FrameRequest request;
+        request.scene_time_s = 2.5;
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const std::size_t e = gaze::index(eye);
+            request.views[e] = {
+                .pose = {.position_m = {eye == gaze::Eye::Left ? -0.0315 : 0.0315, 0, 0}},
+                .fov = {-0.8, 0.8, 0.7, -0.7},
+                .width_px = config.extents[e].width,
+                .height_px = config.extents[e].height};
+            request.foveae[e] = fovea;
+        }
+        return request;
+    }
+
+    struct Rendered {
+        Pictures pictures;
+        latency::SampleCounts counts;
+        latency::FrameGpuRecord gpu;
+        gaze::PerEye<foveation::SamplingPlan> plans;
+    };
+
+    static Rendered render(const RendererConfig& config, FrameRequest request) {
+        FrameRenderer renderer(context(), config);
+        gaze::PerEye<ColorImage> images;
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            images[e] = ColorImage(
+                context(), config.extents[e], config.format,
+                vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
+            request.targets[e] = {images[e].image(), images[e].view()};
+        }
+        Rendered rendered;
+        renderer.wait_for_slot();
+        rendered.counts = renderer.render(request);
+        renderer.wait_idle();
+        const auto finished = renderer.next_finished();
+        EXPECT_TRUE(finished.has_value());
+        rendered.gpu = finished.value_or(latency::FrameGpuRecord{});
+        EXPECT_FALSE(renderer.next_finished().has_value());
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            rendered.pictures[e] =
+                read_back(context(), images[e].image(), config.extents[e], config.format,
+                          vk::ImageLayout::eColorAttachmentOptimal);
+            rendered.plans[e] = renderer.last_plan(gaze::kEyes[e]);
+        }
+        return rendered;
+    }
+
+    static int largest_difference(const Picture& a, const Picture& b) {
+        int largest = 0;
+        for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                largest = std::max(largest, std::abs(a.pixels[i][c] - b.pixels[i][c]));
+            }
+        }
+        return largest;
+    }
+};
+
+TEST_F(FrameRendererTest, DiscIsFullResolution) {
+    const RendererConfig kfr = config(Method::Kfr, 320, 240);
+    const FrameRequest at = request(kfr, {140, 120});
+    const Rendered foveated = render(kfr, at);
+    const Rendered full = render(config(Method::Full, 320, 240), at);
+    int inside = 0;
+    double outside_error = 0.0;
+    const foveation::SamplingPlan& plan = foveated.plans[0];
+    const double core = plan.disc_radius_px - plan.disc_border_px;
+    ASSERT_GT(core, 5.0);
+    for (std::uint32_t y = 0; y < 240; ++y) {
+        for (std::uint32_t x = 0; x < 320; ++x) {
+            const std::size_t i = std::size_t{y} * 320 + x;
+            if (std::hypot(x + 0.5 - 140, y + 0.5 - 120) < core) {
+                ++inside;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    // 16-bit floats in between may round the other way.
+                    EXPECT_NEAR(foveated.pictures[0].pixels[i][c], full.pictures[0].pixels[i][c], 1)
+                        << x << ' ' << y;
+                }
+            } else {
+                outside_error +=
+                    std::abs(foveated.pictures[0].pixels[i][1] - full.pictures[0].pixels[i][1]);
+            }
+        }
+    }
+    EXPECT_GT(inside, 100);
+    // The periphery is a filtered picture of the same scene, not another one and not the same.
+    const double mean_error = outside_error / (320 * 240 - inside);
+    EXPECT_GT(mean_error, 0.1);
+    EXPECT_LT(mean_error, 12.0);
+}
+
+TEST_F(FrameRendererTest, ReadsNoTexelThatWasLeftOut) {
+    RendererConfig kfr = config(Method::Kfr);
+    for (const bool disc : {true, false}) {
+        kfr.kfr.disc = disc;
+        for (const gaze::PixelPosition fovea :
+             {gaze::PixelPosition{80, 60}, gaze::PixelPosition{0, 60},
+              gaze::PixelPosition{160, 120}, gaze::PixelPosition{-40, 30},
+              gaze::PixelPosition{100, 300}, gaze::PixelPosition{80.5, 60.5}}) {
+            const FrameRequest at = request(kfr, fovea);
+            kfr.lp_background = {0.0F, 0.0F, 0.0F, 1.0F};
+            const Rendered on_black = render(kfr, at);
+            kfr.lp_background = {5e4F, 0.0F, 5e4F, 1.0F};
+            const Rendered on_poison = render(kfr, at);
+            for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+                EXPECT_EQ(largest_difference(on_black.pictures[e], on_poison.pictures[e]), 0)
+                    << fovea.x_px << ' ' << fovea.y_px << " disc " << disc;
+            }
+        }
+    }
+}
+
+// Where the scene is smooth (the sky overhead), sampling it less must not show: neither where the
+// angle wraps, nor along the disc's border, nor at the fovea.
+TEST_F(FrameRendererTest, ShowsNoSeamInASmoothPicture) {
+    RendererConfig kfr = config(Method::Kfr, 256, 256);
+    FrameRequest at = request(kfr, {128.5, 128.5});
+    for (gaze::EyeView& view : at.views) {
+        view.pose.orientation = glm::angleAxis(1.3, glm::dvec3(1, 0, 0));
+        view.fov = {-0.1, 0.1, 0.1, -0.1};
+    }
+    const Rendered full = render(config(Method::Full, 256, 256), at);
+    for (const bool disc : {true, false}) {
+        kfr.kfr.disc = disc;
+        const Rendered foveated = render(kfr, at);
+        EXPECT_LE(largest_difference(foveated.pictures[0], full.pictures[0]), 1) << disc;
+    }
+}
+
+TEST_F(FrameRendererTest, CountsAddUp) {
+    const RendererConfig kfr = config(Method::Kfr);
+    const Rendered foveated = render(kfr, request(kfr, {0, 60}));
+    const latency::SampleCounts& counts = foveated.counts;
+    EXPECT_EQ(counts.texels_planned, 2U * 89 * 67);
+    EXPECT_EQ(counts.texels_shaded + counts.texels_off_screen + counts.texels_under_disc,
+              counts.texels_planned);
+    EXPECT_GT(counts.texels_off_screen, counts.texels_planned / 2);
+    EXPECT_EQ(counts.pixels_output, 2U * 160 * 120);
+    const Rendered full = render(config(Method::Full), request(kfr, {0, 60}));
+    EXPECT_EQ(full.counts.pixels_direct, full.counts.pixels_output);
+    EXPECT_EQ(full.counts.texels_planned, 0U);
+}
+
+TEST_F(FrameRendererTest, TimesThePassesThatRan) {
+    const RendererConfig kfr = config(Method::Kfr);
+    const Rendered foveated = render(kfr, request(kfr, {80, 60}));
+    using latency::Pass;
+    const auto ns = [](const Rendered& rendered, Pass pass) {
+        return rendered.gpu.pass_ns[static_cast<std::size_t>(pass)];
+    };
+    EXPECT_GT(ns(foveated, Pass::PassI), 0);
+    EXPECT_GT(ns(foveated, Pass::Resolve), 0);
+    EXPECT_GT(ns(foveated, Pass::Disc), 0);
+    EXPECT_EQ(ns(foveated, Pass::Full), -1);
+    ASSERT_TRUE(foveated.gpu.gpu_end.known());
+    EXPECT_GE(foveated.gpu.gpu_end.ns - foveated.gpu.gpu_begin.ns,
+              ns(foveated, Pass::PassI) + ns(foveated, Pass::Disc));
+
+    RendererConfig unprofiled = kfr;
+    unprofiled.profile = false;
+    const Rendered plain = render(unprofiled, request(kfr, {80, 60}));
+    EXPECT_EQ(ns(plain, Pass::PassI), -1);
+    EXPECT_TRUE(plain.gpu.gpu_end.known());
+    EXPECT_EQ(largest_difference(plain.pictures[0], foveated.pictures[0]), 0);
+}
+
+TEST_F(FrameRendererTest, SkipsTheLpBufferWhereTheDiscCoversTheScreen) {
+    RendererConfig kfr = config(Method::Kfr, 16, 16);
+    kfr.kfr.sigma = 0.5;
+    const FrameRequest at = request(kfr, {8, 8});
+    const Rendered foveated = render(kfr, at);
+    const Rendered full = render(config(Method::Full, 16, 16), at);
+    EXPECT_EQ(foveated.counts.texels_shaded, 0U);
+    EXPECT_EQ(foveated.gpu.pass_ns[static_cast<std::size_t>(latency::Pass::PassI)], -1);
+    EXPECT_LE(largest_difference(foveated.pictures[0], full.pictures[0]), 1);
+}
+
+TEST_F(FrameRendererTest, HashesWhatItRenders) {
+    RendererConfig kfr = config(Method::Kfr);
+    kfr.hash = true;
+    const FrameRequest at = request(kfr, {80, 60});
+    const auto first = render(kfr, at).gpu.pixel_hash;
+    ASSERT_TRUE(first.has_value());
+    EXPECT_EQ(render(kfr, at).gpu.pixel_hash, first);
+    FrameRequest moved = at;
+    moved.foveae[1].x_px += 1.0;
+    EXPECT_NE(render(kfr, moved).gpu.pixel_hash, first);
+    kfr.kfr.sigma = 2.0;
+    EXPECT_NE(render(kfr, at).gpu.pixel_hash, first);
+}
+
+TEST_F(FrameRendererTest, EncodesByHandWhatTheFormatDoesNot) {
+    RendererConfig srgb = config(Method::Full);
+    RendererConfig unorm = srgb;
+    unorm.format = vk::Format::eR8G8B8A8Unorm;
+    RendererConfig bgra = srgb;
+    bgra.format = vk::Format::eB8G8R8A8Srgb;
+    const FrameRequest at = request(srgb, {80, 60});
+    const Rendered reference = render(srgb, at);
+    EXPECT_LE(largest_difference(render(unorm, at).pictures[0], reference.pictures[0]), 1);
+    EXPECT_EQ(largest_difference(render(bgra, at).pictures[0], reference.pictures[0]), 0);
+}
+
+TEST_F(FrameRendererTest, MoreSamplesSmoothThePicture) {
+    RendererConfig one = config(Method::Full);
+    RendererConfig sixteen = one;
+    sixteen.samples = 16;
+    const auto roughness = [](const Picture& picture) {
+        double sum = 0.0;
+        for (std::uint32_t y = 0; y < picture.height; ++y) {
+            for (std::uint32_t x = 1; x < picture.width; ++x) {
+                const std::size_t i = std::size_t{y} * picture.width + x;
+                sum += std::abs(picture.pixels[i][1] - picture.pixels[i - 1][1]);
+            }
+        }
+        return sum;
+    };
+    const FrameRequest at = request(one, {80, 60});
+    EXPECT_LT(roughness(render(sixteen, at).pictures[0]), roughness(render(one, at).pictures[0]));
+}
+
+// The left eye, being further left, sees near things further right.
+TEST_F(FrameRendererTest, RendersEachEyeFromItsOwnPlace) {
+    const RendererConfig full = config(Method::Full, 320, 240);
+    const Rendered rendered = render(full, request(full, {}));
+    const auto mismatch = [&](int shift) {
+        double sum = 0.0;
+        for (std::uint32_t y = 120; y < 240; ++y) {
+            for (std::uint32_t x = 20; x < 300; ++x) {
+                const std::size_t left = std::size_t{y} * 320 + x;
+                const auto right = static_cast<std::size_t>(static_cast<int>(left) - shift);
+                sum += std::abs(rendered.pictures[0].pixels[left][1] -
+                                rendered.pictures[1].pixels[right][1]);
+            }
+        }
+        return sum;
+    };
+    double crossed = 1e300;
+    double uncrossed = 1e300;
+    for (int shift = 1; shift <= 8; ++shift) {
+        uncrossed = std::min(uncrossed, mismatch(shift));
+        crossed = std::min(crossed, mismatch(-shift));
+    }
+    EXPECT_LT(uncrossed, crossed);
+}
+
+TEST_F(FrameRendererTest, KeepsFramesInFlightApart) {
+    RendererConfig kfr = config(Method::Kfr);
+    kfr.hash = true;
+    FrameRequest at = request(kfr, {80, 60});
+    FrameRenderer renderer(context(), kfr);
+    gaze::PerEye<ColorImage> images;
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        images[e] = ColorImage(
+            context(), kfr.extents[e], kfr.format,
+            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
+        at.targets[e] = {images[e].image(), images[e].view()};
+    }
+    std::vector<latency::FrameGpuRecord> finished;
+    const auto drain = [&] {
+        while (auto record = renderer.next_finished()) {
+            finished.push_back(*record);
+        }
+    };
+    for (std::uint64_t i = 0; i < 12; ++i) {
+        renderer.wait_for_slot();
+        drain();
+        at.index = i;
+        for (gaze::PixelPosition& fovea : at.foveae) {
+            fovea.x_px = i % 2 == 0 ? 40.0 : 120.0;
+        }
+        renderer.render(at);
+    }
+    renderer.wait_idle();
+    drain();
+    ASSERT_EQ(finished.size(), 12U);
+    for (std::uint64_t i = 0; i < 12; ++i) {
+        EXPECT_EQ(finished[i].index, i);
+        EXPECT_EQ(finished[i].pixel_hash, finished[i % 2].pixel_hash) << i;
+    }
+    EXPECT_NE(finished[0].pixel_hash, finished[1].pixel_hash);
+}
+
+TEST_F(FrameRendererTest, TakesTheSmallestAndTheWidestPicture) {
+    RendererConfig smallest = config(Method::Kfr, 2, 2);
+    smallest.kfr.sigma = 0.5;
+    EXPECT_EQ(render(smallest, request(smallest, {1, 1})).counts.pixels_output, 8U);
+    RendererConfig widest = config(Method::Kfr, 16384, 8);
+    widest.kfr.sigma = 2.0;
+    const Rendered rendered = render(widest, request(widest, {8192, 4}));
+    EXPECT_EQ(rendered.counts.texels_planned, 2U * 8192 * 4);
+}
+
+TEST_F(FrameRendererTest, RefusesWhatItCannotDo) {
+    RendererConfig bad = config(Method::Kfr);
+    bad.samples = 17;
+    EXPECT_THROW(FrameRenderer(context(), bad), SetupError);
+    bad = config(Method::Kfr);
+    bad.scene = "nowhere";
+    EXPECT_THROW(FrameRenderer(context(), bad), SetupError);
+    bad = config(Method::Kfr);
+    bad.kfr.sigma = std::nan("");
+    EXPECT_THROW(FrameRenderer(context(), bad), SetupError);
+}
+
+}  // namespace
+}  // namespace gazeloop::render

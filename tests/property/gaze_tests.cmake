@@ -1,0 +1,4 @@
+gazeloop_test(property_gaze
+    SOURCES gaze_property_test.cpp trace_property_test.cpp
+    LINK gazeloop::gaze gazeloop::trace gazeloop::sim
+    LABELS property)

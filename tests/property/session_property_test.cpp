@@ -1,0 +1,275 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "runtime/session/session_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gazeloop::session {
+namespace {
+
+using Bits = std::vector<std::uint64_t>;
+
+/// Draws any content of a record from a seed. Not-a-number is the quiet one, which is what a
+/// session keeps of it.
+class AnyRecord {
+  public:
+    explicit AnyRecord(std::uint64_t seed) : random_(seed) {}
+
+    gaze::GazeSample sample() {
+        gaze::GazeSample sample;
+        sample.sequence = integer();
+        sample.device_ns = signed_integer();
+        sample.sampled = stamp();
+        sample.arrived = stamp();
+        for (gaze::EyeRay& eye : sample.eyes) {
+            eye = {vector(), vector(), real(), real(), coin()};
+        }
+        if (coin()) {
+            sample.head = pose();
+        }
+        return sample;
+    }
+
+    latency::FrameRecord frame(std::uint64_t index) {
+        latency::FrameRecord frame;
+        frame.index = index;
+        auto& stamps = frame.stamps;
+        stamps = {stamp(), stamp(), stamp(), stamp(), stamp(), stamp(), stamp(), stamp()};
+        frame.period_ns = signed_integer();
+        frame.should_render = coin();
+        frame.scene_time_s = real();
+        frame.head = pose();
+        for (gaze::EyeView& view : frame.views) {
+            view = {pose(), {real(), real(), real(), real()}, half(), half()};
+        }
+        for (gaze::FoveaPoint& fovea : frame.fovea.eyes) {
+            fovea = {{real(), real()},
+                     vector(),
+                     static_cast<gaze::FoveaState>(below(gaze::kFoveaStateNames.size())),
+                     static_cast<gaze::LossReason>(below(gaze::kLossReasonNames.size())),
+                     integer(),
+                     stamp(),
+                     stamp()};
+        }
+        frame.fovea.latched = stamp();
+        frame.samples = {integer(), integer(), integer(), integer(), integer(), integer()};
+        return frame;
+    }
+
+    latency::FrameGpuRecord gpu(std::uint64_t index) {
+        latency::FrameGpuRecord gpu;
+        gpu.index = index;
+        gpu.gpu_begin = stamp();
+        gpu.gpu_end = stamp();
+        for (std::int64_t& ns : gpu.pass_ns) {
+            ns = coin() ? signed_integer() : -1;
+        }
+        if (coin()) {
+            gpu.pixel_hash = integer();
+        }
+        return gpu;
+    }
+
+    bool coin() { return below(2) == 1; }
+
+  private:
+    std::uint64_t below(std::uint64_t end) { return random_() % end; }
+    std::uint64_t integer() {
+        constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
+        switch (below(4)) {
+            case 0:
+                return below(3);
+            case 1:
+                return kMax - below(3);
+            case 2:
+                return kMax / 2 + below(3);
+            default:
+                return random_();
+        }
+    }
+    std::int64_t signed_integer() { return std::bit_cast<std::int64_t>(integer()); }
+    std::uint32_t half() { return static_cast<std::uint32_t>(integer()); }
+    double real() {
+        using Limits = std::numeric_limits<double>;
+        constexpr std::array kSpecial{0.0,
+                                      -0.0,
+                                      1.0,
+                                      -3.0,
+                                      9007199254740993.0,
+                                      Limits::infinity(),
+                                      -Limits::infinity(),
+                                      Limits::quiet_NaN(),
+                                      Limits::denorm_min(),
+                                      Limits::max(),
+                                      Limits::lowest()};
+        if (coin()) {
+            return kSpecial[below(kSpecial.size())];
+        }
+        const double any = std::bit_cast<double>(random_());
+        return any == any ? any : Limits::quiet_NaN();
+    }
+    glm::dvec3 vector() { return {real(), real(), real()}; }
+    gaze::Pose pose() { return {glm::dquat{real(), real(), real(), real()}, vector()}; }
+    latency::Stamp stamp() {
+        return {signed_integer(), static_cast<latency::StampKind>(below(latency::kStampKindCount))};
+    }
+
+    std::mt19937_64 random_;
+};
+
+// Records as bits, to be compared: == would take 0.0 for -0.0 and nothing for not-a-number.
+
+void append(Bits& bits, double value) { bits.push_back(std::bit_cast<std::uint64_t>(value)); }
+void append(Bits& bits, std::int64_t value) { bits.push_back(std::bit_cast<std::uint64_t>(value)); }
+void append(Bits& bits, std::uint64_t value) { bits.push_back(value); }
+void append(Bits& bits, const glm::dvec3& vector) {
+    append(bits, vector.x);
+    append(bits, vector.y);
+    append(bits, vector.z);
+}
+void append(Bits& bits, const gaze::Pose& pose) {
+    append(bits, pose.orientation.w);
+    append(bits, pose.orientation.x);
+    append(bits, pose.orientation.y);
+    append(bits, pose.orientation.z);
+    append(bits, pose.position_m);
+}
+void append(Bits& bits, const latency::Stamp& stamp) {
+    append(bits, stamp.ns);
+    append(bits, static_cast<std::uint64_t>(stamp.kind));
+}
+
+Bits bits_of(const gaze::GazeSample& sample) {
+    Bits bits;
+    append(bits, sample.sequence);
+    append(bits, sample.device_ns);
+    append(bits, sample.sampled);
+    append(bits, sample.arrived);
+    for (const gaze::EyeRay& eye : sample.eyes) {
+        append(bits, eye.origin_m);
+        append(bits, eye.direction);
+        append(bits, eye.openness);
+        append(bits, eye.confidence);
+        append(bits, std::uint64_t{eye.valid});
+    }
+    append(bits, std::uint64_t{sample.head.has_value()});
+    append(bits, sample.head.value_or(gaze::Pose{}));
+    return bits;
+}
+
+Bits bits_of(const latency::FrameRecord& frame) {
+    Bits bits;
+    append(bits, frame.index);
+    const latency::FrameStamps& stamps = frame.stamps;
+    for (const latency::Stamp& stamp :
+         {stamps.wake_up, stamps.begin, stamps.latch, stamps.submit, stamps.end_frame,
+          stamps.gpu_begin, stamps.gpu_end, stamps.display, frame.fovea.latched}) {
+        append(bits, stamp);
+    }
+    append(bits, frame.period_ns);
+    append(bits, std::uint64_t{frame.should_render});
+    append(bits, frame.scene_time_s);
+    append(bits, frame.head);
+    for (const gaze::EyeView& view : frame.views) {
+        append(bits, view.pose);
+        for (const double angle :
+             {view.fov.left_rad, view.fov.right_rad, view.fov.up_rad, view.fov.down_rad}) {
+            append(bits, angle);
+        }
+        append(bits, std::uint64_t{view.width_px});
+        append(bits, std::uint64_t{view.height_px});
+    }
+    for (const gaze::FoveaPoint& fovea : frame.fovea.eyes) {
+        append(bits, fovea.position.x_px);
+        append(bits, fovea.position.y_px);
+        append(bits, fovea.direction);
+        append(bits, static_cast<std::uint64_t>(fovea.state));
+        append(bits, static_cast<std::uint64_t>(fovea.reason));
+        append(bits, fovea.sample_sequence);
+        append(bits, fovea.sampled);
+        append(bits, fovea.arrived);
+    }
+    const latency::SampleCounts& samples = frame.samples;
+    for (const std::uint64_t count :
+         {samples.texels_planned, samples.texels_shaded, samples.texels_off_screen,
+          samples.texels_under_disc, samples.pixels_direct, samples.pixels_output}) {
+        append(bits, count);
+    }
+    return bits;
+}
+
+Bits bits_of(const latency::FrameGpuRecord& gpu) {
+    Bits bits;
+    append(bits, gpu.index);
+    append(bits, gpu.gpu_begin);
+    append(bits, gpu.gpu_end);
+    for (const std::int64_t ns : gpu.pass_ns) {
+        append(bits, ns);
+    }
+    append(bits, std::uint64_t{gpu.pixel_hash.has_value()});
+    append(bits, gpu.pixel_hash.value_or(0));
+    return bits;
+}
+
+RC_GTEST_PROP(Session, ComesBackBitForBit,
+              (std::uint64_t seed, std::set<std::uint64_t> numbers,
+               const std::map<std::string, std::string>& config)) {
+    // Frame numbers are drawn apart, because they are unique; both ends of the range take part.
+    numbers.insert({0, std::numeric_limits<std::uint64_t>::max()});
+    AnyRecord any(seed);
+    std::vector<RecordedSample> samples;
+    std::vector<RecordedFrame> frames;
+
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "run.session";
+    SessionHeader header;
+    for (const auto& [name, value] : config) {
+        header.config.push_back({name, value});
+    }
+    const auto recorder = value_or_throw(SessionRecorder::create(file, header));
+    for (const std::uint64_t number : numbers) {
+        samples.push_back({number, any.sample()});
+        samples.push_back({number, any.sample()});
+        RecordedFrame frame{any.frame(number), {}};
+        frame.gpu.index = number;
+        recorder->add(samples[samples.size() - 2].sample, number);
+        recorder->add(samples.back().sample, number);
+        recorder->add(frame.frame);
+        if (any.coin()) {
+            frame.gpu = any.gpu(number);
+            recorder->add(frame.gpu);
+        }
+        frames.push_back(frame);
+    }
+    RC_ASSERT(recorder->close().complete());
+
+    const SessionFile session = value_or_throw(read_session(file));
+    RC_ASSERT(session.header.config.size() == header.config.size());
+    for (std::size_t i = 0; i < header.config.size(); ++i) {
+        RC_ASSERT(session.header.config[i].name == header.config[i].name);
+        RC_ASSERT(session.header.config[i].value == header.config[i].value);
+    }
+    RC_ASSERT(session.samples.size() == samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        RC_ASSERT(session.samples[i].frame == samples[i].frame);
+        RC_ASSERT(bits_of(session.samples[i].sample) == bits_of(samples[i].sample));
+    }
+    RC_ASSERT(session.frames.size() == frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        RC_ASSERT(bits_of(session.frames[i].frame) == bits_of(frames[i].frame));
+        RC_ASSERT(bits_of(session.frames[i].gpu) == bits_of(frames[i].gpu));
+    }
+}
+
+}  // namespace
+}  // namespace gazeloop::session

@@ -1,0 +1,153 @@
+// Whatever is wrong outside is said with the thing, the place and the remedy, and the right code.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/support/run_program.h"
+
+namespace gazeloop::tests {
+namespace {
+
+struct BadInput {
+    const char* name;
+    std::vector<std::string> arguments;
+    int exit_code;
+    const char* message;
+};
+
+void PrintTo(const BadInput& at, std::ostream* out) { *out << at.name; }
+
+class Refuses : public testing::TestWithParam<BadInput> {};
+
+TEST_P(Refuses, WithMessageAndCode) {
+    const ProgramResult result = run_gazeloop(GetParam().arguments);
+    EXPECT_EQ(result.exit_code, GetParam().exit_code) << result.err;
+    EXPECT_NE(result.err.find(GetParam().message), std::string::npos) << result.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    BadInput, Refuses,
+    testing::Values(
+        BadInput{"no_command", {}, 2, "subcommand"},
+        BadInput{"unknown_command", {"ruin"}, 2, "did you mean 'run'"},
+        BadInput{"unknown_flag", {"run", "--sgima", "2"}, 2, "--sgima"},
+        BadInput{"missing_trace", {"replay", "/nowhere/gaze.csv"}, 3, "/nowhere/gaze.csv"},
+        BadInput{"trace_is_a_folder", {"replay", "/tmp"}, 3, "/tmp"},
+        BadInput{"missing_session", {"report", "/nowhere/session"}, 3, "/nowhere/session"},
+        BadInput{"display", {"run", "--display", "fove1"}, 2, "did you mean 'fove0'"},
+        BadInput{"display_file", {"run", "--display", "/nowhere/x.toml"}, 3, "/nowhere/x.toml"},
+        BadInput{"method", {"run", "--method", "kfrr"}, 2, "did you mean 'kfr'"},
+        BadInput{"scene", {"run", "--scene", "raymarsh"}, 2, "did you mean 'raymarch'"},
+        BadInput{"target", {"run", "--target", "openrx"}, 2, "did you mean 'openxr'"},
+        BadInput{"key", {"run", "--set", "kfr.sgima=2"}, 2, "did you mean 'kfr.sigma'"},
+        BadInput{"no_value", {"run", "--set", "kfr.sigma"}, 2, "KEY=VALUE"},
+        BadInput{"flag_value", {"run", "--set", "kfr.disc=yes"}, 2, "true or false"},
+        BadInput{"sigma_small", {"run", "--sigma", "0.4"}, 2, "must lie in [0.5, 32]"},
+        BadInput{"sigma_nan", {"run", "--sigma", "nan"}, 2, "kfr.sigma = nan"},
+        BadInput{"sigma_comma", {"run", "--sigma", "1,8"}, 2, "not a number"},
+        BadInput{"alpha_large", {"run", "--alpha", "17"}, 2, "must lie in [0.25, 16]"},
+        BadInput{"spp", {"run", "--spp", "17"}, 2, "must lie in [1, 16]"},
+        BadInput{"gaze", {"run", "--gaze", "trance:x"}, 2, "trace:FILE"},
+        BadInput{"fixed_gaze", {"run", "--gaze", "fixed:1"}, 2, "fixed"},
+        BadInput{"config_file", {"run", "--config", "/nowhere/c.toml"}, 3, "/nowhere/c.toml"},
+        BadInput{"speed", {"replay", "x", "--speed", "0"}, 2, "--speed"},
+        BadInput{"no_vulkan_device_of_that_name",
+                 {"run", "--target", "headless", "--set", "vulkan.device=Voodoo"},
+                 4,
+                 "llvmpipe"}),
+    [](const auto& instance) { return instance.param.name; });
+
+TEST(BadInput, TraceNamesFileAndLine) {
+    const ScratchFolder folder;
+    const std::string file = folder.file("gaze.csv");
+    ASSERT_EQ(run_gazeloop({"simulate", "gaze", file, "--seconds", "0.1"}).exit_code, 0);
+    const std::string broken = "sed -i '4s/^[0-9]*,/abc,/' '" + file + "'";
+    ASSERT_EQ(std::system(broken.c_str()), 0);
+    const ProgramResult result = run_gazeloop({"replay", file});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.err.find(file + ":4"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("abc"), std::string::npos) << result.err;
+}
+
+TEST(BadInput, TraceWithoutGaze) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("gaze.csv", "time,pupil\n1,2\n");
+    const ProgramResult result = run_gazeloop({"replay", file});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.err.find(file), std::string::npos) << result.err;
+}
+
+TEST(BadInput, ConfigurationNamesFileAndLine) {
+    const ScratchFolder folder;
+    const std::string syntax = folder.write("a.toml", "[kfr]\nsigma = = 2\n");
+    const ProgramResult first = run_gazeloop({"run", "--config", syntax});
+    EXPECT_EQ(first.exit_code, 3);
+    EXPECT_NE(first.err.find(syntax + ":2"), std::string::npos) << first.err;
+    const std::string key = folder.write("b.toml", "[kfr]\nsigma = 2.0\nalhpa = 3\n");
+    const ProgramResult second = run_gazeloop({"run", "--config", key});
+    EXPECT_EQ(second.exit_code, 2);
+    EXPECT_NE(second.err.find(key + ":3"), std::string::npos) << second.err;
+    EXPECT_NE(second.err.find("did you mean 'kfr.alpha'"), std::string::npos) << second.err;
+    const std::string range = folder.write("c.toml", "kfr.sigma = 99\n");
+    const ProgramResult third = run_gazeloop({"run", "--config", range});
+    EXPECT_EQ(third.exit_code, 2);
+    EXPECT_NE(third.err.find("must lie in [0.5, 32]"), std::string::npos) << third.err;
+}
+
+TEST(BadInput, DisplayProfileNamesWhatIsMissing) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("d.toml", "width_px = 100\nheight_px = 100\n");
+    const ProgramResult result = run_gazeloop({"run", "--display", file});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.err.find(file + ": refresh_hz"), std::string::npos) << result.err;
+}
+
+TEST(BadInput, NoVulkanDevice) {
+    const ProgramResult result =
+        run_gazeloop({"run", "--target", "headless", "--frames", "1"},
+                     {.environment = {{"VK_ICD_FILENAMES", "/nowhere/icd.json"},
+                                      {"VK_DRIVER_FILES", "/nowhere/icd.json"}}});
+    EXPECT_EQ(result.exit_code, 4) << result.err;
+    EXPECT_NE(result.err.find("mesa-vulkan-drivers"), std::string::npos) << result.err;
+}
+
+TEST(BadInput, NoOpenXrRuntime) {
+    const ScratchFolder empty;
+    const ProgramResult result = run_gazeloop(
+        {"run", "--frames", "1"}, {.environment = {{"XR_RUNTIME_JSON", ""},
+                                                   {"GAZELOOP_CACHE", empty.file("")},
+                                                   {"XDG_CONFIG_DIRS", empty.file("")},
+                                                   {"XDG_CONFIG_HOME", empty.file("")}}});
+    if (result.exit_code == 0) {
+        GTEST_SKIP() << "this machine has an OpenXR runtime of its own";
+    }
+    EXPECT_EQ(result.exit_code, 4) << result.err;
+    EXPECT_NE(result.err.find("./dev setup"), std::string::npos) << result.err;
+    const ProgramResult wrong = run_gazeloop(
+        {"run", "--frames", "1"}, {.environment = {{"XR_RUNTIME_JSON", "/nowhere/runtime.json"}}});
+    EXPECT_EQ(wrong.exit_code, 4) << wrong.err;
+    EXPECT_NE(wrong.err.find("/nowhere/runtime.json"), std::string::npos) << wrong.err;
+}
+
+TEST(BadInput, RecordingThatExists) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("session.gaze", "precious");
+    const ProgramResult result = run_gazeloop({"run", "--target", "headless", "--frames", "1",
+                                               "--record", file, "--set", "render.scale=0.02"});
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_NE(result.err.find(file), std::string::npos) << result.err;
+}
+
+TEST(BadInput, PrintConfigSaysWhereValuesComeFrom) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("a.toml", "kfr.sigma = 2.5\n");
+    const ProgramResult result = run_gazeloop(
+        {"run", "--config", file, "--alpha", "3", "--set", "gaze.hold_ms=10", "--print-config"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.out.find(file + ":1"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("--alpha"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("built-in"), std::string::npos) << result.out;
+}
+
+}  // namespace
+}  // namespace gazeloop::tests

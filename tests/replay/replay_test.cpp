@@ -1,0 +1,190 @@
+// The program as its users run it, headless: determinism, recording, summary, pictures.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "runtime/session/session_file.h"
+#include "tests/support/run_program.h"
+
+namespace gazeloop::tests {
+namespace {
+
+constexpr const char* kSmall = "render.scale=0.05";  // 64x72 an eye
+
+class Replay : public testing::Test {
+  protected:
+    void SetUp() override {
+        const ProgramResult made =
+            run_gazeloop({"simulate", "gaze", trace(), "--seconds", "2", "--seed", "3"});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+    }
+
+    [[nodiscard]] std::string trace() const { return folder_.file("gaze.csv"); }
+
+    static std::vector<std::string> with(std::vector<std::string> words,
+                                         const std::vector<std::string>& more) {
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+
+    /// A replay in virtual time; gives the hash lines.
+    [[nodiscard]] std::string hashes(const std::vector<std::string>& more) const {
+        const ProgramResult result = run_gazeloop(
+            with({"replay", trace(), "--frames", "6", "--quiet", "--hash", "--set", kSmall}, more));
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_NE(result.out.find("hash pixels"), std::string::npos) << result.out;
+        return result.out;
+    }
+
+    ScratchFolder folder_;
+};
+
+TEST_F(Replay, OfATraceIsTheSameEveryTime) {
+    const std::string first = hashes({});
+    EXPECT_EQ(hashes({}), first);
+    EXPECT_EQ(hashes({"--set", "render.frames_in_flight=1"}), first);
+    EXPECT_EQ(hashes({"--set", "render.profile=false"}), first);
+    EXPECT_NE(hashes({"--sigma", "2.4"}), first);
+    EXPECT_NE(hashes({"--alpha", "3"}), first);
+    EXPECT_NE(hashes({"--speed", "2"}), first);
+}
+
+TEST_F(Replay, OfASessionGivesTheRecordedFrames) {
+    const std::string session = folder_.file("session.gaze");
+    const ProgramResult recorded =
+        run_gazeloop({"run", "--gaze", "trace:" + trace(), "--target", "headless", "--frames", "8",
+                      "--hash", "--record", session, "--set", kSmall, "--sigma", "2"});
+    ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+    const ProgramResult replayed = run_gazeloop({"replay", session, "--hash"});
+    EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+    EXPECT_NE(replayed.out.find("foveae bit-equal in 8 of 8 frames"), std::string::npos)
+        << replayed.out;
+    EXPECT_NE(replayed.out.find("pictures equal in 8 of 8 frames"), std::string::npos)
+        << replayed.out;
+    // Another sampling leaves the foveae as they are, and the pictures are no longer comparable.
+    const ProgramResult other = run_gazeloop({"replay", session, "--hash", "--sigma", "3"});
+    EXPECT_EQ(other.exit_code, 0) << other.err;
+    EXPECT_NE(other.out.find("foveae bit-equal in 8 of 8 frames"), std::string::npos);
+    EXPECT_NE(other.out.find("rendering differs"), std::string::npos) << other.out;
+    // Its gaze can be played like a trace.
+    const ProgramResult wall =
+        run_gazeloop({"replay", session, "--clock", "wall", "--frames", "3", "--set", kSmall});
+    EXPECT_EQ(wall.exit_code, 0) << wall.err;
+}
+
+TEST_F(Replay, NoticesWhenTheSessionWasTamperedWith) {
+    const std::string session = folder_.file("session.gaze");
+    ASSERT_EQ(run_gazeloop({"run", "--gaze", "fixed:3,4", "--target", "headless", "--frames", "3",
+                            "--hash", "--record", session, "--set", kSmall})
+                  .exit_code,
+              0);
+    const std::string change =
+        "sqlite3 '" + session + "' \"UPDATE fovea SET x_px = x_px + 1e-9 WHERE frame = 1\" 2>&1";
+    if (std::system("command -v sqlite3 > /dev/null") != 0) {
+        GTEST_SKIP() << "no sqlite3 command";
+    }
+    ASSERT_EQ(std::system(change.c_str()), 0);
+    const ProgramResult replayed = run_gazeloop({"replay", session, "--hash"});
+    EXPECT_EQ(replayed.exit_code, 1);
+    EXPECT_NE(replayed.out.find("first difference in frame 1"), std::string::npos) << replayed.out;
+}
+
+TEST_F(Replay, RecordsWhatTheReportSays) {
+    const std::string session = folder_.file("session.gaze");
+    const std::string live_json = folder_.file("live.json");
+    const ProgramResult run =
+        run_gazeloop({"run", "--gaze", "trace:" + trace(), "--target", "headless", "--seconds", "1",
+                      "--record", session, "--json", live_json, "--set", "render.scale=0.02"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    struct stat file{};
+    ASSERT_EQ(stat(session.c_str(), &file), 0);
+    EXPECT_EQ(file.st_mode & 0777U, 0600U) << "gaze is personal";
+    const ProgramResult report = run_gazeloop({"report", session, "--json", "-"});
+    ASSERT_EQ(report.exit_code, 0) << report.err;
+    const auto from_session = nlohmann::json::parse(report.out);
+    const auto live = nlohmann::json::parse(std::ifstream(live_json));
+    EXPECT_EQ(from_session, live);
+    const ProgramResult text = run_gazeloop({"report", session});
+    EXPECT_NE(text.out.find("gaze age at display"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("tracker"), std::string::npos);
+}
+
+TEST_F(Replay, KeepsTheRecordingWhenInterrupted) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const std::string session = folder_.file("session" + std::to_string(signal));
+        const ProgramResult run =
+            run_gazeloop({"run", "--gaze", "trace:" + trace(), "--target", "headless", "--record",
+                          session, "--set", kSmall, "--log-level", "debug"},
+                         {.timeout = std::chrono::seconds(60),
+                          .trigger = "gaze: left eye: tracking",
+                          .on_trigger = [signal](int pid) { kill(pid, signal); }});
+        EXPECT_EQ(run.exit_code, 130) << run.err;
+        const auto read = session::read_session(session);
+        ASSERT_TRUE(read.has_value()) << read.error().message;
+        EXPECT_TRUE(read->closed_cleanly);
+        EXPECT_FALSE(read->frames.empty());
+        EXPECT_NE(run.out.find("gaze age at latch"), std::string::npos) << run.out;
+    }
+}
+
+TEST_F(Replay, KeepsTheRecordingWhenKilled) {
+    const std::string session = folder_.file("session.gaze");
+    const ProgramResult run =
+        run_gazeloop({"run", "--gaze", "trace:" + trace(), "--target", "headless", "--record",
+                      session, "--set", kSmall, "--log-level", "debug"},
+                     {.timeout = std::chrono::seconds(60),
+                      .trigger = "gaze: left eye: held",
+                      .on_trigger = [](int pid) { kill(pid, SIGKILL); }});
+    EXPECT_EQ(run.exit_code, 128 + SIGKILL) << run.err;
+    const auto read = session::read_session(session);
+    ASSERT_TRUE(read.has_value()) << read.error().message;
+    EXPECT_FALSE(read->closed_cleanly);
+    EXPECT_FALSE(read->frames.empty());
+    const ProgramResult replayed = run_gazeloop({"replay", session});
+    EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+    EXPECT_NE(replayed.err.find("cut off"), std::string::npos);
+}
+
+TEST_F(Replay, WritesPicturesOfBothEyes) {
+    const std::string pictures = folder_.file("pictures");
+    const ProgramResult run = run_gazeloop({"replay", trace(), "--frames", "3", "--set", kSmall,
+                                            "--quiet", "--snapshot", pictures, "--mark-fovea"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    for (const char* eye : {"left", "right"}) {
+        for (const char* what : {"full", "result", "lp", "difference"}) {
+            const std::string file = pictures + "/" + eye + "-" + what + ".png";
+            EXPECT_GT(std::filesystem::file_size(file), 100U) << file;
+            EXPECT_NE(run.out.find(file), std::string::npos);
+        }
+    }
+}
+
+TEST_F(Replay, PlaysEveryMethodAndTarget) {
+    for (const char* method : {"full", "kfr"}) {
+        const ProgramResult run =
+            run_gazeloop({"replay", trace(), "--method", method, "--frames", "3", "--set", kSmall,
+                          "--spp", "2", "--set", "vulkan.validation=true"});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(run.err.find("error"), std::string::npos) << run.err;
+    }
+}
+
+TEST_F(Replay, PlaysARecordingFromAHeadset) {
+    const std::string recorded = std::string(GAZELOOP_SOURCE_DIR) +
+                                 "/../shared/data/traces/htc_vive_pro/TESTNA01_360VR_Fist3.csv";
+    if (!std::filesystem::exists(recorded)) {
+        GTEST_SKIP() << "no recorded data";
+    }
+    const ProgramResult run =
+        run_gazeloop({"replay", recorded, "--frames", "30", "--set", "render.scale=0.02"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.err.find("HTC Vive Pro"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace gazeloop::tests

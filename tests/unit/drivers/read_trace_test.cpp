@@ -1,0 +1,278 @@
+#include "drivers/trace/read_trace.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "drivers/trace/csv_table.h"
+#include "tests/unit/drivers/trace_text.h"
+
+namespace gazeloop::drivers {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The header, one good row, and whatever else.
+std::string htc(const std::string& more) {
+    return fmt::format("{}\r\n{}{}", kHtcHeader, htc_row(1000), more);
+}
+
+std::string native(const std::string& more) {
+    return fmt::format("{}\n{}{}", kNativeHeader, native_row(0, 1000), more);
+}
+
+void expect_refused(const Expected<Trace>& trace, const std::string& message) {
+    ASSERT_FALSE(trace.has_value());
+    EXPECT_EQ(trace.error().code, ExitCode::BadInput);
+    EXPECT_THAT(trace.error().message, HasSubstr(message));
+}
+
+/// A folder of its own, gone afterwards.
+class ReadTraceFile : public ::testing::Test {
+  protected:
+    void SetUp() override { std::filesystem::create_directories(folder_); }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::string write(const std::string& name, const std::string& text) {
+        const std::string file = (folder_ / name).string();
+        std::ofstream(file, std::ios::binary) << text;
+        return file;
+    }
+
+    std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) /
+                                    fmt::format("gazeloop-read-trace-{}", ::getpid());
+};
+
+TEST(ReadTrace, KnowsTheFormatsByTheirHeaders) {
+    const Expected<Trace> from_htc = read_text(htc(""));
+    ASSERT_TRUE(from_htc.has_value()) << from_htc.error().message;
+    EXPECT_EQ(from_htc->format, "htc-vive-pro");
+    EXPECT_EQ(from_htc->device, "HTC Vive Pro");
+    EXPECT_EQ(from_htc->file, "gaze.csv");
+    const Expected<Trace> from_native = read_text(native(""));
+    ASSERT_TRUE(from_native.has_value()) << from_native.error().message;
+    EXPECT_EQ(from_native->format, "gazeloop");
+}
+
+TEST(ReadTrace, FindsColumnsByNameInAnyOrderAndAmongOthers) {
+    const Expected<Trace> trace = read_text(
+        "frown_L;gaze_direct_L.z;gaze_direct_L.y;gaze_direct_L.x;gaze_direct_R.x;gaze_direct_R.y;"
+        "gaze_direct_R.z;eye_valid_R;eye_valid_L;openness_R;openness_L;gaze_origin_L.x(mm);"
+        "gaze_origin_L.y(mm);gaze_origin_L.z(mm);gaze_origin_R.x(mm);gaze_origin_R.y(mm);"
+        "gaze_origin_R.z(mm);time(100ns);comment\n"
+        "0;1;2;3;-3;2;1;0;31;.5;.25;1;2;3;4;5;6;77;not a number\n");
+    ASSERT_TRUE(trace.has_value()) << trace.error().message;
+    const gaze::GazeSample& sample = trace->samples.at(0);
+    EXPECT_NEAR(sample.eyes[0].direction.x / sample.eyes[0].direction.z, 3.0, 1e-12);
+    EXPECT_DOUBLE_EQ(sample.eyes[0].openness, 0.25);
+    EXPECT_TRUE(sample.eyes[0].valid);
+    EXPECT_FALSE(sample.eyes[1].valid);
+    EXPECT_FALSE(sample.head.has_value());
+}
+
+TEST(ReadTrace, RefusesAFormatThatDoesNotExist) {
+    const Expected<Trace> trace = read_text(htc(""), "csv");
+    ASSERT_FALSE(trace.has_value());
+    EXPECT_EQ(trace.error().code, ExitCode::Usage);
+    EXPECT_EQ(trace.error().message,
+              "unknown trace format 'csv'; known: auto, gazeloop, htc-vive-pro");
+}
+
+TEST(ReadTrace, RefusesAnotherFormatThanTheOneAskedFor) {
+    EXPECT_TRUE(read_text(htc(""), "htc-vive-pro").has_value());
+    expect_refused(read_text(htc(""), "gazeloop"),
+                   "gaze.csv:1: unknown header; known formats: gazeloop, htc-vive-pro; for "
+                   "gazeloop it lacks 'sequence', 't_device_ns'");
+    expect_refused(read_text(htc(""), "gazeloop"), "and 20 more");
+}
+
+TEST(ReadTrace, NamesTheColumnsThatTheNearestFormatLacks) {
+    std::string text = htc("");
+    text.replace(text.find("openness_R"), 10, "opennessXR");
+    text.replace(text.find("time(100ns)"), 11, "time(200ns)");
+    expect_refused(read_text(text),
+                   "gaze.csv:1: unknown header; known formats: gazeloop, htc-vive-pro; for "
+                   "htc-vive-pro it lacks 'time(100ns)', 'openness_R'");
+}
+
+TEST(ReadTrace, NamesNoNearestFormatWhereNothingFits) {
+    const Expected<Trace> trace = read_text("a,b,c\n1,2,3\n");
+    ASSERT_FALSE(trace.has_value());
+    EXPECT_EQ(trace.error().message,
+              "gaze.csv:1: unknown header; known formats: gazeloop, htc-vive-pro");
+}
+
+TEST(ReadTrace, RefusesAnEmptyFile) {
+    expect_refused(read_text(""), "gaze.csv:1: empty file");
+    expect_refused(read_text("\n1;2\n"), "gaze.csv:1: no header in the first line");
+    expect_refused(read_text("\xEF\xBB\xBF\n"), "gaze.csv:1: no header in the first line");
+}
+
+TEST(ReadTrace, RefusesAFileWithoutRows) {
+    expect_refused(read_text(std::string{kHtcHeader}), "gaze.csv: no rows after the header");
+    expect_refused(read_text(std::string{kHtcHeader} + "\r\n\r\n  \r\n"),
+                   "gaze.csv: no rows after the header");
+}
+
+TEST(ReadTrace, RefusesAFileWithoutAValidEye) {
+    std::string text = htc(htc_row(2000));
+    for (std::size_t at = 0; (at = text.find(";31;31;", at)) != std::string::npos;) {
+        text.replace(at, 7, ";25;24;");
+    }
+    expect_refused(read_text(text), "no valid gaze in gaze.csv");
+}
+
+TEST(ReadTrace, RefusesWhatIsNotANumberAndSaysWhere) {
+    expect_refused(read_text(htc(htc_row(2000, "0;abc;1"))),
+                   "gaze.csv:3: column 'gaze_direct_L.y': 'abc' is not a number");
+    expect_refused(read_text(htc("\r\n\r\n" + htc_row(2000, "0;0;1", "0;;1"))),
+                   "gaze.csv:5: column 'gaze_direct_R.y': '' is not a number");
+    expect_refused(read_text(htc(htc_row(2000, "0;0,5;1"))),
+                   "gaze.csv:3: column 'gaze_direct_L.y': '0,5' is not a number");
+    expect_refused(read_text(htc(htc_row(2000, "0;1e999;1"))), "'1e999' is not a number");
+    expect_refused(read_text(htc(htc_row(2000, "0;1 2;1"))), "'1 2' is not a number");
+    expect_refused(read_text(htc(htc_row(2000, "0x1;0;1"))), "'0x1' is not a number");
+    // In the last row too, which nothing follows.
+    expect_refused(read_text(htc(htc_row(2000, "0;0;1", "0;0;z"))),
+                   "gaze.csv:3: column 'gaze_direct_R.z': 'z' is not a number");
+}
+
+TEST(ReadTrace, RefusesWhatIsNotFinite) {
+    for (const std::string cell : {"nan", "NaN", "inf", "-inf", "infinity"}) {
+        expect_refused(
+            read_text(htc(htc_row(2000, "0;0;" + cell))),
+            fmt::format("gaze.csv:3: column 'gaze_direct_L.z': '{}' is not finite", cell));
+    }
+}
+
+TEST(ReadTrace, RefusesWholeNumbersThatAreNot) {
+    const std::string row = htc_row(2000);
+    expect_refused(read_text(htc("12.5" + row)),
+                   "gaze.csv:3: column 'time(100ns)': '12.52000' is not a whole number");
+    expect_refused(read_text(htc("99999999999999999" + row)), "is not a whole number of 64 bits");
+    expect_refused(read_text(native(native_row(-1, 2000))),
+                   "gaze.csv:3: column 'sequence': '-1' is not a whole number from 0");
+}
+
+TEST(ReadTrace, RefusesRowsOfTheWrongWidth) {
+    expect_refused(read_text(htc("1;2;3\r\n")), "gaze.csv:3: 3 columns, the header has 24");
+    expect_refused(read_text(htc(htc_row(2000, "0;0;1;0"))),
+                   "gaze.csv:3: 25 columns, the header has 24");
+    expect_refused(read_text(htc(htc_row(2000) + "6383427940")),
+                   "gaze.csv:4: 1 columns, the header has 24");
+}
+
+TEST(ReadTrace, RefusesAColumnNamedTwice) {
+    expect_refused(read_text("sequence,t_device_ns,sequence\n1,2,3\n"),
+                   "gaze.csv:1: column 'sequence' occurs twice");
+}
+
+TEST(ReadTrace, RefusesLinesWithoutEnd) {
+    const std::string longest(CsvTable::kLongestLine, ' ');
+    EXPECT_TRUE(read_text(htc(longest + "\r\n")).has_value());
+    EXPECT_TRUE(read_text(htc(longest)).has_value());
+    expect_refused(read_text(htc(longest + " \n")), "gaze.csv:3: longer than 65536 bytes");
+    expect_refused(read_text(htc(longest + "  ")), "gaze.csv:3: longer than 65536 bytes");
+    expect_refused(read_text(std::string(1'000'000, 'x')), "gaze.csv:1: longer than 65536 bytes");
+}
+
+TEST(ReadTrace, RefusesABinaryFile) {
+    expect_refused(read_text(std::string("\x1f\x8b\x08\0\0\0", 6)), "gaze.csv:1: not a text file");
+    expect_refused(read_text(htc(std::string("1;\0;3\n", 6))), "gaze.csv:3: not a text file");
+}
+
+TEST(ReadTrace, QuotesCellsSafely) {
+    expect_refused(read_text(htc(htc_row(2000, "0;\xff\xfe;1"))),
+                   "'" + std::string(2, '?') + "' is not a number");
+    expect_refused(read_text(htc(htc_row(2000, fmt::format("0;{};1", std::string(500, 'a'))))),
+                   fmt::format("'{}...' is not a number", std::string(40, 'a')));
+}
+
+TEST(ReadTrace, DropsAndCountsRowsWhoseTimeDoesNotAdvance) {
+    const Expected<Trace> trace =
+        read_text(htc(htc_row(3000) + htc_row(2000) + htc_row(3000) + htc_row(3001)));
+    ASSERT_TRUE(trace.has_value()) << trace.error().message;
+    EXPECT_EQ(trace->rows_out_of_order, 2U);
+    ASSERT_EQ(trace->samples.size(), 3U);
+    EXPECT_EQ(trace->samples[0].sampled.ns, 0);
+    EXPECT_EQ(trace->samples[1].sampled.ns, 200'000);
+    EXPECT_EQ(trace->samples[2].sampled.ns, 200'100);
+}
+
+TEST(ReadTrace, RefusesTimesThatCannotBelongToOneRecording) {
+    expect_refused(read_text(htc(htc_row(9'000'000'000'000'000'000))),
+                   "gaze.csv:3: column 'time(100ns)': '9000000000000000000' is more than a year "
+                   "away from the first row");
+    expect_refused(read_text(htc(htc_row(-9'223'372'036'854'775'807))), "more than a year away");
+    expect_refused(read_text(native(native_row(1, -9'223'372'036'854'775'807))),
+                   "column 't_device_ns'");
+}
+
+TEST(ReadTrace, AcceptsAMissingLastLineEnd) {
+    std::string text = htc(htc_row(2000));
+    text.resize(text.size() - 2);
+    const Expected<Trace> trace = read_text(text);
+    ASSERT_TRUE(trace.has_value()) << trace.error().message;
+    EXPECT_EQ(trace->samples.size(), 2U);
+}
+
+TEST(ReadTrace, IgnoresAByteOrderMark) {
+    EXPECT_TRUE(read_text("\xEF\xBB\xBF" + htc("")).has_value());
+}
+
+TEST_F(ReadTraceFile, ReadsAFile) {
+    const std::string file = write("gaze.csv", htc(htc_row(2000)));
+    const Expected<Trace> trace = read_trace(file);
+    ASSERT_TRUE(trace.has_value()) << trace.error().message;
+    EXPECT_EQ(trace->file, file);
+    EXPECT_EQ(trace->samples.size(), 2U);
+}
+
+TEST_F(ReadTraceFile, RefusesAMissingFile) {
+    const std::string file = (folder_ / "none.csv").string();
+    expect_refused(read_trace(file), file + ": cannot be opened: No such file or directory");
+}
+
+TEST_F(ReadTraceFile, RefusesADirectory) {
+    expect_refused(read_trace(folder_.string()), folder_.string() + ": a directory, not a trace");
+}
+
+TEST_F(ReadTraceFile, NamesTheFileInErrors) {
+    const std::string file = write("bad.csv", htc("1;2\n"));
+    expect_refused(read_trace(file), file + ":3: 2 columns");
+}
+
+TEST_F(ReadTraceFile, TakesTheDeviceFromTheSidecar) {
+    const std::string file = write("gaze.csv", native(""));
+    const std::string good = R"("format": "gazeloop-gaze", "version": 1,
+                                "axes": "+x right, +y up, -z forward")";
+    EXPECT_EQ(read_trace(file)->device, "unknown device");
+    write("gaze.csv.json", "{" + good + R"(, "device": "Pupil Core"})");
+    EXPECT_EQ(read_trace(file)->device, "Pupil Core");
+    write("gaze.csv.json", "{" + good + R"(, "device": 7})");
+    EXPECT_EQ(read_trace(file)->device, "unknown device");
+}
+
+TEST_F(ReadTraceFile, RefusesASidecarThatSaysOtherwise) {
+    const std::string file = write("gaze.csv", native(""));
+    const auto with_sidecar = [&](const std::string& text) {
+        write("gaze.csv.json", text);
+        return read_trace(file);
+    };
+    expect_refused(with_sidecar("{"), file + ".json: not a JSON object");
+    expect_refused(with_sidecar("[1, 2]"), file + ".json: not a JSON object");
+    expect_refused(with_sidecar(""), file + ".json: not a JSON object");
+    expect_refused(with_sidecar("{}"), file + ".json: 'format' must be \"gazeloop-gaze\"");
+    expect_refused(with_sidecar(R"({"format": "gazeloop-gaze", "version": 2})"),
+                   file + ".json: 'version' must be 1");
+    expect_refused(with_sidecar(R"({"format": "gazeloop-gaze", "version": 1, "axes": "y down"})"),
+                   file + ".json: 'axes' must be");
+}
+
+}  // namespace
+}  // namespace gazeloop::drivers

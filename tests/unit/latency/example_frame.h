@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/latency/frame_record.h"
+
+namespace gazeloop::latency {
+
+inline constexpr std::int64_t kMs = 1'000'000;
+inline constexpr std::int64_t kExamplePeriodNs = 10 * kMs;
+
+/// Frame `index` of a loop that keeps up with a 100 Hz display: woken at index x 10 ms, its gaze
+/// 5 ms old at the latch (3 ms tracker, 2 ms queue), submitted 1 ms later, 4 ms on the GPU (to be
+/// told by example_gpu), shown 6 ms later: 16 ms after the eye was seen.
+inline FrameRecord example_frame(std::uint64_t index, StampKind clock = StampKind::Measured) {
+    const std::int64_t wake_up = static_cast<std::int64_t>(index) * kExamplePeriodNs;
+    const auto at = [&](std::int64_t ms) { return Stamp{wake_up + ms * kMs, clock}; };
+    FrameRecord frame;
+    frame.index = index;
+    frame.stamps.wake_up = at(0);
+    frame.stamps.begin = at(1);
+    frame.stamps.latch = at(2);
+    frame.stamps.submit = at(3);
+    frame.stamps.end_frame = at(4);
+    frame.stamps.display = {at(13).ns, clock == StampKind::Measured ? StampKind::Predicted : clock};
+    frame.period_ns = kExamplePeriodNs;
+    frame.fovea.latched = frame.stamps.latch;
+    for (gaze::FoveaPoint& eye : frame.fovea.eyes) {
+        eye.state = gaze::FoveaState::Tracking;
+        eye.reason = gaze::LossReason::None;
+        eye.sample_sequence = index + 1;
+        eye.sampled = {at(-3).ns,
+                       clock == StampKind::Measured ? StampKind::Profile : StampKind::Modelled};
+        eye.arrived = at(0);
+    }
+    frame.samples = {.texels_planned = 1000,
+                     .texels_shaded = 800,
+                     .texels_off_screen = 150,
+                     .texels_under_disc = 50,
+                     .pixels_direct = 200,
+                     .pixels_output = 3400};
+    return frame;
+}
+
+inline FrameGpuRecord example_gpu(std::uint64_t index, std::int64_t gpu_ms = 4) {
+    const Stamp submit = example_frame(index).stamps.submit;
+    FrameGpuRecord gpu;
+    gpu.index = index;
+    gpu.gpu_begin = submit;
+    gpu.gpu_end = {submit.ns + gpu_ms * kMs, StampKind::Measured};
+    gpu.pass_ns = {-1, 3 * kMs, kMs, -1};
+    return gpu;
+}
+
+}  // namespace gazeloop::latency

@@ -1,0 +1,6 @@
+gazeloop_test(unit_latency
+    SOURCES latency/duration_histogram_test.cpp latency/gaze_age_test.cpp
+        latency/latency_summary_test.cpp latency/sample_counter_test.cpp
+        latency/summary_text_test.cpp ../support/allocation_counter.cpp
+    LINK gazeloop::latency
+    LABELS unit)

@@ -1,0 +1,239 @@
+#include "runtime/session/session_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/latency/example_frame.h"
+#include "tests/unit/session/child_process.h"
+
+namespace gazeloop::session {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ReadSession : public ::testing::Test {
+  protected:
+    /// A closed session of three frames, a sample and an event.
+    void record() {
+        const auto recorder = value_or_throw(SessionRecorder::create(file, {}));
+        for (std::uint64_t index = 0; index < 3; ++index) {
+            recorder->add(latency::example_frame(index));
+            recorder->add(latency::example_gpu(index));
+        }
+        recorder->add(gaze::GazeSample{}, 1);
+        recorder->event({}, "kind", "text");
+        recorder->close();
+    }
+
+    void change(const std::string& sql) const {
+        sqlite3* database = nullptr;
+        ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+        char* error = nullptr;
+        sqlite3_exec(database, sql.c_str(), nullptr, nullptr, &error);
+        EXPECT_EQ(error, nullptr) << error;
+        sqlite3_close(database);
+    }
+
+    /// Replaces a table by one with the same rows and no constraints.
+    void loosen(const std::string& table) const {
+        change("CREATE TABLE loose AS SELECT * FROM " + table + "; DROP TABLE " + table +
+               "; ALTER TABLE loose RENAME TO " + table);
+    }
+
+    /// The message of the error with which reading must end; it names the file.
+    std::string error() const {
+        const Expected<SessionFile> session = read_session(file);
+        if (session) {
+            return "no error";
+        }
+        EXPECT_EQ(session.error().code, ExitCode::BadInput);
+        EXPECT_THAT(session.error().message, HasSubstr(file.string()));
+        return session.error().message;
+    }
+
+    tests::TemporaryFolder folder;
+    std::filesystem::path file = folder / "run.session";
+};
+
+TEST_F(ReadSession, RefusesWhatIsNotThere) {
+    EXPECT_THAT(error(), HasSubstr("does not exist"));
+    EXPECT_FALSE(looks_like_session(file));
+}
+
+TEST_F(ReadSession, RefusesAFolder) {
+    std::filesystem::create_directory(file);
+    EXPECT_THAT(error(), HasSubstr("is not a file"));
+    EXPECT_FALSE(looks_like_session(file));
+}
+
+TEST_F(ReadSession, RefusesAnEmptyFile) {
+    std::ofstream(file).close();
+    EXPECT_THAT(error(), HasSubstr("not a session"));
+}
+
+TEST_F(ReadSession, RefusesOtherFiles) {
+    std::ofstream(file) << "time;x;y\n1;2;3\n4;5;6\n";
+    EXPECT_THAT(error(), HasSubstr("not a session"));
+    EXPECT_FALSE(looks_like_session(file));
+}
+
+TEST_F(ReadSession, RefusesGarbageThatBeginsAsSqlite) {
+    std::ofstream(file, std::ios::binary)
+        << std::string("SQLite format 3\0", 16) << std::string(5000, '\x5a');
+    EXPECT_TRUE(looks_like_session(file));
+    EXPECT_THAT(error(), HasSubstr("not a database"));
+}
+
+TEST_F(ReadSession, RefusesOtherDatabases) {
+    change("CREATE TABLE urls (id INTEGER)");
+    EXPECT_THAT(error(), HasSubstr("not a session: has no table meta"));
+}
+
+TEST_F(ReadSession, RefusesANewerSchemaAndNamesBothVersions) {
+    record();
+    change("UPDATE meta SET value = '7' WHERE name = 'schema_version'; DROP TABLE gaze");
+    EXPECT_THAT(error(), HasSubstr("schema version 7"));
+    EXPECT_THAT(error(), HasSubstr("up to version 1"));
+}
+
+TEST_F(ReadSession, RefusesAVersionThatIsNoNumber) {
+    record();
+    change("UPDATE meta SET value = '1a' WHERE name = 'schema_version'");
+    EXPECT_THAT(error(), HasSubstr("schema_version is '1a'"));
+}
+
+TEST_F(ReadSession, RefusesAMissingTable) {
+    record();
+    change("DROP TABLE event");
+    EXPECT_THAT(error(), HasSubstr("no table event"));
+}
+
+TEST_F(ReadSession, RefusesAViewInPlaceOfATable) {
+    record();
+    change(
+        "DROP TABLE event; CREATE VIEW event AS WITH RECURSIVE n(x) AS "
+        "(SELECT 1 UNION ALL SELECT x + 1 FROM n) SELECT x AS position FROM n");
+    EXPECT_THAT(error(), HasSubstr("no table event"));
+}
+
+TEST_F(ReadSession, RefusesAMissingColumn) {
+    record();
+    change("ALTER TABLE gaze DROP COLUMN left_valid");
+    EXPECT_THAT(error(), HasSubstr("table gaze"));
+    EXPECT_THAT(error(), HasSubstr("left_valid"));
+}
+
+TEST_F(ReadSession, IgnoresColumnsAndTablesThatItDoesNotKnow) {
+    record();
+    change("ALTER TABLE gaze ADD COLUMN pupil_m ANY; CREATE TABLE trial (id INTEGER)");
+    EXPECT_EQ(error(), "no error");
+}
+
+TEST_F(ReadSession, NamesTableRowAndColumnOfAWrongType) {
+    record();
+    loosen("frame");
+    change("UPDATE frame SET wake_up_ns = 'soon' WHERE number = 1");
+    EXPECT_THAT(error(), HasSubstr("table frame, row 2: column wake_up_ns holds 'soon' where an "
+                                   "integer was expected"));
+}
+
+TEST_F(ReadSession, RefusesAnIntegerWhereARealNumberBelongs) {
+    record();
+    change("UPDATE fovea SET x_px = 3 WHERE frame = 2 AND eye = 1");
+    EXPECT_THAT(error(), HasSubstr("table fovea, row 6: column x_px holds '3'"));
+}
+
+TEST_F(ReadSession, RefusesAKindThatItDoesNotKnow) {
+    record();
+    change("UPDATE gaze SET sampled_kind = 5");
+    EXPECT_THAT(error(), HasSubstr("table gaze, row 1: column sampled_kind holds '5' where an "
+                                   "integer from 0 to 4"));
+}
+
+TEST_F(ReadSession, RefusesNullWhereSomethingBelongs) {
+    record();
+    loosen("event");
+    change("UPDATE event SET text = NULL");
+    EXPECT_THAT(error(), HasSubstr("column text holds NULL where text was expected"));
+}
+
+TEST_F(ReadSession, RefusesAFrameThatLacksAView) {
+    record();
+    change("DELETE FROM view WHERE frame = 1 AND eye = 0");
+    EXPECT_THAT(error(), HasSubstr("table view, row 3: the left eye of frame 1 is missing"));
+}
+
+TEST_F(ReadSession, RefusesALastFrameThatLacksAFovea) {
+    record();
+    change("DELETE FROM fovea WHERE frame = 2 AND eye = 1");
+    EXPECT_THAT(error(), HasSubstr("table fovea, row 6: the right eye of frame 2 is missing"));
+}
+
+TEST_F(ReadSession, RefusesViewsOfNoFrame) {
+    record();
+    change("DELETE FROM frame WHERE number = 2");
+    EXPECT_THAT(error(), HasSubstr("table view, row 5: belongs to no frame"));
+}
+
+TEST_F(ReadSession, RefusesRowsThatComeTwice) {
+    record();
+    loosen("event");
+    change("INSERT INTO event SELECT * FROM event");
+    EXPECT_THAT(error(), HasSubstr("table event, row 2: is out of order"));
+}
+
+TEST_F(ReadSession, RefusesSamplesThatGoBackInFrames) {
+    record();
+    change(
+        "CREATE TEMP TABLE copy AS SELECT * FROM gaze; UPDATE copy SET position = 2, frame = 0; "
+        "INSERT INTO gaze SELECT * FROM copy");
+    EXPECT_THAT(error(), HasSubstr("table gaze, row 2: was consumed by an earlier frame"));
+}
+
+TEST_F(ReadSession, RefusesTruncatedFiles) {
+    record();
+    const auto whole = std::filesystem::file_size(file);
+    for (std::uintmax_t size = whole - 1; size > 0; size -= std::min<std::uintmax_t>(size, 1500)) {
+        std::filesystem::resize_file(file, size);
+        EXPECT_NE(error(), "no error") << size;
+    }
+}
+
+TEST_F(ReadSession, SurvivesAnyFlippedByte) {
+    record();
+    std::string bytes(std::filesystem::file_size(file), '\0');
+    std::ifstream(file, std::ios::binary)
+        .read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    for (std::size_t at = 0; at < bytes.size(); at += 397) {
+        std::string damaged = bytes;
+        damaged[at] = static_cast<char>(~damaged[at]);
+        std::ofstream(file, std::ios::binary | std::ios::trunc)
+            .write(damaged.data(), static_cast<std::streamsize>(damaged.size()));
+        const Expected<SessionFile> session = read_session(file);
+        EXPECT_TRUE(session || session.error().code == ExitCode::BadInput);
+    }
+}
+
+TEST_F(ReadSession, LeavesAClosedFileAlone) {
+    record();
+    std::filesystem::permissions(file, std::filesystem::perms(0444));
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0555));
+    const int frames = run_in_child([this] {
+        return become_nobody() ? static_cast<int>(value_or_throw(read_session(file)).frames.size())
+                               : -1;
+    });
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+    EXPECT_EQ(frames, 3);
+    EXPECT_FALSE(std::filesystem::exists(file.string() + "-wal"));
+    EXPECT_FALSE(std::filesystem::exists(file.string() + "-journal"));
+}
+
+}  // namespace
+}  // namespace gazeloop::session

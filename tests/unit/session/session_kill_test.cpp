@@ -1,0 +1,137 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "runtime/latency/clock.h"
+#include "runtime/session/session_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/latency/example_frame.h"
+#include "tests/unit/session/child_process.h"
+
+namespace gazeloop::session {
+namespace {
+
+constexpr std::int64_t kMayBeLostNs = 100'000'000;
+
+/// What the child tells of each frame, after it was handed to the recorder.
+struct HandedOver {
+    std::uint64_t index;
+    std::int64_t at_ns;
+};
+
+/// Records frames every 2 ms, each with a sample and the frame before's GPU part, until killed.
+int record_until_killed(const std::filesystem::path& file, int report) {
+    const auto recorder = value_or_throw(SessionRecorder::create(file, {}));
+    for (std::uint64_t index = 0;; ++index) {
+        recorder->add(gaze::GazeSample{}, index);
+        recorder->add(latency::example_frame(index));
+        if (index > 0) {
+            recorder->add(latency::example_gpu(index - 1));
+        }
+        const HandedOver told{index, latency::monotonic_ns()};
+        if (write(report, &told, sizeof told) != sizeof told) {
+            return 1;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+}
+
+struct Killed {
+    std::vector<HandedOver> handed_over;
+    std::int64_t at_ns = 0;
+};
+
+Killed record_and_kill(const std::filesystem::path& file, std::chrono::milliseconds after) {
+    std::array<int, 2> pipe_ends{};
+    if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
+        return {};
+    }
+    const auto [from, to] = pipe_ends;
+    const pid_t child =
+        start_child([&file, report = to] { return record_until_killed(file, report); });
+    close(to);
+    Killed killed;
+    HandedOver told{};
+    bool alive = read(from, &told, sizeof told) == sizeof told;  // the recorder runs
+    std::thread killer([&] {
+        std::this_thread::sleep_for(after);
+        killed.at_ns = latency::monotonic_ns();
+        kill(child, SIGKILL);
+    });
+    while (alive) {
+        killed.handed_over.push_back(told);
+        alive = read(from, &told, sizeof told) == sizeof told;
+    }
+    killer.join();
+    waitpid(child, nullptr, 0);
+    close(from);
+    return killed;
+}
+
+TEST(KilledSession, LacksAtMostTheLastTenthOfASecond) {
+    std::mt19937 random(7);
+    std::uniform_int_distribution<int> milliseconds(1, 600);
+    for (int round = 0; round < 12; ++round) {
+        const tests::TemporaryFolder folder;
+        const std::filesystem::path file = folder / "run.session";
+        const Killed killed =
+            record_and_kill(file, std::chrono::milliseconds(milliseconds(random)));
+        ASSERT_FALSE(killed.handed_over.empty());
+
+        const SessionFile session = value_or_throw(read_session(file));
+        EXPECT_FALSE(session.closed_cleanly);
+        ASSERT_LE(session.frames.size(), killed.handed_over.size() + 1);
+        for (std::uint64_t i = 0; i < session.frames.size(); ++i) {
+            EXPECT_EQ(session.frames[i].frame.index, i);
+        }
+        if (session.frames.size() < killed.handed_over.size()) {
+            const HandedOver& first_missing = killed.handed_over[session.frames.size()];
+            EXPECT_LT(killed.at_ns - first_missing.at_ns, kMayBeLostNs)
+                << killed.handed_over.size() - session.frames.size() << " frames are missing";
+        }
+        EXPECT_GE(session.samples.size(), session.frames.size());
+    }
+}
+
+TEST(KilledSession, CanBeReadInAFolderThatCannotBeWritten) {
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "run.session";
+    record_and_kill(file, std::chrono::milliseconds(200));
+    for (const char* part : {"", "-wal", "-shm"}) {
+        std::filesystem::permissions(file.string() + part, std::filesystem::perms(0444));
+    }
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0555));
+    const auto read_as_nobody = [&file] {
+        return run_in_child([&file] {
+            if (!become_nobody()) {
+                return 2;
+            }
+            const Expected<SessionFile> session = read_session(file);
+            if (session) {
+                return session->frames.empty() ? 3 : 0;
+            }
+            return session.error().message.find("copy") != std::string::npos ? 1 : 4;
+        });
+    };
+    EXPECT_EQ(read_as_nobody(), 0);
+
+    // Without its index the log cannot be read there: an error that says what to do.
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+    std::filesystem::remove(file.string() + "-shm");
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0555));
+    EXPECT_EQ(read_as_nobody(), 1);
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+}
+
+}  // namespace
+}  // namespace gazeloop::session

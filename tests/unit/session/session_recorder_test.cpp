@@ -1,0 +1,330 @@
+#include "runtime/session/session_recorder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "runtime/session/session_file.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/latency/example_frame.h"
+#include "tests/unit/session/child_process.h"
+
+namespace gazeloop::session {
+namespace {
+
+using ::testing::HasSubstr;
+
+const SessionHeader kHeader{
+    .meta = {{"program", "gazeloop 0.1.0"}, {"clock", "wall"}},
+    .config = {{"sigma", "1.8"}, {"alpha", "4"}, {"title", "\u00e9 \"quoted\"; DROP TABLE meta"}},
+    .device = {{"vulkan", ""}}};
+
+class Recording : public ::testing::Test {
+  protected:
+    std::unique_ptr<SessionRecorder> start() {
+        return value_or_throw(SessionRecorder::create(file, kHeader));
+    }
+    SessionFile read() { return value_or_throw(read_session(file)); }
+    std::set<std::string> files() {
+        std::set<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+            names.insert(entry.path().filename());
+        }
+        return names;
+    }
+
+    tests::TemporaryFolder folder;
+    std::filesystem::path file = folder / "run.session";
+};
+
+unsigned mode(const std::filesystem::path& file) {
+    struct stat status{};
+    return stat(file.c_str(), &status) == 0 ? status.st_mode & 0777U : 0U;
+}
+
+gaze::GazeSample sample(std::uint64_t sequence) {
+    gaze::GazeSample result;
+    result.sequence = sequence;
+    return result;
+}
+
+TEST_F(Recording, HoldsWhatWasAddedInOrder) {
+    const auto recorder = start();
+    for (std::uint64_t index = 0; index < 50; ++index) {
+        recorder->add(sample(2 * index), index);
+        recorder->add(sample(2 * index + 1), index);
+        recorder->add(latency::example_frame(index));
+        if (index >= 2) {
+            recorder->add(latency::example_gpu(index - 2));
+        }
+    }
+    recorder->event({5, latency::StampKind::Measured}, "gaze-lost", "left eye");
+    EXPECT_TRUE(recorder->close().complete());
+
+    const SessionFile session = read();
+    EXPECT_TRUE(session.closed_cleanly);
+    EXPECT_EQ(session.records_dropped, 0U);
+    ASSERT_EQ(session.samples.size(), 100U);
+    ASSERT_EQ(session.frames.size(), 50U);
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        EXPECT_EQ(session.samples[i].sample.sequence, i);
+        EXPECT_EQ(session.samples[i].frame, i / 2);
+    }
+    for (std::uint64_t i = 0; i < 50; ++i) {
+        const RecordedFrame& frame = session.frames[i];
+        EXPECT_EQ(frame.frame.index, i);
+        EXPECT_EQ(frame.frame.stamps.display, latency::example_frame(i).stamps.display);
+        EXPECT_EQ(frame.gpu.index, i);
+        EXPECT_EQ(frame.gpu.gpu_end.known(), i < 48);
+        EXPECT_EQ(frame.gpu.pass_ns[1], i < 48 ? 3 * latency::kMs : -1);
+    }
+    ASSERT_EQ(session.events.size(), 1U);
+    EXPECT_EQ(session.events[0].time, (latency::Stamp{5, latency::StampKind::Measured}));
+    EXPECT_EQ(session.events[0].kind, "gaze-lost");
+    EXPECT_EQ(session.events[0].text, "left eye");
+}
+
+TEST_F(Recording, StatesItsHeader) {
+    start()->close();
+    const SessionFile session = read();
+    const auto same = [](const NamedValue& a, const NamedValue& b) {
+        return a.name == b.name && a.value == b.value;
+    };
+    EXPECT_TRUE(std::ranges::equal(session.header.meta, kHeader.meta, same));
+    EXPECT_TRUE(std::ranges::equal(session.header.config, kHeader.config, same));
+    EXPECT_TRUE(std::ranges::equal(session.header.device, kHeader.device, same));
+    EXPECT_EQ(session.meta("clock"), "wall");
+    EXPECT_EQ(session.config("sigma"), "1.8");
+    EXPECT_EQ(session.config("beta"), std::nullopt);
+}
+
+TEST_F(Recording, LongEventTextIsCut) {
+    const auto recorder = start();
+    recorder->event({}, std::string(100, 'k'), std::string(239, 't') + "\u00e9 and more");
+    recorder->close();
+    const SessionFile session = read();
+    ASSERT_EQ(session.events.size(), 1U);
+    EXPECT_EQ(session.events[0].kind, std::string(32, 'k'));
+    EXPECT_EQ(session.events[0].text, std::string(239, 't'));
+}
+
+TEST_F(Recording, IsForItsOwnerOnly) {
+    const mode_t before = umask(0);
+    const auto recorder = start();
+    recorder->add(latency::example_frame(0));
+    for (int tries = 0; tries < 200 && mode(file.string() + "-shm") == 0; ++tries) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_EQ(mode(file), 0600U);
+    EXPECT_EQ(mode(file.string() + "-wal"), 0600U);
+    EXPECT_EQ(mode(file.string() + "-shm"), 0600U);
+    recorder->close();
+    EXPECT_EQ(mode(file), 0600U);
+    umask(before);
+}
+
+TEST_F(Recording, LeavesOneFile) {
+    const auto recorder = start();
+    recorder->add(latency::example_frame(0));
+    recorder->close();
+    EXPECT_EQ(files(), std::set<std::string>{"run.session"});
+}
+
+TEST_F(Recording, IsClosedByItsEnd) {
+    start()->add(latency::example_frame(0));
+    const SessionFile session = read();
+    EXPECT_TRUE(session.closed_cleanly);
+    EXPECT_EQ(session.frames.size(), 1U);
+}
+
+TEST_F(Recording, ClosesOnce) {
+    const auto recorder = start();
+    EXPECT_TRUE(recorder->close().complete());
+    recorder->add(latency::example_frame(0));
+    EXPECT_TRUE(recorder->close().complete());
+    EXPECT_EQ(read().frames.size(), 0U);
+}
+
+TEST_F(Recording, CanBeReadWhileItRuns) {
+    const auto recorder = start();
+    recorder->add(latency::example_frame(0));
+    std::size_t frames = 0;
+    for (int tries = 0; tries < 200 && frames == 0; ++tries) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        const SessionFile session = read();
+        EXPECT_FALSE(session.closed_cleanly);
+        frames = session.frames.size();
+    }
+    EXPECT_EQ(frames, 1U);
+    EXPECT_TRUE(recorder->close().complete());
+}
+
+TEST_F(Recording, IsCompleteAlsoWhileSomebodyReads) {
+    const auto recorder = start();
+    recorder->add(latency::example_frame(0));
+    sqlite3* reader = nullptr;
+    ASSERT_EQ(sqlite3_open_v2(file.c_str(), &reader, SQLITE_OPEN_READONLY, nullptr), SQLITE_OK);
+    sqlite3_exec(reader, "BEGIN; SELECT * FROM meta", nullptr, nullptr, nullptr);
+    EXPECT_TRUE(recorder->close().complete());
+    sqlite3_close(reader);
+    const SessionFile session = read();
+    EXPECT_TRUE(session.closed_cleanly);
+    EXPECT_EQ(session.frames.size(), 1U);
+}
+
+TEST_F(Recording, RefusesAFileThatExists) {
+    std::ofstream(file) << "precious";
+    const auto recorder = SessionRecorder::create(file, kHeader);
+    ASSERT_FALSE(recorder);
+    EXPECT_EQ(recorder.error().code, ExitCode::BadInput);
+    EXPECT_THAT(recorder.error().message, HasSubstr(file.string()));
+    EXPECT_THAT(recorder.error().message, HasSubstr("exists already"));
+    EXPECT_EQ(std::filesystem::file_size(file), 8U);
+}
+
+TEST_F(Recording, RefusesWhatAnEarlierSessionLeft) {
+    std::ofstream(file.string() + "-wal") << "rest";
+    const auto recorder = SessionRecorder::create(file, kHeader);
+    ASSERT_FALSE(recorder);
+    EXPECT_THAT(recorder.error().message, HasSubstr("run.session-wal"));
+    EXPECT_EQ(files(), std::set<std::string>{"run.session-wal"});
+}
+
+TEST_F(Recording, RefusesAMissingFolder) {
+    const auto recorder = SessionRecorder::create(folder / "none" / "run.session", kHeader);
+    ASSERT_FALSE(recorder);
+    EXPECT_EQ(recorder.error().code, ExitCode::BadInput);
+    EXPECT_THAT(recorder.error().message, HasSubstr("folder must exist"));
+}
+
+TEST_F(Recording, RefusesAFolderThatCannotBeWritten) {
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0555));
+    const int result = run_in_child([this] {
+        const bool prepared = become_nobody();
+        const auto recorder = SessionRecorder::create(file, kHeader);
+        return prepared && !recorder &&
+                       recorder.error().message.find("writable") != std::string::npos
+                   ? 0
+                   : 1;
+    });
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+    EXPECT_EQ(result, 0);
+    EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Recording, RefusesANameTwiceAndLeavesNothing) {
+    const auto recorder = SessionRecorder::create(file, {.meta = {{"closed", "yes"}}});
+    ASSERT_FALSE(recorder);
+    EXPECT_THAT(recorder.error().message, HasSubstr("meta.name"));
+    EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Recording, TakesNamesThatAreSpecialToSqlite) {
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    auto recorder = SessionRecorder::create(":memory:", kHeader);
+    ASSERT_TRUE(recorder);
+    EXPECT_TRUE((*recorder)->close().complete());
+    EXPECT_TRUE(read_session(":memory:"));
+    std::filesystem::current_path(before);
+}
+
+TEST_F(Recording, AddingDoesNotAllocate) {
+    const auto recorder = start();
+    const std::string text(500, 't');
+    const std::size_t before = tests::allocations_of_this_thread();
+    for (std::uint64_t index = 0; index < 1000; ++index) {
+        recorder->add(sample(index), index);
+        recorder->add(latency::example_frame(index));
+        recorder->add(latency::example_gpu(index));
+        recorder->event({}, "kind", text);
+    }
+    EXPECT_EQ(tests::allocations_of_this_thread(), before);
+    EXPECT_TRUE(recorder->close().complete());
+}
+
+TEST_F(Recording, CountsWhatTheQueueCannotTake) {
+    const auto recorder = start();
+    sqlite3* other = nullptr;
+    ASSERT_EQ(sqlite3_open(file.c_str(), &other), SQLITE_OK);
+    ASSERT_EQ(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+    constexpr std::uint64_t kAdded = 40'000;
+    for (std::uint64_t index = 0; index < kAdded; ++index) {
+        recorder->add(sample(index), 0);
+    }
+    sqlite3_exec(other, "ROLLBACK", nullptr, nullptr, nullptr);
+    sqlite3_close(other);
+
+    const RecordingStatus status = recorder->close();
+    EXPECT_EQ(status.failure, "");
+    EXPECT_GT(status.dropped, 0U);
+    EXPECT_FALSE(status.complete());
+    const SessionFile session = read();
+    EXPECT_EQ(session.records_dropped, status.dropped);
+    ASSERT_EQ(session.samples.size() + status.dropped, kAdded);
+    for (std::uint64_t i = 0; i < session.samples.size(); ++i) {
+        ASSERT_EQ(session.samples[i].sample.sequence, i);  // the newest are lost
+    }
+}
+
+TEST_F(Recording, AFullDiskEndsTheWritingOnly) {
+    const int result = run_in_child([this] {
+        const auto recorder = start();
+        const rlimit limit{500'000, 500'000};
+        if (setrlimit(RLIMIT_FSIZE, &limit) != 0) {
+            return 2;
+        }
+        signal(SIGXFSZ, SIG_IGN);
+        std::uint64_t added = 0;
+        while (!recorder->failed() && added < 1'000'000) {
+            recorder->add(latency::example_frame(added++));
+            std::this_thread::sleep_for(std::chrono::microseconds(300));
+        }
+        for (int i = 0; i < 50'000; ++i) {
+            recorder->add(latency::example_frame(added++));  // neither blocks nor counts
+        }
+        const RecordingStatus status = recorder->close();
+        const bool says = status.failure.find(file.string()) != std::string::npos &&
+                          status.failure.find("disk I/O error") != std::string::npos;
+        return says && !status.complete() && status.dropped == 0 ? 0 : 1;
+    });
+    ASSERT_EQ(result, 0);
+    const SessionFile session = read();
+    EXPECT_FALSE(session.closed_cleanly);
+    ASSERT_GT(session.frames.size(), 10U);
+    for (std::uint64_t i = 0; i < session.frames.size(); ++i) {
+        EXPECT_EQ(session.frames[i].frame.index, i);
+    }
+}
+
+TEST_F(Recording, ReportsAFileThatWasRemoved) {
+    const auto recorder = start();
+    std::filesystem::remove(file);
+    recorder->add(latency::example_frame(0));
+    const RecordingStatus status = recorder->close();
+    EXPECT_THAT(status.failure, HasSubstr("moved or removed"));
+    EXPECT_TRUE(recorder->failed());
+}
+
+TEST_F(Recording, ARepeatedFrameEndsTheWriting) {
+    const auto recorder = start();
+    recorder->add(latency::example_frame(7));
+    recorder->add(latency::example_frame(7));
+    EXPECT_THAT(recorder->close().failure, HasSubstr("frame.number"));
+}
+
+}  // namespace
+}  // namespace gazeloop::session
