@@ -42,6 +42,7 @@ class FrameLoop {
             start_ns_ = timeline_->now().ns;
             source_ = parts_.make_source(start_ns_);
             head_fixed_ = source_->fixed_in_head();
+            result_.fixed_in_head = head_fixed_;
         }
     }
 
@@ -62,8 +63,9 @@ class FrameLoop {
     }
 
     [[nodiscard]] bool time_is_up() const {
-        return timeline_ != nullptr &&
-               static_cast<double>(planned_.display.ns - start_ns_) * 1e-9 >= *options_.seconds;
+        return *options_.seconds <= 0.0 ||
+               (timeline_ != nullptr &&
+               static_cast<double>(planned_.display.ns - start_ns_) * 1e-9 >= *options_.seconds);
     }
 
     void end(LoopEnd why) {
@@ -118,21 +120,29 @@ class FrameLoop {
             observer->on_frame(record);
         }
         ++result_.frames;
+        result_.period_ns = planned_.period_ns;
     }
 
     void read_gaze(std::int64_t now_ns) {
         samples_.clear();
         source_->poll(now_ns, samples_);
         for (gaze::GazeSample& sample : samples_) {
-            if (!sample.head && !head_fixed_ && timeline_->asks_target_for_head() &&
-                sample.sampled.known()) {
-                sample.head = parts_.target.head_at(sample.sampled.ns);
+            if (!sample.head && !head_fixed_ && sample.sampled.known()) {
+                sample.head = head_at(sample.sampled.ns);
             }
             parts_.gaze.add(sample);
             for (FrameObserver* const observer : parts_.observers) {
                 observer->on_sample(sample, result_.frames);
             }
         }
+    }
+
+    /// In the world that the views are in: the source's, if it knows the head, else the target's.
+    [[nodiscard]] std::optional<gaze::Pose> head_at(std::int64_t time_ns) {
+        if (const gaze::HeadTrack* const track = source_->head_track()) {
+            return track->at(time_ns);
+        }
+        return timeline_->asks_target_for_head() ? parts_.target.head_at(time_ns) : std::nullopt;
     }
 
     void render(const gaze::PerEye<render::EyeTarget>& images, latency::FrameRecord& record) {
@@ -220,7 +230,7 @@ class FrameLoop {
     PlannedFrame planned_;
     std::vector<gaze::GazeSample> samples_;
     gaze::PerEye<Seen> seen_;
-    LoopResult result_{.end = LoopEnd::TargetEnd, .frames = 0, .last = std::nullopt};
+    LoopResult result_{.end = LoopEnd::TargetEnd};
 };
 
 }  // namespace

@@ -33,7 +33,9 @@ struct LoopOptions {
 struct LoopResult {
     LoopEnd end = LoopEnd::Limit;
     std::uint64_t frames = 0;
-    std::optional<render::FrameRequest> last;  ///< the last frame that was rendered
+    std::int64_t period_ns = 0;                  ///< of the display, as last announced
+    bool fixed_in_head = false;                  ///< the gaze was fixed on purpose
+    std::optional<render::FrameRequest> last{};  ///< the last frame that was rendered
 };
 
 /// The parts of a running loop. Time line and source are made at the first frame that the target

@@ -2,7 +2,9 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <memory>
 
 #include "drivers/session/session_source.h"
@@ -16,8 +18,7 @@
 namespace gazeloop::cli {
 namespace {
 
-/// Settings that a session's picture depends on.
-constexpr std::array<std::string_view, 3> kPictureGroups{"kfr.", "render.method", "render.sc"};
+constexpr const char* kSessionFormat = "session";
 
 struct ReplayCommand {
     RunOptions options;
@@ -30,7 +31,9 @@ struct ReplayCommand {
 ExitCode replay_trace(const ReplayCommand& command, drivers::Trace trace, Settings& settings,
                       FrameRunRequest& request) {
     const TrackerProfile tracker = value_or_throw(load_tracker(settings.values().profile.tracker));
-    request.make_source = trace_player(std::move(trace), tracker, command.speed);
+    // A session knows when its samples arrived; other traces get the profile's delay.
+    const std::int64_t delay_ns = trace.format == kSessionFormat ? 0 : tracker.delay_ns;
+    request.make_source = trace_player(std::move(trace), delay_ns, command.speed);
     request.clock = command.clock == "wall" ? RunClock::Wall : RunClock::Virtual;
     request.loop.end_with_source = true;
     return frame_run(request);
@@ -40,7 +43,7 @@ ExitCode replay_trace(const ReplayCommand& command, drivers::Trace trace, Settin
 drivers::Trace trace_of(const session::SessionFile& session, const std::string& file) {
     drivers::Trace trace;
     trace.file = file;
-    trace.format = "session";
+    trace.format = kSessionFormat;
     trace.device = "recorded session";
     if (session.samples.empty()) {
         throw SetupError(ExitCode::BadInput,
@@ -48,6 +51,11 @@ drivers::Trace trace_of(const session::SessionFile& session, const std::string& 
     }
     const std::int64_t start_ns = session.samples.front().sample.sampled.ns;
     for (const session::RecordedSample& recorded : session.samples) {
+        if (!trace.samples.empty() &&
+            recorded.sample.sampled.ns - start_ns < trace.samples.back().sampled.ns) {
+            ++trace.rows_out_of_order;
+            continue;
+        }
         trace.samples.push_back(recorded.sample);
         trace.samples.back().sampled.ns -= start_ns;
         trace.samples.back().arrived.ns -= start_ns;
@@ -55,10 +63,46 @@ drivers::Trace trace_of(const session::SessionFile& session, const std::string& 
     return trace;
 }
 
+bool decides_foveae(std::string_view key) { return key.starts_with("gaze."); }
+
 bool decides_picture(std::string_view key) {
-    return key == "render.spp" || std::ranges::any_of(kPictureGroups, [&](std::string_view group) {
-               return key.starts_with(group);
-           });
+    return key.starts_with("kfr.") || key == "render.method" || key == "render.scene" ||
+           key == "render.spp";
+}
+
+/// Refuses what the program cannot have recorded.
+void check_frames(const session::SessionFile& session, const std::string& file) {
+    const auto damaged = [&](std::size_t frame, std::string_view what) {
+        return SetupError(ExitCode::BadInput, fmt::format("{}: frame {}: {}: the recording is "
+                                                          "damaged; replay its gaze with --clock "
+                                                          "wall instead",
+                                                          file, frame, what));
+    };
+    if (session.frames.empty()) {
+        throw SetupError(ExitCode::BadInput,
+                         fmt::format("{}: the session holds no frame to replay", file));
+    }
+    for (std::size_t i = 0; i < session.frames.size(); ++i) {
+        const latency::FrameRecord& frame = session.frames[i].frame;
+        if (frame.index != i) {
+            throw damaged(i, "missing");
+        }
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const gaze::EyeView& view = frame.views[gaze::index(eye)];
+            const gaze::EyeView& first = session.frames[0].frame.views[gaze::index(eye)];
+            const double turn =
+                glm::length(view.pose.orientation) + glm::length(frame.head.orientation);
+            const glm::dvec3 place = view.pose.position_m + frame.head.position_m;
+            if (!gaze::is_valid(view) || !(std::abs(turn - 2.0) < 1e-3) ||
+                !std::isfinite(place.x + place.y + place.z) || !std::isfinite(frame.scene_time_s)) {
+                throw damaged(i, fmt::format("impossible view of the {} eye",
+                                             gaze::kEyeNames[gaze::index(eye)]));
+            }
+            if (view.width_px != first.width_px || view.height_px != first.height_px) {
+                throw damaged(i, "the picture changes its size");
+            }
+        }
+    }
 }
 
 ExitCode replay_session(const ReplayCommand& command, Settings& settings,
@@ -70,11 +114,17 @@ ExitCode replay_session(const ReplayCommand& command, Settings& settings,
     for (const auto& [key, value] : session.header.config) {
         // What is recorded about the place it ran at does not bind the replay.
         if (key != "target.name" && key != "vulkan.device" && !key.ends_with(".validation")) {
-            value_or_throw(settings.set(key, value, command.file));
+            if (const auto set = settings.set(key, value, command.file); !set) {
+                throw SetupError(ExitCode::BadInput, set.error().message);
+            }
         }
     }
     value_or_throw(settings.set("target.name", "headless", "replay of a session"));
     value_or_throw(command.options.apply_to(settings, false));
+    if (command.options.print_config) {
+        fmt::print("{}", settings.describe());
+        return ExitCode::Ok;
+    }
     if (command.clock == "wall") {
         return replay_trace(command, trace_of(session, command.file), settings, request);
     }
@@ -83,19 +133,8 @@ ExitCode replay_session(const ReplayCommand& command, Settings& settings,
                          "--speed: a session's own time line is replayed as it was; use --clock "
                          "wall to play its gaze faster or slower");
     }
-    if (session.frames.empty()) {
-        throw SetupError(ExitCode::BadInput,
-                         fmt::format("{}: the session holds no frame to replay", command.file));
-    }
+    check_frames(session, command.file);
     std::vector<drivers::SessionSource::Sample> samples;
-    for (std::size_t i = 0; i < session.frames.size(); ++i) {
-        if (session.frames[i].frame.index != i) {
-            throw SetupError(ExitCode::BadInput,
-                             fmt::format("{}: frame {} is missing from the recording; replay its "
-                                         "gaze with --clock wall instead",
-                                         command.file, i));
-        }
-    }
     for (const session::RecordedSample& recorded : session.samples) {
         if (recorded.frame < session.frames.size()) {
             samples.push_back(
@@ -108,9 +147,13 @@ ExitCode replay_session(const ReplayCommand& command, Settings& settings,
     request.clock = RunClock::Recorded;
     request.session = &session;
     const auto now = settings.list();
-    request.same_rendering = std::ranges::all_of(now, [&](const session::NamedValue& setting) {
-        return !decides_picture(setting.name) || session.config(setting.name) == setting.value;
-    });
+    const auto as_recorded = [&](auto&& concerns) {
+        return std::ranges::all_of(now, [&](const session::NamedValue& setting) {
+            return !concerns(setting.name) || session.config(setting.name) == setting.value;
+        });
+    };
+    request.same_gaze = as_recorded(decides_foveae);
+    request.same_rendering = as_recorded(decides_picture);
     return frame_run(request);
 }
 
@@ -149,10 +192,10 @@ void add_replay_command(CLI::App& program, const std::string& command_line, Acti
         ->check(CLI::IsMember({"virtual", "wall"}));
     app->add_option("--speed", command->speed, "how many times as fast as recorded")
         ->type_name("X")
-        ->check(CLI::Range(1e-3, 1e3));
+        ->check(number_between(1e-3, 1e3));
     command->options.add_to(*app);
     app->callback([=, &action] {
-        command->options.common.apply_log_level();
+        command->options.log.apply();
         action = [=] { return replay(*command, command_line); };
     });
 }

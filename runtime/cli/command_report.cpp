@@ -1,13 +1,12 @@
 #include <fmt/core.h>
 
-#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/output_file.h"
 #include "runtime/cli/run_options.h"
-#include "runtime/latency/latency_summary.h"
+#include "runtime/cli/session_summary.h"
 #include "runtime/latency/summary_json.h"
 #include "runtime/latency/summary_text.h"
 #include "runtime/session/session_file.h"
@@ -16,37 +15,15 @@ namespace gazeloop::cli {
 namespace {
 
 struct ReportCommand {
-    CommonOptions common;
+    LogOptions log;
     std::string file;
     std::string json;
 };
 
-std::optional<std::int64_t> meta_ns(const session::SessionFile& session, std::string_view name) {
-    const auto text = session.meta(name);
-    std::int64_t value = 0;
-    if (!text ||
-        std::from_chars(text->data(), text->data() + text->size(), value).ec != std::errc{}) {
-        return std::nullopt;
-    }
-    return value;
-}
-
 ExitCode report(const ReportCommand& command) {
     const session::SessionFile session = value_or_throw(session::read_session(command.file));
-    latency::LatencySummary summary({.clock = session.meta("clock") == "virtual"
-                                                  ? latency::LoopClock::Virtual
-                                                  : latency::LoopClock::Wall,
-                                     .period_ns = meta_ns(session, "display_period_ns").value_or(0),
-                                     .switching_ns = meta_ns(session, "display_switching_ns")});
-    for (const session::RecordedSample& sample : session.samples) {
-        summary.add(sample.sample);
-    }
-    for (const session::RecordedFrame& frame : session.frames) {
-        summary.add(frame.frame);
-        summary.add(frame.gpu);
-    }
-    const latency::SummaryReport result = summary.report();
-    if (command.json != "-" && !command.common.quiet) {
+    const latency::SummaryReport result = summarize(session);
+    if (command.json != "-" && !command.log.quiet) {
         fmt::print("{}", latency::summary_text(result));
         if (!session.closed_cleanly) {
             fmt::print("The recording was cut off: it lacks at most its last 100 ms.\n");
@@ -72,9 +49,9 @@ void add_report_command(CLI::App& program, Action& action) {
         ->type_name("SESSION");
     app->add_option("--json", command->json, "write the report as JSON; - is stdout")
         ->type_name("FILE");
-    command->common.add_to(*app);
+    command->log.add_to(*app);
     app->callback([=, &action] {
-        command->common.apply_log_level();
+        command->log.apply();
         action = [=] { return report(*command); };
     });
 }

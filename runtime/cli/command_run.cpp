@@ -41,7 +41,7 @@ void add_run_command(CLI::App& program, const std::string& command_line, Action&
         ->type_name("SOURCE");
     command->options.add_to(*app);
     app->callback([=, &action] {
-        command->options.common.apply_log_level();
+        command->options.log.apply();
         action = [=] { return run(*command, command_line); };
     });
 }

@@ -11,7 +11,7 @@ namespace gazeloop::cli {
 namespace {
 
 struct SimulateGazeCommand {
-    CommonOptions common;
+    LogOptions log;
     std::string file;
     sim::GazeGeneratorConfig config;
 };
@@ -19,7 +19,7 @@ struct SimulateGazeCommand {
 ExitCode simulate_gaze(const SimulateGazeCommand& command) {
     const drivers::Trace trace = sim::generate_gaze(command.config);
     value_or_throw(drivers::write_native_trace(trace, command.file));
-    if (!command.common.quiet) {
+    if (!command.log.quiet) {
         fmt::print("{}: {} samples, {} s at {} Hz, seed {}\n", command.file, trace.samples.size(),
                    command.config.seconds, command.config.rate_hz, command.config.seed);
     }
@@ -36,13 +36,14 @@ void add_simulate_command(CLI::App& program, Action& action) {
     gaze->add_option("file", command->file, "the trace to write (overwritten)")
         ->required()
         ->type_name("OUT");
-    gaze->add_option("--seconds", command->config.seconds, "length")->check(CLI::Range(1e-3, 1e5));
+    gaze->add_option("--seconds", command->config.seconds, "length")
+        ->check(number_between(1e-3, 1e5));
     gaze->add_option("--rate", command->config.rate_hz, "samples a second, Hz")
-        ->check(CLI::Range(1.0, 1e4));
+        ->check(number_between(1.0, 1e4));
     gaze->add_option("--seed", command->config.seed, "the same seed gives the same trace");
-    command->common.add_to(*gaze);
+    command->log.add_to(*gaze);
     gaze->callback([=, &action] {
-        command->common.apply_log_level();
+        command->log.apply();
         action = [=] { return simulate_gaze(*command); };
     });
 }

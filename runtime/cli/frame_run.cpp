@@ -14,6 +14,7 @@
 #include "runtime/cli/output_file.h"
 #include "runtime/cli/profiles.h"
 #include "runtime/cli/replay_check.h"
+#include "runtime/cli/session_summary.h"
 #include "runtime/cli/version.h"
 #include "runtime/latency/clock.h"
 #include "runtime/latency/latency_summary.h"
@@ -88,6 +89,22 @@ std::unique_ptr<present::FrameTarget> make_target(const FrameRunRequest& request
     return std::make_unique<present::HeadlessTarget>(options);
 }
 
+/// The profile that the settings name; for a replay of a recording off screen, what the recording
+/// says of its display, since the profile may have changed or be gone.
+present::DisplayProfile display_of(const FrameRunRequest& request) {
+    const SettingValues& values = request.settings->values();
+    if (request.clock != RunClock::Recorded || values.target.name != "headless") {
+        return value_or_throw(load_display(values.profile.display));
+    }
+    const latency::SummaryConfig recorded = summary_config(*request.session);
+    present::DisplayProfile display;
+    display.name = values.profile.display;
+    display.refresh_hz =
+        recorded.period_ns > 0 ? 1e9 / static_cast<double>(recorded.period_ns) : 60.0;
+    display.switching_ns = recorded.switching_ns.value_or(0);
+    return display;
+}
+
 /// The profile's eyes at the target's picture sizes, head at the origin.
 gaze::StereoView profile_views(const present::DisplayProfile& display,
                                const gaze::PerEye<vk::Extent2D>& extents) {
@@ -125,7 +142,12 @@ class Summing final : public FrameObserver {
   public:
     explicit Summing(latency::LatencySummary& summary) : summary_(summary) {}
     void on_sample(const gaze::GazeSample& sample, std::uint64_t) override { summary_.add(sample); }
-    void on_frame(const latency::FrameRecord& record) override { summary_.add(record); }
+    void on_frame(const latency::FrameRecord& record) override {
+        if (record.period_ns > 0) {
+            summary_.set_display_period(record.period_ns);
+        }
+        summary_.add(record);
+    }
     void on_gpu(const latency::FrameGpuRecord& record) override { summary_.add(record); }
 
   private:
@@ -177,11 +199,17 @@ std::string_view end_text(LoopEnd end) {
 class FrameRun {
   public:
     explicit FrameRun(const FrameRunRequest& request)
-        : request_(request),
-          values_(request.settings->values()),
-          display_(value_or_throw(load_display(values_.profile.display))) {}
+        : request_(request), values_(request.settings->values()), display_(display_of(request)) {}
 
     ExitCode run() {
+        if (values_.target.name == "openxr" && !values_.vulkan.device.empty()) {
+            throw SetupError(ExitCode::Usage,
+                             "vulkan.device: over OpenXR the runtime chooses the device; use it "
+                             "with --target headless");
+        }
+        if (request_.snapshot) {
+            value_or_throw(render::make_snapshot_folder(*request_.snapshot));
+        }
         target_ = make_target(request_, display_);
         context_ = std::make_unique<render::VulkanContext>(
             render::VulkanOptions{.validation = values_.vulkan.validation,
@@ -189,6 +217,7 @@ class FrameRun {
             target_->vulkan_factory());
         target_->start(*context_);
         config_ = renderer_config();
+        check_recorded_target();
         render::FrameRenderer renderer(*context_, config_);
         spdlog::info("Vulkan: {} ({})", context_->device_name(), context_->driver());
         spdlog::info("{}x{} per eye, method {}, scene {}, {} samples, target {}",
@@ -199,9 +228,7 @@ class FrameRun {
         }
         open_recording();
 
-        latency::LatencySummary summary({.clock = request_.clock == RunClock::Virtual
-                                                      ? latency::LoopClock::Virtual
-                                                      : latency::LoopClock::Wall,
+        latency::LatencySummary summary({.clock = loop_clock(),
                                          .period_ns = display_.period_ns(),
                                          .switching_ns = display_.switching_ns});
         run_loop(renderer, summary);
@@ -210,6 +237,34 @@ class FrameRun {
     }
 
   private:
+    [[nodiscard]] latency::LoopClock loop_clock() const {
+        if (request_.clock == RunClock::Recorded) {
+            return summary_config(*request_.session).clock;
+        }
+        return request_.clock == RunClock::Virtual ? latency::LoopClock::Virtual
+                                                   : latency::LoopClock::Wall;
+    }
+
+    /// A recording's views are replayed as they are: the target's pictures must fit them.
+    void check_recorded_target() const {
+        if (request_.clock != RunClock::Recorded) {
+            return;
+        }
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const gaze::EyeView& view =
+                request_.session->frames.front().frame.views[gaze::index(eye)];
+            const vk::Extent2D extent = config_.extents[gaze::index(eye)];
+            if (extent != vk::Extent2D(view.width_px, view.height_px)) {
+                throw SetupError(
+                    ExitCode::Usage,
+                    fmt::format(
+                        "the recording's pictures have {}x{} px, the target's {}x{}: replay "
+                        "it with --target headless, or with the display it was recorded on",
+                        view.width_px, view.height_px, extent.width, extent.height));
+            }
+        }
+    }
+
     [[nodiscard]] render::RendererConfig renderer_config() const {
         return {.method = method_named(values_.render.method),
                 .scene = values_.render.scene,
@@ -236,7 +291,7 @@ class FrameRun {
                        {"started_utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
                                                    fmt::gmtime(std::chrono::system_clock::to_time_t(
                                                        std::chrono::system_clock::now())))},
-                       {"clock", request_.clock == RunClock::Virtual ? "virtual" : "wall"},
+                       {"clock", loop_clock() == latency::LoopClock::Virtual ? "virtual" : "wall"},
                        {"target", values_.target.name},
                        {"target_format", vk::to_string(target_->format())},
                        {"display_period_ns", fmt::format("{}", display_.period_ns())},
@@ -262,6 +317,7 @@ class FrameRun {
                                            .views = profile_views(display_, target_->extents())});
             case RunClock::Recorded: {
                 std::vector<RecordedTimeline::Frame> frames;
+                frames.reserve(request_.session->frames.size());
                 for (const session::RecordedFrame& recorded : request_.session->frames) {
                     frames.push_back({recorded.frame, recorded.gpu});
                 }
@@ -276,7 +332,7 @@ class FrameRun {
         Summing summing(summary);
         Logging logging;
         if (request_.session != nullptr && request_.clock == RunClock::Recorded) {
-            check_.emplace(*request_.session, request_.same_rendering);
+            check_.emplace(*request_.session, request_.same_gaze, request_.same_rendering);
         }
         LoopParts parts{.target = *target_,
                         .renderer = renderer,
@@ -310,6 +366,12 @@ class FrameRun {
                 code_ = ExitCode::Interrupted;
             }
             spdlog::info("{} frames, {}", result_.frames, end_text(result_.end));
+            compare_with_profile();
+            if (recorder_ != nullptr) {
+                recorder_->event(latency::measured_now(), "gpu-clock",
+                                 fmt::format("related to CLOCK_MONOTONIC within {} ns",
+                                             renderer.clock_deviation_ns()));
+            }
         } catch (const SetupError& error) {
             fail(error.code(), error.what());
         } catch (const vk::DeviceLostError& error) {
@@ -317,6 +379,24 @@ class FrameRun {
                  fmt::format("the Vulkan device was lost ({})", error.what()));
         } catch (const vk::SystemError& error) {
             fail(ExitCode::SessionLost, fmt::format("Vulkan failed ({})", error.what()));
+        }
+    }
+
+    /// The runtime's display counts; the profile then supplies only what the runtime cannot say.
+    void compare_with_profile() {
+        const double announced = static_cast<double>(result_.period_ns);
+        const double expected = static_cast<double>(display_.period_ns());
+        if (request_.clock != RunClock::Wall || result_.period_ns <= 0 ||
+            std::abs(announced - expected) <= 0.01 * expected) {
+            return;
+        }
+        const std::string text = fmt::format(
+            "the runtime's display has a period of {:.2f} ms, the profile '{}' {:.2f} ms: the "
+            "runtime's is used",
+            announced * 1e-6, display_.name, expected * 1e-6);
+        spdlog::warn("{}", text);
+        if (recorder_ != nullptr) {
+            recorder_->event(latency::measured_now(), "display", text);
         }
     }
 
@@ -343,15 +423,18 @@ class FrameRun {
             } else {
                 spdlog::info("recorded to {}", request_.record->string());
             }
-        }
-        if (context_->validation_messages() > 0) {
-            fail(ExitCode::GateFailed,
-                 fmt::format("Vulkan validation: {} messages", context_->validation_messages()));
+            recorder_.reset();
         }
         const latency::SummaryReport report = summary.report();
         std::string text;
+        if (request_.clock == RunClock::Recorded && !request_.quiet) {
+            text += "replay of a recording: times are the recorded ones, passes are of this run\n";
+        }
+        if (result_.fixed_in_head && request_.clock == RunClock::Wall && !request_.quiet) {
+            text += "fixed gaze: no tracker; ages count from the latch\n";
+        }
         if (!request_.quiet) {
-            text = latency::summary_text(report);
+            text += latency::summary_text(report);
         }
         if (check_) {
             text += check_->text();
@@ -362,7 +445,9 @@ class FrameRun {
         if (request_.hash) {
             text += hash_.text();
         }
-        std::fputs(text.c_str(), stdout);
+        // JSON on stdout stays alone there.
+        std::FILE* const out = request_.json == "-" ? stderr : stdout;
+        std::fputs(text.c_str(), out);
         if (request_.json) {
             if (const auto written =
                     write_text(*request_.json, latency::summary_json(report).dump(2) + "\n");
@@ -370,26 +455,35 @@ class FrameRun {
                 fail(written.error().code, written.error().message);
             }
         }
-        take_snapshot();
+        take_snapshot(out);
+        if (context_->validation_messages() > 0) {
+            fail(ExitCode::GateFailed,
+                 fmt::format("Vulkan validation: {} messages", context_->validation_messages()));
+        }
     }
 
-    void take_snapshot() {
+    void take_snapshot(std::FILE* out) {
         if (!request_.snapshot) {
             return;
         }
         if (!result_.last) {
-            fail(ExitCode::GateFailed, "--snapshot: no frame was rendered");
+            fail(ExitCode::GateFailed,
+                 "--snapshot: no frame was rendered (a runtime asks for none at first): use more "
+                 "--frames");
             return;
         }
-        const auto files = render::write_snapshot(
-            *context_, config_, *result_.last,
-            {.folder = *request_.snapshot, .mark_fovea = request_.mark_fovea});
-        if (!files) {
-            fail(files.error().code, files.error().message);
-            return;
-        }
-        for (const auto& file : *files) {
-            fmt::print("snapshot {}\n", file.string());
+        try {
+            const auto files = value_or_throw(render::write_snapshot(
+                *context_, config_, *result_.last,
+                {.folder = *request_.snapshot, .mark_fovea = request_.mark_fovea}));
+            for (const auto& file : files) {
+                fmt::print(out, "snapshot {}\n", file.string());
+            }
+        } catch (const SetupError& error) {
+            fail(error.code(), error.what());
+        } catch (const vk::SystemError& error) {
+            fail(ExitCode::SessionLost,
+                 fmt::format("--snapshot: Vulkan failed ({})", error.what()));
         }
     }
 
@@ -410,6 +504,16 @@ class FrameRun {
 
 }  // namespace
 
-ExitCode frame_run(const FrameRunRequest& request) { return FrameRun(request).run(); }
+ExitCode frame_run(const FrameRunRequest& request) {
+    try {
+        return FrameRun(request).run();
+    } catch (const vk::SystemError& error) {
+        throw SetupError(
+            ExitCode::NoDevice,
+            fmt::format("Vulkan failed during set-up ({}): use a smaller picture (--set "
+                        "render.scale=0.5) or another device",
+                        error.what()));
+    }
+}
 
 }  // namespace gazeloop::cli

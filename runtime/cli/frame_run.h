@@ -28,7 +28,8 @@ struct FrameRunRequest {
     RunClock clock = RunClock::Wall;
     std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)> make_source;
     const session::SessionFile* session = nullptr;  ///< with Recorded, and to be compared with
-    bool same_rendering = true;                     ///< as the session's
+    bool same_gaze = true;                          ///< settings as the session's
+    bool same_rendering = true;                     ///< settings as the session's
     LoopOptions loop;
     bool hash = false;
     bool mark_fovea = false;

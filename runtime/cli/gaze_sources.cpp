@@ -22,7 +22,7 @@ Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfi
         if (!trace) {
             return std::unexpected(std::move(trace.error()));
         }
-        return trace_player(std::move(*trace), tracker, 1.0);
+        return trace_player(std::move(*trace), tracker.delay_ns, 1.0);
     }
     if (kind == "fixed" && !argument.empty()) {
         const auto gaze = drivers::parse_fixed_gaze(argument);
@@ -37,13 +37,13 @@ Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfi
         Error{ExitCode::Usage, "--gaze: " + unknown_name("source", text, known)});
 }
 
-MakeSource trace_player(drivers::Trace trace, const TrackerProfile& tracker, double speed) {
+MakeSource trace_player(drivers::Trace trace, std::int64_t delay_ns, double speed) {
     for (gaze::GazeSample& sample : trace.samples) {
         for (latency::Stamp* const stamp : {&sample.sampled, &sample.arrived}) {
             stamp->ns = std::llround(static_cast<double>(stamp->ns) / speed);
         }
     }
-    return [trace = std::move(trace), delay_ns = tracker.delay_ns](std::int64_t start_ns) {
+    return [trace = std::move(trace), delay_ns](std::int64_t start_ns) {
         return std::make_unique<drivers::TraceSource>(trace, start_ns, delay_ns);
     };
 }

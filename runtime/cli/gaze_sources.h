@@ -17,7 +17,8 @@ using MakeSource = std::function<std::unique_ptr<drivers::GazeSource>(std::int64
 /// unknown source, otherwise the source's own.
 Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfile& tracker);
 
-/// Plays a trace, `speed` times as fast as it was recorded.
-MakeSource trace_player(drivers::Trace trace, const TrackerProfile& tracker, double speed);
+/// Plays a trace, `speed` times as fast as it was recorded; every sample arrives `delay_ns` after
+/// it was taken, later by as much as the trace says.
+MakeSource trace_player(drivers::Trace trace, std::int64_t delay_ns, double speed);
 
 }  // namespace gazeloop::cli

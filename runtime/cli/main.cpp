@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <optional>
 #include <string>
@@ -72,7 +73,12 @@ int gazeloop_main(int count, char** arguments) {
         return program.exit(error) == 0 ? code(ExitCode::Ok) : code(ExitCode::Usage);
     }
     try {
-        return code(action());
+        const ExitCode result = action();
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+            spdlog::error("stdout cannot be written: the results are lost");
+            return code(ExitCode::BadInput);
+        }
+        return code(result);
     } catch (const gazeloop::SetupError& error) {
         spdlog::error("{}", error.what());
         return code(error.code());

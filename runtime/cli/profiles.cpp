@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <span>
@@ -37,7 +38,8 @@ Expected<ProfileText> find_text(std::string_view folder, std::string_view what,
                                 std::string_view name) {
     if (name.ends_with(".toml")) {
         std::ifstream in{std::string(name)};
-        if (!in) {
+        std::error_code ignored;
+        if (!in || std::filesystem::is_directory(std::string(name), ignored)) {
             return std::unexpected(Error{
                 ExitCode::BadInput, fmt::format("{}: the {} profile cannot be read", name, what)});
         }
@@ -148,6 +150,14 @@ Expected<present::DisplayProfile> load_display(std::string_view name) {
     if (!read.complaint().empty()) {
         return std::unexpected(Error{ExitCode::BadInput, read.complaint()});
     }
+    for (const gaze::FieldOfView& fov : display.fov) {
+        if (!gaze::is_valid(
+                {.fov = fov, .width_px = display.width_px, .height_px = display.height_px})) {
+            return std::unexpected(
+                Error{ExitCode::BadInput,
+                      fmt::format("{}: fov_deg: too narrow to render for", text->origin)});
+        }
+    }
     return display;
 }
 
@@ -168,8 +178,5 @@ Expected<TrackerProfile> load_tracker(std::string_view name) {
     }
     return tracker;
 }
-
-std::vector<std::string> display_names() { return built_in_names("displays"); }
-std::vector<std::string> tracker_names() { return built_in_names("trackers"); }
 
 }  // namespace gazeloop::cli

@@ -22,7 +22,4 @@ struct TrackerProfile {
 Expected<present::DisplayProfile> load_display(std::string_view name);
 Expected<TrackerProfile> load_tracker(std::string_view name);
 
-[[nodiscard]] std::vector<std::string> display_names();
-[[nodiscard]] std::vector<std::string> tracker_names();
-
 }  // namespace gazeloop::cli

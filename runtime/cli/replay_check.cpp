@@ -55,7 +55,7 @@ std::string ReplayHash::text() const {
 }
 
 void ReplayCheck::on_frame(const latency::FrameRecord& record) {
-    if (record.index >= session_.frames.size()) {
+    if (!same_gaze_ || record.index >= session_.frames.size()) {
         return;
     }
     ++foveae_compared_;
@@ -87,15 +87,17 @@ bool ReplayCheck::equal() const {
 }
 
 std::string ReplayCheck::text() const {
-    std::string text = fmt::format("replay: foveae bit-equal in {} of {} frames\n", foveae_equal_,
-                                   foveae_compared_);
+    std::string text =
+        same_gaze_ ? fmt::format("replay: foveae bit-equal in {} of {} frames\n", foveae_equal_,
+                                 foveae_compared_)
+                   : "replay: foveae not compared: gaze settings differ from the recorded ones\n";
     if (pixels_compared_ > 0) {
         text += fmt::format("replay: pictures equal in {} of {} frames\n", pixels_equal_,
                             pixels_compared_);
     } else {
         text += fmt::format("replay: pictures not compared: {}\n",
                             same_rendering_ ? "not hashed in both runs (--hash)"
-                                            : "the rendering differs from the recorded one");
+                                            : "the settings differ from the recorded ones");
     }
     if (first_difference_) {
         text += fmt::format("replay: first difference in frame {}\n", *first_difference_);

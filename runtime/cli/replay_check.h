@@ -30,9 +30,10 @@ class ReplayHash final : public FrameObserver {
 /// have them.
 class ReplayCheck final : public FrameObserver {
   public:
-    /// `session` must outlive this. Pixels are compared only if `same_rendering`.
-    ReplayCheck(const session::SessionFile& session, bool same_rendering)
-        : session_(session), same_rendering_(same_rendering) {}
+    /// `session` must outlive this. Foveae are compared only if `same_gaze`, pixels only if
+    /// `same_rendering` as well.
+    ReplayCheck(const session::SessionFile& session, bool same_gaze, bool same_rendering)
+        : session_(session), same_gaze_(same_gaze), same_rendering_(same_gaze && same_rendering) {}
 
     void on_frame(const latency::FrameRecord& record) override;
     void on_gpu(const latency::FrameGpuRecord& record) override;
@@ -42,6 +43,7 @@ class ReplayCheck final : public FrameObserver {
 
   private:
     const session::SessionFile& session_;
+    bool same_gaze_;
     bool same_rendering_;
     std::uint64_t foveae_equal_ = 0;
     std::uint64_t foveae_compared_ = 0;

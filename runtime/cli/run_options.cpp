@@ -3,40 +3,75 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <charconv>
+
 namespace gazeloop::cli {
 
-void CommonOptions::add_to(CLI::App& command) {
-    command.add_option("--config", config_files, "TOML file with settings; may be repeated")
-        ->type_name("FILE");
-    command.add_option("--set", assignments, "a setting, e.g. kfr.disc=false; may be repeated")
-        ->type_name("KEY=VALUE");
+namespace {
+
+const CLI::Validator kNotEmpty(
+    [](const std::string& text) {
+        return text.empty() ? std::string("a name is needed") : std::string();
+    },
+    "", "NOT_EMPTY");
+
+}  // namespace
+
+CLI::Validator number_between(double least, double greatest) {
+    return {[least, greatest](const std::string& text) {
+                double value = 0.0;
+                const auto [end, error] =
+                    std::from_chars(text.data(), text.data() + text.size(), value);
+                const bool good = error == std::errc{} && end == text.data() + text.size() &&
+                                  value >= least && value <= greatest;
+                return good ? std::string()
+                            : fmt::format("'{}' must be a number in [{}, {}]", text, least,
+                                          greatest);
+            },
+            "", "NUMBER"};
+}
+
+void LogOptions::add_to(CLI::App& command) {
     command.add_option("--log-level", log_level, "what goes to stderr")
         ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
     command.add_flag("--quiet", quiet, "no log below warnings, no summary");
 }
 
-void CommonOptions::apply_log_level() const {
+void LogOptions::apply() const {
     spdlog::set_level(quiet && log_level == "info" ? spdlog::level::warn
                                                    : spdlog::level::from_str(log_level));
 }
 
 void RunOptions::add_to(CLI::App& command) {
-    common.add_to(command);
+    log.add_to(command);
+    command.add_option("--config", config_files, "TOML file with settings; may be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command.add_option("--set", assignments, "a setting, e.g. kfr.disc=false; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
     for (Alias& alias : aliases) {
-        command.add_option(alias.flag, alias.text,
-                           fmt::format("{} ({})", alias.meaning, alias.key));
+        command
+            .add_option(alias.flag, alias.text, fmt::format("{} ({})", alias.meaning, alias.key))
+            ->check(kNotEmpty);
     }
-    command.add_option("--frames", frames, "end after N frames")->type_name("N");
+    command.add_option("--frames", frames, "end after N frames")
+        ->type_name("N")
+        ->check(number_between(0, 1e15));
     command.add_option("--seconds", seconds, "end after S seconds")
         ->type_name("S")
-        ->check(CLI::NonNegativeNumber);
+        ->check(number_between(0, 1e9));
     command.add_option("--record", record, "write a session (must not exist yet)")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(kNotEmpty);
     command.add_option("--snapshot", snapshot, "write pictures of the last frame")
-        ->type_name("DIR");
+        ->type_name("DIR")
+        ->check(kNotEmpty);
     command.add_flag("--mark-fovea", mark_fovea, "draw the fovea into the snapshot");
     command.add_flag("--hash", hash, "hash every frame's foveae and pixels");
-    command.add_option("--json", json, "write the summary as JSON; - is stdout")->type_name("FILE");
+    command.add_option("--json", json, "write the summary as JSON; - is stdout")
+        ->type_name("FILE")
+        ->check(kNotEmpty);
     command.add_flag("--print-config", print_config, "show every setting and where it comes from");
 }
 
@@ -46,12 +81,12 @@ Expected<void> RunOptions::apply_to(Settings& settings, bool standard_files) con
             return loaded;
         }
     }
-    for (const std::string& file : common.config_files) {
+    for (const std::string& file : config_files) {
         if (auto loaded = settings.load(file); !loaded) {
             return loaded;
         }
     }
-    for (const std::string& assignment : common.assignments) {
+    for (const std::string& assignment : assignments) {
         const std::size_t equals = assignment.find('=');
         if (equals == std::string::npos) {
             return std::unexpected(
@@ -77,14 +112,16 @@ void RunOptions::fill(FrameRunRequest& request) const {
     const auto path = [](const std::string& text) {
         return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text);
     };
-    request.loop.frames = frames;
+    if (frames) {
+        request.loop.frames = static_cast<std::uint64_t>(*frames);
+    }
     request.loop.seconds = seconds;
     request.record = path(record);
     request.snapshot = path(snapshot);
     request.json = path(json);
     request.mark_fovea = mark_fovea;
     request.hash = hash;
-    request.quiet = common.quiet;
+    request.quiet = log.quiet;
 }
 
 }  // namespace gazeloop::cli

@@ -11,19 +11,22 @@
 namespace gazeloop::cli {
 
 /// The options that every command has.
-struct CommonOptions {
-    std::vector<std::string> config_files;
-    std::vector<std::string> assignments;  ///< --set KEY=VALUE
+struct LogOptions {
     std::string log_level = "info";
     bool quiet = false;
 
     void add_to(CLI::App& command);
-    void apply_log_level() const;
+    void apply() const;
 };
+
+/// A number in a range; not-a-number is none.
+CLI::Validator number_between(double least, double greatest);
 
 /// The options that `run` and `replay` share.
 struct RunOptions {
-    CommonOptions common;
+    LogOptions log;
+    std::vector<std::string> config_files;
+    std::vector<std::string> assignments;  ///< --set KEY=VALUE
     /// Options that are a setting by another name: the flag, its key, its text if given.
     struct Alias {
         const char* flag;
@@ -40,7 +43,7 @@ struct RunOptions {
         {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16", ""},
         {"--spp", "render.spp", "samples a texel or pixel, 1 to 16", ""},
     };
-    std::optional<std::uint64_t> frames;
+    std::optional<std::int64_t> frames;
     std::optional<double> seconds;
     std::string record;
     std::string snapshot;

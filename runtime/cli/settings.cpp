@@ -124,6 +124,7 @@ Settings::Settings() {
 
 std::vector<std::string> Settings::keys() const {
     std::vector<std::string> keys;
+    keys.reserve(entries_.size());
     for (const Entry& entry : entries_) {
         keys.push_back(entry.key);
     }
@@ -175,7 +176,8 @@ Expected<void> Settings::set(std::string_view key, std::string_view text, std::s
 
 Expected<void> Settings::load(const std::filesystem::path& file) {
     std::ifstream in(file);
-    if (!in) {
+    std::error_code ignored;
+    if (!in || std::filesystem::is_directory(file, ignored)) {
         return std::unexpected(
             Error{ExitCode::BadInput,
                   fmt::format("{}: the configuration cannot be read", file.string())});
@@ -223,6 +225,7 @@ std::string Settings::text(const Entry& entry) {
 
 std::vector<session::NamedValue> Settings::list() const {
     std::vector<session::NamedValue> values;
+    values.reserve(entries_.size());
     for (const Entry& entry : entries_) {
         values.push_back({entry.key, text(entry)});
     }

@@ -59,6 +59,7 @@ class Settings {
     Settings();
     Settings(const Settings&) = delete;
     Settings& operator=(const Settings&) = delete;
+    ~Settings() = default;
 
     [[nodiscard]] const SettingValues& values() const { return values_; }
 

@@ -18,6 +18,13 @@ bool in_range(double value, double least, double greatest) {
 
 Error usage(std::string message) { return {ExitCode::Usage, std::move(message)}; }
 
+double farthest_corner_px(ImageSize image, const gaze::PixelPosition& fovea) {
+    const double width = image.width_px;
+    const double height = image.height_px;
+    return std::hypot(std::max(std::abs(fovea.x_px), std::abs(width - fovea.x_px)),
+                      std::max(std::abs(fovea.y_px), std::abs(height - fovea.y_px)));
+}
+
 }  // namespace
 
 Expected<LpSize> lp_buffer_size(const KfrParameters& parameters, ImageSize image) {
@@ -58,13 +65,9 @@ Expected<LpSize> lp_buffer_size(const KfrParameters& parameters, ImageSize image
 
 LogPolarMap::LogPolarMap(const PowerKernel& kernel, ImageSize image,
                          const gaze::PixelPosition& fovea)
-    : kernel_(kernel) {
-    const double width = image.width_px;
-    const double height = image.height_px;
-    max_radius_px_ = std::hypot(std::max(std::abs(fovea.x_px), std::abs(width - fovea.x_px)),
-                                std::max(std::abs(fovea.y_px), std::abs(height - fovea.y_px)));
-    log_max_radius_ = std::log(max_radius_px_);
-}
+    : kernel_(kernel),
+      max_radius_px_(farthest_corner_px(image, fovea)),
+      log_max_radius_(std::log(max_radius_px_)) {}
 
 double LogPolarMap::u(double radius_px) const {
     if (radius_px <= 1.0) {

@@ -12,6 +12,8 @@ namespace {
 /// Float rounding moves the shader's columns by less than this share of a texel.
 constexpr double kColumnSlack = 0.01;
 constexpr double kRowSlack = 0.01;
+/// ... and its distance from the fovea by less than this.
+constexpr double kDiscSlackPx = 0.02;
 
 /// The columns that bilinear reads between these radii touch.
 Columns columns_between(const LogPolarMap& map, LpSize lp, double min_px, double max_px) {
@@ -50,7 +52,7 @@ void plan_lp_tiles(const LogPolarMap& map, ImageSize image, double core_px, Samp
 }
 
 void plan_disc_tiles(ImageSize image, SamplingPlan& plan) {
-    const double radius = plan.disc_radius_px;
+    const double radius = plan.disc_radius_px + kDiscSlackPx;
     const double width = image.width_px;
     plan.bands.clear();
     for (std::uint32_t y0 = 0; y0 < image.height_px; y0 += kBandRows) {

@@ -83,6 +83,9 @@ class LatencySummary {
   public:
     explicit LatencySummary(const SummaryConfig& config);
 
+    /// The display's period as the runtime announces it counts, not a profile's.
+    void set_display_period(std::int64_t period_ns) { config_.period_ns = period_ns; }
+
     /// In the order of arrival.
     void add(const gaze::GazeSample& sample);
     /// In the order of their index.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -18,9 +19,7 @@ struct DisplayProfile {
     double ipd_m = 0.063;
     std::int64_t switching_ns = 0;  ///< pixel switching, added to the middle of the emission
 
-    [[nodiscard]] std::int64_t period_ns() const {
-        return static_cast<std::int64_t>(1e9 / refresh_hz + 0.5);
-    }
+    [[nodiscard]] std::int64_t period_ns() const { return std::llround(1e9 / refresh_hz); }
 };
 
 }  // namespace gazeloop::present

@@ -47,7 +47,6 @@ class FrameTarget {
 
     [[nodiscard]] virtual gaze::PerEye<vk::Extent2D> extents() const = 0;
     [[nodiscard]] virtual vk::Format format() const = 0;
-    [[nodiscard]] virtual std::int64_t nominal_period_ns() const = 0;
 
     /// Handles what the target has to say; waits a few milliseconds while it is idle.
     /// Throws SetupError (SessionLost) when it is lost.

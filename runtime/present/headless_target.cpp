@@ -21,7 +21,6 @@ void HeadlessTarget::start(const render::VulkanContext& context) {
 
 gaze::PerEye<vk::Extent2D> HeadlessTarget::extents() const { return options_.extents; }
 vk::Format HeadlessTarget::format() const { return options_.format; }
-std::int64_t HeadlessTarget::nominal_period_ns() const { return options_.display.period_ns(); }
 
 void HeadlessTarget::wait_frame(TargetFrame& frame) {
     const std::int64_t period = options_.display.period_ns();

@@ -25,7 +25,6 @@ class HeadlessTarget final : public FrameTarget {
     void start(const render::VulkanContext& context) override;
     [[nodiscard]] gaze::PerEye<vk::Extent2D> extents() const override;
     [[nodiscard]] vk::Format format() const override;
-    [[nodiscard]] std::int64_t nominal_period_ns() const override;
     TargetState poll() override {
         return exit_requested_ ? TargetState::Ended : TargetState::Running;
     }

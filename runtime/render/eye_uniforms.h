@@ -21,7 +21,7 @@ struct EyeUniforms {
     glm::vec4 lp_and_disc{0.0F};
     std::array<glm::vec4, kMaxSamples> offsets{};
 };
-static_assert(sizeof(EyeUniforms) == 16 * (8 + kMaxSamples));
+static_assert(sizeof(EyeUniforms) == 16 * std::size_t{8 + kMaxSamples});
 
 /// Sample positions in a cell, in (-.5, .5), mean 0: the centre for one sample, else the Hammersley
 /// set. `samples` in [1, kMaxSamples].

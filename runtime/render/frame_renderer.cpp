@@ -1,6 +1,7 @@
 #include "runtime/render/frame_renderer.h"
 
 #include <fmt/core.h>
+#include <spdlog/spdlog.h>
 // The state lies on the stack: no allocation per frame.
 #define XXH_STATIC_LINKING_ONLY
 #include <xxhash.h>
@@ -196,8 +197,9 @@ FrameRenderer::FrameRenderer(const VulkanContext& context, const RendererConfig&
 FrameRenderer::~FrameRenderer() {
     try {
         wait_idle();
-    } catch (const vk::SystemError&) {
+    } catch (const vk::SystemError& error) {
         // The device is lost: nothing is running on it any more.
+        spdlog::debug("the renderer ends on a lost device ({})", error.what());
     }
 }
 
@@ -420,23 +422,24 @@ std::optional<latency::FrameGpuRecord> FrameRenderer::next_finished() {
 latency::FrameGpuRecord FrameRenderer::collect(Slot& slot) {
     latency::FrameGpuRecord record;
     record.index = slot.frame_index;
-    std::array<std::uint64_t, 2 * kMaxSegments> ticks{};
+    std::array<std::uint64_t, std::size_t{2} * kMaxSegments> ticks{};
     const vk::Result result =
         (*context_->device())
             .getQueryPoolResults(*slot.queries, 0, 2 * slot.segments,
-                                 2 * slot.segments * sizeof(std::uint64_t), ticks.data(),
+                                 2 * sizeof(std::uint64_t) * slot.segments, ticks.data(),
                                  sizeof(std::uint64_t), vk::QueryResultFlagBits::e64,
                                  *context_->device().getDispatcher());
     if (result == vk::Result::eSuccess) {
         for (std::uint32_t segment = 0; segment < slot.timed_segments; ++segment) {
             if (const auto pass = slot.segment_pass[segment]) {
                 record.pass_ns[static_cast<std::size_t>(*pass)] =
-                    std::llround(static_cast<double>(ticks[2 * segment + 1] - ticks[2 * segment]) *
+                    std::llround(static_cast<double>(ticks[std::size_t{2} * segment + 1] -
+                                                     ticks[std::size_t{2} * segment]) *
                                  context_->timestamp_period_ns());
             }
         }
         record.gpu_begin = clock_.host_time(ticks[0]);
-        record.gpu_end = clock_.host_time(ticks[2 * slot.timed_segments - 1]);
+        record.gpu_end = clock_.host_time(ticks[std::size_t{2} * slot.timed_segments - 1]);
     }
     if (config_.hash) {
         XXH3_state_t state;

@@ -18,7 +18,6 @@ class GpuClock {
 
     /// The device's own bound on the calibration's error, of the last calibration.
     [[nodiscard]] std::uint64_t max_deviation_ns() const { return max_deviation_ns_; }
-    [[nodiscard]] bool usable() const { return usable_; }
 
   private:
     void calibrate();

@@ -57,7 +57,8 @@ KfrEye::KfrEye(const VulkanContext& context, const foveation::KfrParameters& par
 }
 
 std::size_t KfrEye::max_tiles() const {
-    return 3 * (lp_.height / foveation::kBandRows + image_.height_px / foveation::kBandRows + 2);
+    return std::size_t{3} *
+           (lp_.height / foveation::kBandRows + image_.height_px / foveation::kBandRows + 2);
 }
 
 }  // namespace gazeloop::render

@@ -51,16 +51,23 @@ Rendered render_off_screen(const VulkanContext& context, RendererConfig config,
 
 }  // namespace
 
+Expected<void> make_snapshot_folder(const std::filesystem::path& folder) {
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure) {
+        return std::unexpected(
+            Error{ExitCode::BadInput, fmt::format("--snapshot {}: the folder cannot be made ({})",
+                                                  folder.string(), failure.message())});
+    }
+    return {};
+}
+
 Expected<std::vector<std::filesystem::path>> write_snapshot(const VulkanContext& context,
                                                             const RendererConfig& config,
                                                             const FrameRequest& request,
                                                             const SnapshotOptions& options) {
-    std::error_code failure;
-    std::filesystem::create_directories(options.folder, failure);
-    if (failure) {
-        return std::unexpected(
-            Error{ExitCode::BadInput, fmt::format("--snapshot {}: the folder cannot be made ({})",
-                                                  options.folder.string(), failure.message())});
+    if (const auto made = make_snapshot_folder(options.folder); !made) {
+        return std::unexpected(made.error());
     }
     RendererConfig full_config = config;
     full_config.method = Method::Full;

@@ -14,6 +14,9 @@ struct SnapshotOptions {
     double difference_gain = 4.0;
 };
 
+/// Creates the folder if it is missing. Errors (BadInput).
+Expected<void> make_snapshot_folder(const std::filesystem::path& folder);
+
 /// Renders a frame once more, off screen, and writes for each eye EYE-full.png (full resolution),
 /// and for methods other than full also EYE-result.png, EYE-lp.png (the LP-buffer, black where the
 /// plan left texels out) and EYE-difference.png. The request's targets are ignored.

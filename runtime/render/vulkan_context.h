@@ -25,6 +25,7 @@ class VulkanContext {
 
     VulkanContext(const VulkanContext&) = delete;
     VulkanContext& operator=(const VulkanContext&) = delete;
+    ~VulkanContext() = default;
 
     [[nodiscard]] const vk::raii::Instance& instance() const { return instance_; }
     [[nodiscard]] const vk::raii::PhysicalDevice& physical() const { return physical_; }

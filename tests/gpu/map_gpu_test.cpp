@@ -57,6 +57,7 @@ class Probe {
             {6, Type::eStorageBuffer, input_buffer.buffer()},
             {7, Type::eStorageBuffer, output_buffer.buffer()}};
         std::vector<vk::DescriptorSetLayoutBinding> bindings;
+        bindings.reserve(resources.size());
         for (const auto& [binding, type, buffer] : resources) {
             bindings.emplace_back(binding, type, 1, vk::ShaderStageFlagBits::eCompute);
         }
@@ -136,6 +137,7 @@ Worst worst_errors(Probe& probe, const foveation::KfrParameters& parameters,
     std::uniform_int_distribution<std::uint32_t> column(0, eye.lp().width - 1);
     std::uniform_int_distribution<std::uint32_t> row(0, eye.lp().height - 1);
     std::vector<Input> inputs;
+    inputs.reserve(20004);
     for (int i = 0; i < 20000; ++i) {
         inputs.push_back({glm::vec2(glm::uvec2(x(random), y(random))) + 0.5F,
                           glm::vec2(glm::uvec2(column(random), row(random)))});

@@ -1,7 +1,7 @@
 // The loop through a real OpenXR runtime (the Monado that ./dev setup builds), validation on.
 #include <gtest/gtest.h>
-#include <signal.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -121,6 +121,16 @@ TEST_F(OpenXrLoop, EndsCleanlyWhenInterrupted) {
     const auto recorded = session::read_session(session);
     ASSERT_TRUE(recorded.has_value()) << recorded.error().message;
     EXPECT_TRUE(recorded->closed_cleanly);
+}
+
+// An exit that is asked for before there is a session to ask.
+TEST_F(OpenXrLoop, EndsBeforeItHasBegun) {
+    EXPECT_EQ(run({"run", "--frames", "0"}, {.timeout = std::chrono::seconds(30)}).exit_code, 0);
+    EXPECT_EQ(run({"run"}, {.timeout = std::chrono::seconds(30),
+                            .trigger = "Vulkan: ",
+                            .on_trigger = [](int pid) { kill(pid, SIGINT); }})
+                  .exit_code,
+              130);
 }
 
 TEST_F(OpenXrLoop, IsASinkForVirtualTime) {

@@ -1,8 +1,8 @@
 // The program as its users run it, headless: determinism, recording, summary, pictures.
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/stat.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -70,7 +70,7 @@ TEST_F(Replay, OfASessionGivesTheRecordedFrames) {
     const ProgramResult other = run_gazeloop({"replay", session, "--hash", "--sigma", "3"});
     EXPECT_EQ(other.exit_code, 0) << other.err;
     EXPECT_NE(other.out.find("foveae bit-equal in 8 of 8 frames"), std::string::npos);
-    EXPECT_NE(other.out.find("rendering differs"), std::string::npos) << other.out;
+    EXPECT_NE(other.out.find("settings differ"), std::string::npos) << other.out;
     // Its gaze can be played like a trace.
     const ProgramResult wall =
         run_gazeloop({"replay", session, "--clock", "wall", "--frames", "3", "--set", kSmall});
@@ -92,6 +92,60 @@ TEST_F(Replay, NoticesWhenTheSessionWasTamperedWith) {
     const ProgramResult replayed = run_gazeloop({"replay", session, "--hash"});
     EXPECT_EQ(replayed.exit_code, 1);
     EXPECT_NE(replayed.out.find("first difference in frame 1"), std::string::npos) << replayed.out;
+}
+
+TEST_F(Replay, SaysThatVirtualTimeWasVirtual) {
+    const std::string session = folder_.file("session.gaze");
+    ASSERT_EQ(
+        run_gazeloop({"replay", trace(), "--frames", "4", "--record", session, "--set", kSmall})
+            .exit_code,
+        0);
+    for (const char* command : {"replay", "report"}) {
+        const ProgramResult again = run_gazeloop({command, session});
+        EXPECT_EQ(again.exit_code, 0) << again.err;
+        EXPECT_NE(again.out.find("virtual time"), std::string::npos) << again.out;
+    }
+}
+
+TEST_F(Replay, RefusesADamagedView) {
+    const std::string session = folder_.file("session.gaze");
+    ASSERT_EQ(
+        run_gazeloop({"replay", trace(), "--frames", "4", "--record", session, "--set", kSmall})
+            .exit_code,
+        0);
+    if (std::system("command -v sqlite3 > /dev/null") != 0) {
+        GTEST_SKIP() << "no sqlite3 command";
+    }
+    const std::string change =
+        "sqlite3 '" + session + "' 'UPDATE view SET width_px = 0 WHERE frame = 2' 2>&1";
+    ASSERT_EQ(std::system(change.c_str()), 0);
+    const ProgramResult replayed = run_gazeloop({"replay", session});
+    EXPECT_EQ(replayed.exit_code, 3) << replayed.err;
+    EXPECT_NE(replayed.err.find("frame 2"), std::string::npos) << replayed.err;
+}
+
+TEST_F(Replay, NeedsNoProfileThatTheSessionWasRecordedWith) {
+    const std::string session = folder_.file("session.gaze");
+    const std::string display = folder_.write(
+        "mine.toml",
+        "width_px = 64\nheight_px = 64\nrefresh_hz = 100\n[fov_deg]\nleft = [-40, 40, 40, -40]\n"
+        "right = [-40, 40, 40, -40]\n[optics]\nipd_mm = 63\n[photons]\nswitching_ms = 2\n");
+    ASSERT_EQ(run_gazeloop({"replay", trace(), "--frames", "4", "--record", session, "--display",
+                            display, "--hash"})
+                  .exit_code,
+              0);
+    std::filesystem::remove(display);
+    const ProgramResult replayed = run_gazeloop({"replay", session, "--hash"});
+    EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+    EXPECT_NE(replayed.out.find("pictures equal in 4 of 4"), std::string::npos) << replayed.out;
+}
+
+TEST_F(Replay, KeepsJsonAlone) {
+    const ProgramResult result = run_gazeloop(
+        {"replay", trace(), "--frames", "2", "--hash", "--json", "-", "--set", kSmall});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(nlohmann::json::accept(result.out)) << result.out;
+    EXPECT_NE(result.err.find("hash pixels"), std::string::npos);
 }
 
 TEST_F(Replay, RecordsWhatTheReportSays) {

@@ -21,6 +21,7 @@ namespace {
 constexpr XrViewConfigurationType kStereo = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
 constexpr const char* kCoreValidationLayer = "XR_APILAYER_LUNARG_core_validation";
 constexpr auto kIdleWait = std::chrono::milliseconds(5);
+constexpr int kPollsBeforeWarning = 1000;  // 5 s
 
 std::string_view state_name(XrSessionState state) {
     constexpr std::array<std::string_view, 9> kNames{"UNKNOWN",      "IDLE",         "READY",
@@ -78,12 +79,13 @@ class OpenXrInstance final : public render::VulkanFactory {
         const XrResult created = xrCreateInstance(&info, &instance_);
         if (created == XR_ERROR_API_LAYER_NOT_PRESENT) {
             throw SetupError(ExitCode::NoDevice,
-                             "openxr.validation is on, but its layer is not installed (Debian: "
+                             "target.validation is on, but its layer is not installed (Debian: "
                              "openxr-layer-corevalidation)");
         }
-        xr_check(created, fmt::format("the runtime {} did not start; is its service running? Run "
-                                      "./dev setup to build an in-process Monado, or use --target "
-                                      "headless",
+        xr_check(created, fmt::format("the runtime {} did not start; does Vulkan have a driver "
+                                      "(vulkaninfo), and is the runtime's service running? "
+                                      "./dev setup builds an in-process Monado; --target headless "
+                                      "needs no runtime",
                                       choice.manifest));
         auto properties = typed<XrInstanceProperties>(XR_TYPE_INSTANCE_PROPERTIES);
         xr_check(xrGetInstanceProperties(instance_, &properties), "xrGetInstanceProperties");
@@ -247,9 +249,6 @@ class OpenXrTarget final : public FrameTarget {
 
     [[nodiscard]] gaze::PerEye<vk::Extent2D> extents() const override { return extents_; }
     [[nodiscard]] vk::Format format() const override { return format_; }
-    [[nodiscard]] std::int64_t nominal_period_ns() const override {
-        return options_.display.period_ns();
-    }
 
     TargetState poll() override {
         auto event = typed<XrEventDataBuffer>(XR_TYPE_EVENT_DATA_BUFFER);
@@ -261,12 +260,17 @@ class OpenXrTarget final : public FrameTarget {
             return TargetState::Ended;
         }
         if (!session_running_) {
-            if (exit_requested_ && !was_running_) {
-                return TargetState::Ended;  // the runtime never let us begin
+            if (exit_requested_ && !exit_sent_) {
+                return TargetState::Ended;  // no session runs that could be asked to end
+            }
+            if (++idle_polls_ == kPollsBeforeWarning) {
+                spdlog::warn("{} wants no frames (yet): waiting; Ctrl-C ends",
+                             instance_.runtime_name());
             }
             std::this_thread::sleep_for(kIdleWait);
             return TargetState::Idle;
         }
+        idle_polls_ = 0;
         return TargetState::Running;
     }
 
@@ -310,6 +314,12 @@ class OpenXrTarget final : public FrameTarget {
             views_[e].fov = {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown};
             views_[e].width_px = extents_[e].width;
             views_[e].height_px = extents_[e].height;
+            if (!gaze::is_valid(views_[e])) {
+                throw SetupError(ExitCode::NoDevice,
+                                 fmt::format("{} gives the {} eye a field of view that nothing can "
+                                             "be rendered for",
+                                             instance_.runtime_name(), gaze::kEyeNames[e]));
+            }
         }
         if (const auto head = locate_head(display_time_)) {
             head_ = *head;
@@ -361,10 +371,11 @@ class OpenXrTarget final : public FrameTarget {
     }
 
     void request_exit() override {
-        if (!exit_requested_ && session_running_) {
-            xr_check(xrRequestExitSession(session_), "xrRequestExitSession");
-        }
         exit_requested_ = true;
+        if (session_running_ && !exit_sent_) {
+            xr_check(xrRequestExitSession(session_), "xrRequestExitSession");
+            exit_sent_ = true;
+        }
     }
 
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> properties() const override {
@@ -428,11 +439,13 @@ class OpenXrTarget final : public FrameTarget {
         events_.push_back(fmt::format("session state: {}", state_name(changed.state)));
         switch (changed.state) {
             case XR_SESSION_STATE_READY: {
+                if (exit_requested_) {
+                    break;
+                }
                 auto begin = typed<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
                 begin.primaryViewConfigurationType = kStereo;
                 xr_check(xrBeginSession(session_, &begin), "xrBeginSession");
                 session_running_ = true;
-                was_running_ = true;
                 break;
             }
             case XR_SESSION_STATE_STOPPING:
@@ -484,8 +497,9 @@ class OpenXrTarget final : public FrameTarget {
     gaze::StereoView views_;
     std::vector<std::string> events_;
     bool session_running_ = false;
-    bool was_running_ = false;
     bool exit_requested_ = false;
+    bool exit_sent_ = false;
+    int idle_polls_ = 0;
     bool ended_ = false;
 };
 

@@ -1,6 +1,8 @@
 #include "runtime/present/openxr/runtime_choice.h"
 
 #include <fmt/core.h>
+#include <pwd.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -58,7 +60,9 @@ fs::path cache_folder() {
     if (const auto cache = environment("XDG_CACHE_HOME")) {
         return fs::path(*cache) / "gazeloop";
     }
-    return fs::path(environment("HOME").value_or("/root")) / ".cache" / "gazeloop";
+    const passwd* const user = getpwuid(getuid());
+    const std::string home = user != nullptr ? user->pw_dir : "/";
+    return fs::path(environment("HOME").value_or(home)) / ".cache" / "gazeloop";
 }
 
 /// Keeps what the user has set.
