@@ -109,7 +109,7 @@ ExitCode replay_session(const ReplayCommand& command, Settings& settings,
                         FrameRunRequest& request) {
     const session::SessionFile session = value_or_throw(session::read_session(command.file));
     if (!session.closed_cleanly) {
-        spdlog::warn("{}: the recording was cut off; what it holds is replayed", command.file);
+        spdlog::warn("{}: the recording was not closed; what it holds is replayed", command.file);
     }
     for (const auto& [key, value] : session.header.config) {
         // What is recorded about the place it ran at does not bind the replay.

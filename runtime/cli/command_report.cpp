@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/output_file.h"
@@ -20,13 +21,27 @@ struct ReportCommand {
     std::string json;
 };
 
+/// Where a recording ends that was not closed, and what is known of what it lacks.
+std::string end_of(const session::SessionFile& session) {
+    std::string text = "The recording was not closed: it ";
+    text += session.frames.empty()
+                ? "has no frames."
+                : fmt::format("ends at frame {}.", session.frames.back().frame.index);
+    if (session.writing_failed) {
+        text += " Writing it failed there.";
+    } else if (session.had_write_ahead_log) {
+        text += " It lacks at most its last 100 ms.";
+    }
+    return text;
+}
+
 ExitCode report(const ReportCommand& command) {
     const session::SessionFile session = value_or_throw(session::read_session(command.file));
     const latency::SummaryReport result = summarize(session);
     if (command.json != "-" && !command.log.quiet) {
         fmt::print("{}", latency::summary_text(result));
         if (!session.closed_cleanly) {
-            fmt::print("The recording was cut off: it lacks at most its last 100 ms.\n");
+            fmt::print("{}\n", end_of(session));
         }
         if (session.records_dropped > 0) {
             fmt::print("The recording lacks {} records that the disk was too slow for.\n",

@@ -59,6 +59,12 @@ void Database::execute(const char* sql) {
     }
 }
 
+void Database::roll_back() {
+    if (sqlite3_get_autocommit(handle()) == 0) {
+        execute("ROLLBACK");
+    }
+}
+
 bool Database::moved() const {
     int moved = 0;
     sqlite3_file_control(handle(), "main", SQLITE_FCNTL_HAS_MOVED, &moved);

@@ -30,6 +30,9 @@ class Database {
     /// Runs statements that return nothing of interest.
     void execute(const char* sql);
 
+    /// Ends a transaction without its changes, if one is open.
+    void roll_back();
+
     /// Whether the file no longer lies where it was opened (renamed or deleted).
     [[nodiscard]] bool moved() const;
 

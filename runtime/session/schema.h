@@ -15,4 +15,9 @@ inline constexpr std::string_view kMetaSchemaVersion = "schema_version";
 inline constexpr std::string_view kMetaRecordsDropped = "records_dropped";
 inline constexpr std::string_view kMetaClosed = "closed";
 
+/// Values of kMetaClosed.
+inline constexpr std::string_view kNotClosed = "no";
+inline constexpr std::string_view kClosed = "yes";
+inline constexpr std::string_view kWritingFailed = "failed";
+
 }  // namespace gazeloop::session

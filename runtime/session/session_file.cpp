@@ -137,14 +137,16 @@ std::vector<RecordedEvent> read_events(const Database& database) {
     return events;
 }
 
-/// SQLite fills up a last page that is cut off with zeros, which would pass for data. Where a
-/// write-ahead log is left, the file itself may be unfinished.
+/// An empty one may be SQLite's own, for reading.
+bool has_write_ahead_log(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(file.string() + "-wal", error);
+    return !error && bytes > 0;
+}
+
+/// SQLite fills up a last page that is cut off with zeros, which would pass for data.
 void require_whole_pages(const Database& database, const std::filesystem::path& file) {
     std::error_code error;
-    const std::uintmax_t log_bytes = std::filesystem::file_size(file.string() + "-wal", error);
-    if (!error && log_bytes > 0) {
-        return;
-    }
     const std::uintmax_t bytes = std::filesystem::file_size(file, error);
     Statement page_size(database, "PRAGMA page_size");
     if (error || !page_size.next() ||
@@ -164,7 +166,9 @@ SessionFile read_tables(const Database& database) {
             version, kSchemaVersion));
     }
     session.records_dropped = take_number<std::uint64_t>(meta, kMetaRecordsDropped);
-    session.closed_cleanly = take(meta, kMetaClosed) == "yes";
+    const std::string closed = take(meta, kMetaClosed);
+    session.closed_cleanly = closed == kClosed;
+    session.writing_failed = closed == kWritingFailed;
     session.header.config = read_named_values(database, "config");
     session.header.device = read_named_values(database, "device");
     session.samples = read_samples(database);
@@ -206,8 +210,13 @@ Expected<SessionFile> read_session(const std::filesystem::path& file) {
         Database database(file, Database::Access::ReadOnly);
         // One state of a file that is still being written, from its first read on.
         database.execute("BEGIN; SELECT 1 FROM sqlite_schema");
-        require_whole_pages(database, file);
-        return read_tables(database);
+        const bool log = has_write_ahead_log(file);
+        if (!log) {  // else the file itself may be unfinished
+            require_whole_pages(database, file);
+        }
+        SessionFile session = read_tables(database);
+        session.had_write_ahead_log = log;
+        return session;
     } catch (const FormatError& format) {
         return bad_input(file, format.what());
     } catch (const DatabaseError& database) {

@@ -37,6 +37,8 @@ struct SessionFile {
     std::vector<RecordedEvent> events;
     std::uint64_t records_dropped = 0;  ///< by a full queue, as far as was known when writing ended
     bool closed_cleanly = false;
+    bool writing_failed = false;       ///< and the disk still took a note of it
+    bool had_write_ahead_log = false;  ///< a log with content lay beside it
 
     [[nodiscard]] std::optional<std::string_view> meta(std::string_view name) const;
     [[nodiscard]] std::optional<std::string_view> config(std::string_view key) const;

@@ -37,12 +37,13 @@ struct RecordingStatus {
 /// with one producer, the loop. Nothing here blocks the loop or allocates on it. What was handed
 /// over is committed within 50 ms, so that a process killed at any moment lacks at most the last
 /// 100 ms (more only while the disk itself does not answer; then the queue holds it). A full or
-/// unwritable disk ends the writing, not the loop: see failed() and close().
+/// unwritable disk ends the writing, not the loop: see close().
 class SessionRecorder {
   public:
-    /// Creates the file with mode 0600. Errors (BadInput): the file exists already, or what an
+    /// Creates the file with mode 0600; a process killed meanwhile leaves a readable session or
+    /// none. Errors (BadInput), after which nothing is left: the file exists already, or what an
     /// earlier session left beside it (name another or remove it); the folder is missing or not
-    /// writable; the header has a name twice.
+    /// writable; the header has a name twice; the system has no memory or no thread left.
     static Expected<std::unique_ptr<SessionRecorder>> create(const std::filesystem::path& file,
                                                              const SessionHeader& header);
     SessionRecorder(const SessionRecorder&) = delete;
@@ -56,9 +57,6 @@ class SessionRecorder {
     /// `kind` is one word of at most 32 bytes, e.g. "session-state", "gaze-lost", "interrupted";
     /// `text` is cut after 240 bytes, between characters.
     void event(latency::Stamp time, std::string_view kind, std::string_view text);
-
-    /// Whether writing has ended because of an error, which close() names. Does not block.
-    [[nodiscard]] bool failed() const;
 
     /// Writes what is queued and closes the file, so that a single file remains (while somebody
     /// reads it, its -wal and -shm stay until they have done). Idempotent; what is added later is

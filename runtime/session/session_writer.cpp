@@ -2,87 +2,34 @@
 
 #include <sqlite3.h>
 
-#include <optional>
 #include <string>
-#include <type_traits>
 
 #include "runtime/session/column_names.h"
-#include "runtime/session/record_fields.h"
+#include "runtime/session/field_binder.h"
 #include "runtime/session/schema.h"
 
 namespace gazeloop::session {
 namespace {
 
-/// Binds the fields of a record to a statement's parameters, in order (see record_fields.h).
-class FieldBinder {
-  public:
-    explicit FieldBinder(Statement& statement) : statement_(statement) {}
+constexpr std::string_view kSetMeta = "UPDATE meta SET value = ? WHERE name = ?";
 
-    template <typename Field>
-    void operator()(std::string_view, std::string_view, const Field& field) {
-        bind(field);
-        ++parameter_;
-    }
-
-  private:
-    void bind(double value) { statement_.bind(parameter_, value); }
-    void bind(std::string_view text) { statement_.bind(parameter_, text); }
-    template <typename T>
-        requires(std::is_integral_v<T> || std::is_enum_v<T>)
-    void bind(T value) {
-        statement_.bind(parameter_, static_cast<std::int64_t>(value));
-    }
-    template <typename T>
-    void bind(const std::optional<T>& value) {
-        if (value) {
-            bind(*value);
-        } else {
-            statement_.bind_null(parameter_);
-        }
-    }
-
-    Statement& statement_;
-    int parameter_ = 0;
-};
-
-void insert_named_values(const Database& database, std::string_view table,
-                         const std::vector<NamedValue>& values) {
-    Statement insert(database, named_value_columns().insert_into(table));
-    for (const auto& [name, value] : values) {
-        FieldBinder binder(insert);
-        visit_named_value(binder, name, value);
-        insert.run();
-    }
-}
-
-Database create_session(const std::filesystem::path& file, const SessionHeader& header) {
+Database open_session(const std::filesystem::path& file) {
     Database database(file, Database::Access::ReadWrite);
-    // Before the WAL: a file that is copied without its companions is still a session.
-    database.execute("BEGIN");
-    database.execute(kCreateTables);
-    insert_named_values(database, "meta",
-                        {{std::string(kMetaSchemaVersion), std::to_string(kSchemaVersion)},
-                         {std::string(kMetaRecordsDropped), "0"},
-                         {std::string(kMetaClosed), "no"}});
-    insert_named_values(database, "meta", header.meta);
-    insert_named_values(database, "config", header.config);
-    insert_named_values(database, "device", header.device);
-    database.execute("COMMIT");
-    database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
+    database.execute("PRAGMA synchronous = NORMAL");
     return database;
 }
 
 }  // namespace
 
-SessionWriter::SessionWriter(const std::filesystem::path& file, const SessionHeader& header)
-    : database_(create_session(file, header)),
+SessionWriter::SessionWriter(const std::filesystem::path& file)
+    : database_(open_session(file)),
       insert_sample_(database_, sample_columns().insert_into("gaze")),
       insert_frame_(database_, frame_columns().insert_into("frame")),
       update_gpu_(database_, gpu_columns().update("frame", "number")),
       insert_view_(database_, view_columns().insert_into("view")),
       insert_fovea_(database_, fovea_columns().insert_into("fovea")),
       insert_event_(database_, event_columns().insert_into("event")),
-      set_meta_(database_, "UPDATE meta SET value = ? WHERE name = ?") {}
+      set_meta_(database_, kSetMeta) {}
 
 void SessionWriter::begin() { database_.execute("BEGIN IMMEDIATE"); }
 
@@ -140,11 +87,30 @@ void SessionWriter::set_meta(std::string_view name, std::string_view value) {
     set_meta_.run();
 }
 
+void SessionWriter::mark_failed() {
+    const auto mark = [this] {
+        Statement set(database_, kSetMeta);  // the other one may be what failed
+        set.bind(0, kWritingFailed);
+        set.bind(1, kMetaClosed);
+        set.run();
+    };
+    database_.roll_back();
+    try {
+        mark();
+    } catch (const DatabaseError&) {
+        // The log may have no room for it any more; what is folded in leaves some.
+        database_.execute("PRAGMA wal_checkpoint(TRUNCATE)");
+        mark();
+    }
+}
+
 void SessionWriter::finish() {
-    set_meta(kMetaClosed, "yes");
+    set_meta(kMetaClosed, kClosed);
     database_.execute("PRAGMA wal_checkpoint(TRUNCATE)");
     try {
-        database_.execute("PRAGMA journal_mode = DELETE");
+        // Out of WAL mode. Only the first sector changes: a journal on disk would be of no use, and
+        // left by a process killed here it would keep readers out.
+        database_.execute("PRAGMA journal_mode = MEMORY");
     } catch (const DatabaseError& error) {
         // Somebody reads the file: everything is in it, but its companions go with that reader.
         if (error.code() != SQLITE_BUSY && error.code() != SQLITE_LOCKED) {

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 
 #include "runtime/session/database.h"
 #include "runtime/session/record.h"
-#include "runtime/session/session_recorder.h"
 #include "runtime/session/statement.h"
 
 namespace gazeloop::session {
@@ -14,14 +14,17 @@ namespace gazeloop::session {
 /// file then stays readable up to the last commit, and nothing more can be written.
 class SessionWriter {
   public:
-    /// `file` must be an empty file of its own. The schema and the header are on disk afterwards,
-    /// in the file itself.
-    SessionWriter(const std::filesystem::path& file, const SessionHeader& header);
+    /// `file` must be a session of its own as create_session() leaves it.
+    explicit SessionWriter(const std::filesystem::path& file);
 
     void begin();
     void write(const Record& record);
     /// `dropped`: records that never came, so far.
     void commit(std::uint64_t dropped);
+
+    /// Notes in the session, where the disk still allows it, that something here failed. What was
+    /// not committed is lost.
+    void mark_failed();
 
     /// Marks the session as closed and folds everything into the one file.
     void finish();

@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -90,6 +91,8 @@ TEST(KilledSession, LacksAtMostTheLastTenthOfASecond) {
 
         const SessionFile session = value_or_throw(read_session(file));
         EXPECT_FALSE(session.closed_cleanly);
+        EXPECT_FALSE(session.writing_failed);
+        EXPECT_TRUE(session.had_write_ahead_log || session.frames.empty());
         ASSERT_LE(session.frames.size(), killed.handed_over.size() + 1);
         for (std::uint64_t i = 0; i < session.frames.size(); ++i) {
             EXPECT_EQ(session.frames[i].frame.index, i);
@@ -100,6 +103,49 @@ TEST(KilledSession, LacksAtMostTheLastTenthOfASecond) {
                 << killed.handed_over.size() - session.frames.size() << " frames are missing";
         }
         EXPECT_GE(session.samples.size(), session.frames.size());
+    }
+}
+
+TEST(KilledSession, WithoutItsLogHasNone) {
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "run.session";
+    record_and_kill(file, std::chrono::milliseconds(200));
+    const std::filesystem::path copy = folder / "copy.session";
+    std::filesystem::copy_file(file, copy);
+    const SessionFile session = value_or_throw(read_session(copy));
+    EXPECT_FALSE(session.closed_cleanly);
+    EXPECT_FALSE(session.had_write_ahead_log);
+    EXPECT_TRUE(session.frames.empty());
+    // Nor does what SQLite made in order to read it count as one.
+    EXPECT_FALSE(value_or_throw(read_session(copy)).had_write_ahead_log);
+}
+
+TEST(KilledSession, IsReadableOrNotThereWhenKilledWhileItIsCreatedOrClosed) {
+    const SessionHeader header{.config = {{"sigma", "1.8"}}};
+    const auto create = [&header](const std::filesystem::path& file) {
+        return SessionRecorder::create(file, header).has_value() ? 0 : 1;
+    };
+    const tests::TemporaryFolder folder;
+    const std::int64_t start_ns = latency::monotonic_ns();
+    ASSERT_EQ(run_in_child([&] { return create(folder / "whole.session"); }), 0);
+    const std::int64_t whole_ns = latency::monotonic_ns() - start_ns;
+
+    constexpr int kRounds = 100;
+    for (int round = 0; round < kRounds; ++round) {
+        const std::filesystem::path file = folder / fmt::format("{}.session", round);
+        const pid_t child = start_child([&] { return create(file); });
+        std::this_thread::sleep_for(std::chrono::nanoseconds(whole_ns * round / kRounds));
+        kill(child, SIGKILL);
+        waitpid(child, nullptr, 0);
+
+        EXPECT_FALSE(std::filesystem::exists(file.string() + "-journal"));
+        if (std::filesystem::exists(file)) {
+            const Expected<SessionFile> session = read_session(file);
+            ASSERT_TRUE(session) << session.error().message;
+            EXPECT_EQ(session->config("sigma"), "1.8");
+        } else {
+            EXPECT_EQ(create(file), 0);
+        }
     }
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "runtime/error.h"
+#include "runtime/session/session_recorder.h"
+
+namespace gazeloop::session {
+
+/// Creates a session file with mode 0600, complete with schema and header, in WAL mode and open
+/// nowhere. It comes into being under a temporary name beside it (FILE.partial-XXXXXX), so that
+/// `file` is a session from its first moment on; after an error nothing is left. Errors: see
+/// SessionRecorder::create.
+std::optional<Error> create_session(const std::filesystem::path& file, const SessionHeader& header);
+
+/// Removes a session that is open nowhere, and what SQLite may have left beside it.
+void remove_session(const std::filesystem::path& file);
+
+}  // namespace gazeloop::session
