@@ -57,14 +57,27 @@ Expected<ProfileText> find_text(std::string_view folder, std::string_view what,
     return std::unexpected(Error{ExitCode::Usage, unknown_name(what, name, names)});
 }
 
-Expected<toml::table> parse(const ProfileText& profile) {
+struct Profile {
+    std::string origin;
+    toml::table table;
+};
+
+Expected<Profile> parse(const ProfileText& profile) {
     try {
-        return toml::parse(profile.text, profile.origin);
+        return Profile{profile.origin, toml::parse(profile.text, profile.origin)};
     } catch (const toml::parse_error& error) {
         return std::unexpected(
             Error{ExitCode::BadInput, fmt::format("{}:{}: {}", profile.origin,
                                                   error.source().begin.line, error.description())});
     }
+}
+
+Expected<Profile> load(std::string_view folder, std::string_view what, std::string_view name) {
+    const auto text = find_text(folder, what, name);
+    if (!text) {
+        return std::unexpected(text.error());
+    }
+    return parse(*text);
 }
 
 /// Reads numbers and keeps the first complaint.
@@ -129,18 +142,14 @@ std::int64_t ms_to_ns(double ms) { return std::llround(ms * 1e6); }
 }  // namespace
 
 Expected<present::DisplayProfile> load_display(std::string_view name) {
-    const auto text = find_text("displays", "display", name);
-    if (!text) {
-        return std::unexpected(text.error());
+    const auto profile = load("displays", "display", name);
+    if (!profile) {
+        return std::unexpected(profile.error());
     }
-    const auto table = parse(*text);
-    if (!table) {
-        return std::unexpected(table.error());
-    }
-    NumberReader read(*table, text->origin);
+    NumberReader read(profile->table, profile->origin);
     present::DisplayProfile display;
     display.name = name;
-    display.description = table->at_path("description").value_or(std::string());
+    display.description = profile->table.at_path("description").value_or(std::string());
     display.width_px = static_cast<std::uint32_t>(read.number("width_px", 2, 16384));
     display.height_px = static_cast<std::uint32_t>(read.number("height_px", 2, 16384));
     display.refresh_hz = read.number("refresh_hz", 1, 2000);
@@ -155,23 +164,20 @@ Expected<present::DisplayProfile> load_display(std::string_view name) {
                 {.fov = fov, .width_px = display.width_px, .height_px = display.height_px})) {
             return std::unexpected(
                 Error{ExitCode::BadInput,
-                      fmt::format("{}: fov_deg: too narrow to render for", text->origin)});
+                      fmt::format("{}: fov_deg: too narrow to render for", profile->origin)});
         }
     }
     return display;
 }
 
 Expected<TrackerProfile> load_tracker(std::string_view name) {
-    const auto text = find_text("trackers", "tracker", name);
-    if (!text) {
-        return std::unexpected(text.error());
+    const auto profile = load("trackers", "tracker", name);
+    if (!profile) {
+        return std::unexpected(profile.error());
     }
-    const auto table = parse(*text);
-    if (!table) {
-        return std::unexpected(table.error());
-    }
-    NumberReader read(*table, text->origin);
-    TrackerProfile tracker{std::string(name), table->at_path("description").value_or(std::string()),
+    NumberReader read(profile->table, profile->origin);
+    TrackerProfile tracker{std::string(name),
+                           profile->table.at_path("description").value_or(std::string()),
                            ms_to_ns(read.number("delay_ms", 0, 1000))};
     if (!read.complaint().empty()) {
         return std::unexpected(Error{ExitCode::BadInput, read.complaint()});

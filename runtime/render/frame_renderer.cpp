@@ -316,12 +316,12 @@ void FrameRenderer::shade_tiles(Slot& slot, std::size_t eye, const ColorImage& t
                                     Access::eShaderSampledRead));
 }
 
-void FrameRenderer::record_full(Slot& slot, const FrameRequest& request) {
-    begin_segment(slot, Pass::Full);
+/// Draws both eyes' whole pictures.
+void FrameRenderer::draw_pictures(const Slot& slot, const FrameRequest& request,
+                                  const vk::raii::Pipeline& pipeline) {
     const vk::raii::CommandBuffer& commands = slot.commands();
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *full_);
-    for (const gaze::Eye eye : gaze::kEyes) {
-        const std::size_t e = gaze::index(eye);
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
         discard_and_attach(commands, request.targets[e].image);
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0,
                                     *slot.eyes[e].set, {});
@@ -330,6 +330,11 @@ void FrameRenderer::record_full(Slot& slot, const FrameRequest& request) {
         commands.draw(3, 1, 0, 0);
         commands.endRendering();
     }
+}
+
+void FrameRenderer::record_full(Slot& slot, const FrameRequest& request) {
+    begin_segment(slot, Pass::Full);
+    draw_pictures(slot, request, full_);
 }
 
 void FrameRenderer::record_kfr(Slot& slot, const FrameRequest& request) {
@@ -363,17 +368,7 @@ void FrameRenderer::record_kfr(Slot& slot, const FrameRequest& request) {
     if (!any_disc) {
         disc_pass();
     }
-    const vk::raii::CommandBuffer& commands = slot.commands();
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_);
-    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-        discard_and_attach(commands, request.targets[e].image);
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0,
-                                    *slot.eyes[e].set, {});
-        begin_rendering(commands, request.targets[e].view, config_.extents[e],
-                        vk::AttachmentLoadOp::eDontCare);
-        commands.draw(3, 1, 0, 0);
-        commands.endRendering();
-    }
+    draw_pictures(slot, request, resolve_);
 }
 
 void FrameRenderer::record_copies(Slot& slot, const FrameRequest& request) {

@@ -88,6 +88,8 @@ class FrameRenderer {
     void end_segments(Slot& slot);
     void shade_tiles(Slot& slot, std::size_t eye, const ColorImage& target, std::size_t first_tile,
                      std::size_t tiles);
+    void draw_pictures(const Slot& slot, const FrameRequest& request,
+                       const vk::raii::Pipeline& pipeline);
     void record_full(Slot& slot, const FrameRequest& request);
     void record_kfr(Slot& slot, const FrameRequest& request);
     void record_copies(Slot& slot, const FrameRequest& request);
