@@ -65,7 +65,7 @@ class FrameLoop {
     [[nodiscard]] bool time_is_up() const {
         return *options_.seconds <= 0.0 ||
                (timeline_ != nullptr &&
-               static_cast<double>(planned_.display.ns - start_ns_) * 1e-9 >= *options_.seconds);
+                static_cast<double>(planned_.display.ns - start_ns_) * 1e-9 >= *options_.seconds);
     }
 
     void end(LoopEnd why) {

@@ -20,6 +20,7 @@ HostBuffer::HostBuffer(const VulkanContext& context, vk::DeviceSize bytes,
                                                    vk::MemoryPropertyFlagBits::eHostVisible |
                                                        vk::MemoryPropertyFlagBits::eHostCoherent)));
     buffer_.bindMemory(*memory_, 0);
+    // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): needs the bound memory
     mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
 }
 

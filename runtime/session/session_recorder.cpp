@@ -100,7 +100,7 @@ class SessionRecorder::Impl {
     void mark_failed() {
         try {
             writer_->mark_failed();
-        } catch (const std::exception&) {
+        } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch)
             // The file then says that it was not closed, which is true as well.
         }
     }

@@ -104,6 +104,8 @@ class OpenXrInstance final : public render::VulkanFactory {
                  "xrGetSystemProperties");
         system_name_ = system_properties.systemName;
     }
+    OpenXrInstance(const OpenXrInstance&) = delete;
+    OpenXrInstance& operator=(const OpenXrInstance&) = delete;
     ~OpenXrInstance() override {
         if (instance_ != XR_NULL_HANDLE) {
             xrDestroyInstance(instance_);
@@ -184,13 +186,13 @@ class OpenXrTarget final : public FrameTarget {
     explicit OpenXrTarget(const OpenXrOptions& options)
         : options_(options),
           choice_(choose_runtime(options.display)),
-          instance_(choice_, options.validation) {
+          instance_(choice_, options.validation),
+          to_timespec_(xr_function<PFN_xrConvertTimeToTimespecTimeKHR>(
+              instance_.handle(), "xrConvertTimeToTimespecTimeKHR")),
+          from_timespec_(xr_function<PFN_xrConvertTimespecTimeToTimeKHR>(
+              instance_.handle(), "xrConvertTimespecTimeToTimeKHR")) {
         spdlog::info("OpenXR runtime: {} ({}: {})", instance_.runtime_name(), choice_.reason,
                      choice_.manifest);
-        to_timespec_ = xr_function<PFN_xrConvertTimeToTimespecTimeKHR>(
-            instance_.handle(), "xrConvertTimeToTimespecTimeKHR");
-        from_timespec_ = xr_function<PFN_xrConvertTimespecTimeToTimeKHR>(
-            instance_.handle(), "xrConvertTimespecTimeToTimeKHR");
         const auto sizes =
             enumerate(typed<XrViewConfigurationView>(XR_TYPE_VIEW_CONFIGURATION_VIEW),
                       "xrEnumerateViewConfigurationViews", [&](auto... a) {
@@ -214,6 +216,8 @@ class OpenXrTarget final : public FrameTarget {
         }
     }
 
+    OpenXrTarget(const OpenXrTarget&) = delete;
+    OpenXrTarget& operator=(const OpenXrTarget&) = delete;
     ~OpenXrTarget() override {
         swapchains_.clear();
         for (const XrSpace space : {view_space_, local_space_}) {
