@@ -8,9 +8,14 @@
 
 namespace gazeloop::foveation {
 
-/// Height of the bands that tiles are made of: software and hardware rasterisers shade in blocks of
-/// 2 to 4 rows, so that thinner tiles would leave lanes idle.
+/// Height of the bands in which a plan says what it needs: software and hardware rasterisers shade
+/// in blocks of 2 to 4 rows, so that finer bands would save nothing. A power of two; the shaders'
+/// side is shaders/lib/bands.glsl.
 inline constexpr std::uint32_t kBandRows = 4;
+
+/// Height of the tiles that are drawn: a draw costs a software driver about as much as a thousand
+/// samples, so that there are few of them; what a tile holds beyond its bands is masked.
+inline constexpr std::uint32_t kTileRows = 64;
 
 /// What a band of rows needs: columns [first, end); nothing if they are equal.
 struct Columns {
@@ -20,11 +25,9 @@ struct Columns {
     [[nodiscard]] bool empty() const { return first >= end; }
 };
 
-/// Covers the bands exactly, each cell once, by few large rectangles, and appends these to `tiles`.
-/// Band i has the rows [i * kBandRows, min((i + 1) * kBandRows, height)).
-///
-/// A rectangle is drawn as two triangles, and every block of cells that their common edge crosses
-/// is shaded for both: a rectangle one band high would be shaded twice. At most 3 tiles a band.
+/// Appends tiles that hold every column of every band: one for each run of kTileRows rows that
+/// needs any, as small as its bands allow. Band i has the rows [i * kBandRows, min((i + 1) *
+/// kBandRows, height)).
 void append_band_tiles(std::span<const Columns> bands, std::uint32_t height,
                        std::vector<Tile>& tiles);
 

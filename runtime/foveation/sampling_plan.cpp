@@ -26,14 +26,14 @@ Columns columns_between(const LogPolarMap& map, LpSize lp, double min_px, double
 
 void plan_lp_tiles(const LogPolarMap& map, ImageSize image, double core_px, SamplingPlan& plan) {
     const double row_angle = 2.0 * std::numbers::pi / plan.lp.height;
-    plan.bands.clear();
+    plan.lp_bands.clear();
     for (std::uint32_t y0 = 0; y0 < plan.lp.height; y0 += kBandRows) {
         const std::uint32_t y1 = std::min(y0 + kBandRows, plan.lp.height);
         // A row is read by pixels less than one row away from its centre.
         const auto on_screen =
             screen_radii_in_wedge(image, plan.fovea, (y0 - 0.5 - kRowSlack) * row_angle,
                                   (y1 + 0.5 + kRowSlack) * row_angle);
-        Columns& band = plan.bands.emplace_back();
+        Columns& band = plan.lp_bands.emplace_back();
         if (!on_screen) {
             continue;
         }
@@ -48,18 +48,18 @@ void plan_lp_tiles(const LogPolarMap& map, ImageSize image, double core_px, Samp
         plan.texels_under_disc += rows * (band.first - needed.first);
         plan.texels_shaded += rows * (band.end - band.first);
     }
-    append_band_tiles(plan.bands, plan.lp.height, plan.lp_tiles);
+    append_band_tiles(plan.lp_bands, plan.lp.height, plan.lp_tiles);
 }
 
 void plan_disc_tiles(ImageSize image, SamplingPlan& plan) {
     const double radius = plan.disc_radius_px + kDiscSlackPx;
     const double width = image.width_px;
-    plan.bands.clear();
+    plan.disc_bands.clear();
     for (std::uint32_t y0 = 0; y0 < image.height_px; y0 += kBandRows) {
         const std::uint32_t y1 = std::min(y0 + kBandRows, image.height_px);
         const double nearest_y = std::clamp(plan.fovea.y_px, y0 + 0.5, y1 - 0.5);
         const double dy = nearest_y - plan.fovea.y_px;
-        Columns& band = plan.bands.emplace_back();
+        Columns& band = plan.disc_bands.emplace_back();
         if (std::abs(dy) >= radius) {
             continue;
         }
@@ -73,7 +73,7 @@ void plan_disc_tiles(ImageSize image, SamplingPlan& plan) {
             plan.pixels_direct += std::uint64_t{y1 - y0} * (band.end - band.first);
         }
     }
-    append_band_tiles(plan.bands, image.height_px, plan.disc_tiles);
+    append_band_tiles(plan.disc_bands, image.height_px, plan.disc_tiles);
 }
 
 }  // namespace
@@ -86,6 +86,7 @@ void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
     plan.log2_max_radius = map.log2_max_radius();
     plan.disc_radius_px = parameters.disc ? map.disc_radius_px(lp) : 0.0;
     plan.disc_border_px = std::min(parameters.border_px, 0.5 * plan.disc_radius_px);
+    plan.disc_bands.clear();
     plan.lp_tiles.clear();
     plan.disc_tiles.clear();
     plan.texels_shaded = 0;

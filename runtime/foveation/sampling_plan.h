@@ -15,15 +15,16 @@ struct SamplingPlan {
     LpSize lp;
     gaze::PixelPosition fovea;
     double log2_max_radius = 0.0;
-    double disc_radius_px = 0.0;   ///< 0: no disc
-    double disc_border_px = 0.0;   ///< the blend lies inside the radius
-    std::vector<Tile> lp_tiles;    ///< texels that some pixel reads; empty: the disc covers all
-    std::vector<Tile> disc_tiles;  ///< pixels that are shaded directly
+    double disc_radius_px = 0.0;      ///< 0: no disc
+    double disc_border_px = 0.0;      ///< the blend lies inside the radius
+    std::vector<Columns> lp_bands;    ///< texels that some pixel reads
+    std::vector<Columns> disc_bands;  ///< pixels that are shaded directly; none without a disc
+    std::vector<Tile> lp_tiles;       ///< what is drawn for lp_bands; empty: the disc covers all
+    std::vector<Tile> disc_tiles;     ///< what is drawn for disc_bands
     std::uint64_t texels_shaded = 0;
     std::uint64_t texels_off_screen = 0;
     std::uint64_t texels_under_disc = 0;
     std::uint64_t pixels_direct = 0;
-    std::vector<Columns> bands;  ///< scratch, kept for its memory
 };
 
 /// Plans an eye's picture by KFR. Reuses the plan's memory: no allocation once it has grown.

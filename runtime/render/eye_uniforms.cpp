@@ -43,8 +43,8 @@ EyeUniforms eye_uniforms(const gaze::EyeView& view, double scene_time_s, std::ui
     uniforms.tangents =
         glm::vec4(glm::dvec4(std::tan(view.fov.left_rad), std::tan(view.fov.right_rad),
                              std::tan(view.fov.up_rad), std::tan(view.fov.down_rad)));
-    uniforms.image_and_tiles = {view.width_px, view.height_px,
-                                plan != nullptr ? plan->lp_tiles.size() : 0, 0.0F};
+    uniforms.image_and_bands = {view.width_px, view.height_px,
+                                plan != nullptr ? plan->lp_bands.size() : 0, 0.0F};
     const auto offsets = sample_offsets(samples);
     double row_angle = 0.0;
     if (plan != nullptr) {

@@ -16,7 +16,7 @@ struct EyeUniforms {
     glm::vec4 camera_and_time{0.0F};
     std::array<glm::vec4, 3> view_axes{};
     glm::vec4 tangents{0.0F};
-    glm::vec4 image_and_tiles{0.0F};
+    glm::vec4 image_and_bands{0.0F};
     glm::vec4 fovea_and_log2{0.0F};
     glm::vec4 lp_and_disc{0.0F};
     std::array<glm::vec4, kMaxSamples> offsets{};

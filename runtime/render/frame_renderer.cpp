@@ -59,7 +59,7 @@ void begin_rendering(const vk::raii::CommandBuffer& commands, vk::ImageView view
 
 struct FrameRenderer::EyeSlot {
     HostBuffer uniforms;
-    HostBuffer tiles;
+    HostBuffer bands;
     HostBuffer pixels;  ///< for hashing
     vk::raii::DescriptorSet set{nullptr};
 };
@@ -98,7 +98,6 @@ FrameRenderer::FrameRenderer(const VulkanContext& context, const RendererConfig&
                                 {.vertex = "tiles.vert",
                                  .fragment = scene_shader("kfr_pass_i"),
                                  .format = kLpFormat,
-                                 .tiles = true,
                                  .samples = config.samples});
         resolve_ = make_pipeline(device, layout_,
                                  {.vertex = "full_screen.vert",
@@ -163,7 +162,7 @@ FrameRenderer::FrameRenderer(const VulkanContext& context, const RendererConfig&
             write_buffer(kEyeUniformsBinding, vk::DescriptorType::eUniformBuffer,
                          at.uniforms.buffer());
             if (const KfrEye* const kfr_eye = eyes_[gaze::index(eye)].get()) {
-                at.tiles = HostBuffer(context, kfr_eye->max_tiles() * sizeof(foveation::Tile),
+                at.bands = HostBuffer(context, kfr_eye->max_bands() * sizeof(foveation::Columns),
                                       vk::BufferUsageFlagBits::eStorageBuffer);
                 write_buffer(kMapTablesBinding, vk::DescriptorType::eUniformBuffer,
                              kfr_eye->map_tables());
@@ -171,7 +170,7 @@ FrameRenderer::FrameRenderer(const VulkanContext& context, const RendererConfig&
                              kfr_eye->column_table());
                 write_buffer(kRowTableBinding, vk::DescriptorType::eStorageBuffer,
                              kfr_eye->row_table());
-                write_buffer(kTilesBinding, vk::DescriptorType::eStorageBuffer, at.tiles.buffer());
+                write_buffer(kBandsBinding, vk::DescriptorType::eStorageBuffer, at.bands.buffer());
                 const auto write_image = [&](std::uint32_t binding, const ColorImage& image) {
                     const vk::DescriptorImageInfo info(*sampler_, image.view(),
                                                        Layout::eShaderReadOnlyOptimal);
@@ -243,9 +242,9 @@ latency::SampleCounts FrameRenderer::render(const FrameRequest& request) {
             plan = &plans_[e];
             foveation::plan_kfr(kfr->parameters(), kfr->lp(), kfr->image(), request.foveae[e],
                                 *plan);
-            at.tiles.write(std::span<const foveation::Tile>(plan->lp_tiles));
-            at.tiles.write(std::span<const foveation::Tile>(plan->disc_tiles),
-                           plan->lp_tiles.size() * sizeof(foveation::Tile));
+            at.bands.write(std::span<const foveation::Columns>(plan->lp_bands));
+            at.bands.write(std::span<const foveation::Columns>(plan->disc_bands),
+                           plan->lp_bands.size() * sizeof(foveation::Columns));
             counts.texels_planned += std::uint64_t{plan->lp.width} * plan->lp.height;
             counts.texels_shaded += plan->texels_shaded;
             counts.texels_off_screen += plan->texels_off_screen;
@@ -292,22 +291,26 @@ void FrameRenderer::end_segments(Slot& slot) {
 /// Shades tiles of one eye into a buffer and makes it readable for the resolve. Tiles may be none:
 /// the resolve then reads nothing of it, but its layout must be right.
 void FrameRenderer::shade_tiles(Slot& slot, std::size_t eye, const ColorImage& target,
-                                std::size_t first_tile, std::size_t tiles) {
+                                std::span<const foveation::Tile> tiles, bool direct) {
     const vk::raii::CommandBuffer& commands = slot.commands();
     barrier(commands,
             image_barrier(target.image(), Layout::eUndefined, Layout::eColorAttachmentOptimal,
                           Stage::eFragmentShader | Stage::eCopy, Access::eNone,
                           Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite));
     const bool clear = config_.lp_background.has_value();
-    if (tiles > 0 || clear) {
+    if (!tiles.empty() || clear) {
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pass_i_);
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0,
                                     *slot.eyes[eye].set, {});
         begin_rendering(commands, target.view(), target.extent(),
                         clear ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare,
                         config_.lp_background.value_or(std::array<float, 4>{}));
-        commands.draw(4, static_cast<std::uint32_t>(tiles), 0,
-                      static_cast<std::uint32_t>(first_tile));
+        for (const foveation::Tile& tile : tiles) {
+            commands.setScissor(0, vk::Rect2D({static_cast<std::int32_t>(tile.x0),
+                                               static_cast<std::int32_t>(tile.y0)},
+                                              {tile.x1 - tile.x0, tile.y1 - tile.y0}));
+            commands.draw(3, 1, 0, direct ? 1 : 0);
+        }
         commands.endRendering();
     }
     barrier(commands, image_barrier(target.image(), Layout::eColorAttachmentOptimal,
@@ -344,13 +347,12 @@ void FrameRenderer::record_kfr(Slot& slot, const FrameRequest& request) {
     // the resolve.
     const auto lp_pass = [&] {
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            shade_tiles(slot, e, eyes_[e]->lp_buffer(), 0, plans_[e].lp_tiles.size());
+            shade_tiles(slot, e, eyes_[e]->lp_buffer(), plans_[e].lp_tiles, false);
         }
     };
     const auto disc_pass = [&] {
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            shade_tiles(slot, e, eyes_[e]->direct_buffer(), plans_[e].lp_tiles.size(),
-                        plans_[e].disc_tiles.size());
+            shade_tiles(slot, e, eyes_[e]->direct_buffer(), plans_[e].disc_tiles, true);
         }
     };
     if (any_lp) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -86,8 +87,8 @@ class FrameRenderer {
 
     void begin_segment(Slot& slot, std::optional<latency::Pass> pass);
     void end_segments(Slot& slot);
-    void shade_tiles(Slot& slot, std::size_t eye, const ColorImage& target, std::size_t first_tile,
-                     std::size_t tiles);
+    void shade_tiles(Slot& slot, std::size_t eye, const ColorImage& target,
+                     std::span<const foveation::Tile> tiles, bool direct);
     void draw_pictures(const Slot& slot, const FrameRequest& request,
                        const vk::raii::Pipeline& pipeline);
     void record_full(Slot& slot, const FrameRequest& request);

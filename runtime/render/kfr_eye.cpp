@@ -56,9 +56,9 @@ KfrEye::KfrEye(const VulkanContext& context, const foveation::KfrParameters& par
     row_table_.write(rows);
 }
 
-std::size_t KfrEye::max_tiles() const {
-    return std::size_t{3} *
-           (lp_.height / foveation::kBandRows + image_.height_px / foveation::kBandRows + 2);
+std::size_t KfrEye::max_bands() const {
+    return std::size_t{lp_.height / foveation::kBandRows} +
+           image_.height_px / foveation::kBandRows + 2;
 }
 
 }  // namespace gazeloop::render

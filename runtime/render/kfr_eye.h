@@ -25,8 +25,8 @@ class KfrEye {
     [[nodiscard]] vk::Buffer column_table() const { return column_table_.buffer(); }
     [[nodiscard]] vk::Buffer row_table() const { return row_table_.buffer(); }
 
-    /// Most tiles that a plan of this eye can have.
-    [[nodiscard]] std::size_t max_tiles() const;
+    /// Most bands that a plan of this eye can have.
+    [[nodiscard]] std::size_t max_bands() const;
 
   private:
     foveation::KfrParameters parameters_;

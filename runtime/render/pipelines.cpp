@@ -18,13 +18,11 @@ vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device, In
     using Type = vk::DescriptorType;
     constexpr auto kFragment = vk::ShaderStageFlagBits::eFragment;
     const std::array bindings{
-        vk::DescriptorSetLayoutBinding(kEyeUniformsBinding, Type::eUniformBuffer, 1,
-                                       vk::ShaderStageFlagBits::eVertex | kFragment),
+        vk::DescriptorSetLayoutBinding(kEyeUniformsBinding, Type::eUniformBuffer, 1, kFragment),
         vk::DescriptorSetLayoutBinding(kMapTablesBinding, Type::eUniformBuffer, 1, kFragment),
         vk::DescriptorSetLayoutBinding(kColumnTableBinding, Type::eStorageBuffer, 1, kFragment),
         vk::DescriptorSetLayoutBinding(kRowTableBinding, Type::eStorageBuffer, 1, kFragment),
-        vk::DescriptorSetLayoutBinding(kTilesBinding, Type::eStorageBuffer, 1,
-                                       vk::ShaderStageFlagBits::eVertex),
+        vk::DescriptorSetLayoutBinding(kBandsBinding, Type::eStorageBuffer, 1, kFragment),
         vk::DescriptorSetLayoutBinding(kLpBufferBinding, Type::eCombinedImageSampler, 1, kFragment),
         vk::DescriptorSetLayoutBinding(kDirectBufferBinding, Type::eCombinedImageSampler, 1,
                                        kFragment),
@@ -55,9 +53,8 @@ vk::raii::Pipeline make_pipeline(const vk::raii::Device& device,
         vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main",
                                           &specialization)};
     const vk::PipelineVertexInputStateCreateInfo vertex_input;
-    const vk::PipelineInputAssemblyStateCreateInfo assembly(
-        {}, source.tiles ? vk::PrimitiveTopology::eTriangleStrip
-                         : vk::PrimitiveTopology::eTriangleList);
+    const vk::PipelineInputAssemblyStateCreateInfo assembly({},
+                                                            vk::PrimitiveTopology::eTriangleList);
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     const vk::PipelineRasterizationStateCreateInfo rasterization(
         {}, VK_FALSE, VK_FALSE, vk::PolygonMode::eFill, vk::CullModeFlagBits::eNone,

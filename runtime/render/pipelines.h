@@ -13,7 +13,7 @@ enum Binding : std::uint32_t {
     kMapTablesBinding = 1,
     kColumnTableBinding = 2,
     kRowTableBinding = 3,
-    kTilesBinding = 4,
+    kBandsBinding = 4,
     kLpBufferBinding = 5,
     kDirectBufferBinding = 6,
 };
@@ -34,7 +34,6 @@ struct PipelineSource {
     std::string_view vertex;  ///< names as shaders::spirv takes them
     std::string_view fragment;
     vk::Format format;
-    bool tiles = false;         ///< triangle strips of four, an instance each; else one triangle
     bool encode_srgb = false;   ///< the target's format does not encode by itself
     std::uint32_t samples = 1;  ///< a texel or pixel
 };

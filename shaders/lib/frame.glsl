@@ -3,7 +3,7 @@ layout(std140, set = 0, binding = 0) uniform EyeUniforms {
     vec4 camera_and_time;     // eye position in world, m; scene time, s
     vec4 view_axes[3];        // columns of the view's rotation into world
     vec4 tangents;            // of the field of view: left, right, up, down
-    vec4 image_and_tiles;     // width, height, px; LP tiles; unused
+    vec4 image_and_bands;     // width, height, px; bands of the LP-buffer; unused
     vec4 fovea_and_log2;      // fovea, px; log2 of the farthest radius; .5 / that
     vec4 lp_and_disc;         // LP-buffer's width, height; disc radius and its border, px
     vec4 offsets[16];         // samples in their cell: x, y in (-.5, .5); cosine, sine of y rows
@@ -15,7 +15,7 @@ layout(constant_id = 1) const int kSamples = 1;
 
 const float kGreatestRadiance = 60000.0;  // what RGBA16F holds, with room for a filter's sum
 
-vec2 image_size() { return eye.image_and_tiles.xy; }
+vec2 image_size() { return eye.image_and_bands.xy; }
 
 // The ray of a position in the picture, in world; not normalised in z-depth, unit length.
 vec3 ray_direction(vec2 position_px) {

@@ -68,14 +68,19 @@ vec2 lp_position(vec2 position_px) {
     return vec2(mix(low, high, scaled - float(i)), turns(d)) * lp_size();
 }
 
-// The position of a sample in an LP texel: cell.xy its column and row, offset as EyeUniforms has it.
-vec2 picture_position(ivec2 cell, vec4 offset) {
-    float scaled = (float(cell.x) + 0.5 + offset.x) * 2.0;
-    int i = int(scaled);
-    float k = mix(column_table[i], column_table[min(i + 1, int(lp_size().x) * 2)],
-                  scaled - float(i));
-    float r = exp2_by_table(k * eye.fovea_and_log2.z);
-    vec2 c = row_table[cell.y];
-    vec2 direction = vec2(c.x * offset.z - c.y * offset.w, c.y * offset.z + c.x * offset.w);
+// The radii of a column's inner edge, centre and outer edge.
+vec3 column_radii(int column) {
+    vec3 x = vec3(column_table[2 * column], column_table[2 * column + 1],
+                  column_table[2 * column + 2]) * eye.fovea_and_log2.z;
+    return vec3(exp2_by_table(x.x), exp2_by_table(x.y), exp2_by_table(x.z));
+}
+
+// The position of a sample in an LP texel, from its column's radii (the parabola through them) and
+// its row's direction; offset as EyeUniforms has it.
+vec2 picture_position(vec3 radii, vec2 row_direction, vec4 offset) {
+    float bend = 2.0 * (radii.x + radii.z - 2.0 * radii.y);
+    float r = radii.y + offset.x * (radii.z - radii.x + offset.x * bend);
+    vec2 direction = vec2(row_direction.x * offset.z - row_direction.y * offset.w,
+                          row_direction.y * offset.z + row_direction.x * offset.w);
     return eye.fovea_and_log2.xy + r * direction;
 }

@@ -16,7 +16,9 @@ void main() {
         return;
     }
     vec2 lp = lp_position(inputs[i].xy);
-    vec2 position = picture_position(ivec2(inputs[i].zw), vec4(0.0, 0.0, 1.0, 0.0));
+    ivec2 cell = ivec2(inputs[i].zw);
+    vec2 position =
+        picture_position(column_radii(cell.x), row_table[cell.y], vec4(0.0, 0.0, 1.0, 0.0));
     outputs[2 * i] = vec4(lp, position);
     outputs[2 * i + 1] = vec4(ray_direction(inputs[i].xy), 0.0);
 }
