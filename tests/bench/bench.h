@@ -20,11 +20,16 @@ struct Figure {
 };
 
 struct Options {
-    std::optional<unsigned> samples{};  ///< --spp
-    unsigned rounds = 3;                ///< --rounds
+    std::optional<unsigned> samples{};   ///< --spp
+    unsigned rounds = 3;                 ///< --rounds
+    std::vector<std::string> cases{};    ///< --case, by name; all of them if empty
+    std::optional<std::string> trace{};  ///< --trace: recorded gaze for the benches that follow one
+
+    [[nodiscard]] bool wants(std::string_view name) const;
 };
 
-/// Speed of KFR over full resolution on the ray-marched scene, fovea centred.
+/// Speed of KFR over full resolution on the ray-marched scene: fovea centred, at an edge, in a
+/// corner and along a trace.
 std::vector<Figure> kfr_raycast(const Options& options);
 
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.

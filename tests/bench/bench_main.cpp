@@ -20,13 +20,13 @@ struct Named {
 constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast}};
 
 void print(const std::vector<Figure>& figures) {
-    fmt::print("{:12} {:22} {:24} {:>10} {:5} {:>8} {:>8}\n", "bench", "case", "metric", "value",
+    fmt::print("{:12} {:18} {:28} {:>10} {:5} {:>8} {:>8}\n", "bench", "case", "metric", "value",
                "unit", "bound", "target");
     const auto optional = [](const std::optional<double>& value) {
         return value ? fmt::format("{:.2f}", *value) : std::string("-");
     };
     for (const Figure& figure : figures) {
-        fmt::print("{:12} {:22} {:24} {:10.2f} {:5} {:>8} {:>8}\n", figure.bench, figure.name,
+        fmt::print("{:12} {:18} {:28} {:10.2f} {:5} {:>8} {:>8}\n", figure.bench, figure.name,
                    figure.metric, figure.value, figure.unit, optional(figure.bound),
                    optional(figure.target));
     }
@@ -60,6 +60,8 @@ int bench_main(int count, char** arguments) {
         ->check(CLI::Range(1, 16));
     program.add_option("--rounds", options.rounds, "interleaved rounds; medians are printed")
         ->check(CLI::Range(1, 100));
+    program.add_option("--case", options.cases, "only these cases");
+    program.add_option("--trace", options.trace, "recorded gaze, for benches that follow one");
     CLI11_PARSE(program, count, arguments);
     std::vector<Figure> figures;
     bool found = false;
@@ -91,6 +93,10 @@ int bench_main(int count, char** arguments) {
 }
 
 }  // namespace
+
+bool Options::wants(std::string_view name) const {
+    return cases.empty() || std::ranges::find(cases, name) != cases.end();
+}
 
 double median(std::vector<double> values) {
     std::ranges::sort(values);

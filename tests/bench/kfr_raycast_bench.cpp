@@ -3,134 +3,236 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
+#include <numeric>
 
-#include "runtime/render/frame_renderer.h"
+#include "drivers/trace/read_trace.h"
+#include "runtime/error.h"
+#include "runtime/foveation/log_polar_map.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/raycast_setup.h"
 
 namespace gazeloop::bench {
 namespace {
 
 using latency::Pass;
 
-/// One way to render the frame, with the durations of its rounds.
-struct Contender {
-    const char* name;
-    render::RendererConfig config;
-    std::unique_ptr<render::FrameRenderer> renderer{};
-    std::vector<double> total_ms{};
-    std::array<std::vector<double>, latency::kPassCount> pass_ms{};
-    latency::SampleCounts counts{};
-};
+constexpr double kHalfWidth_rad = 0.8;
+
+/// The picture's content decides much of the ratio: the middle of the first view is the scene's
+/// dearest spot, a mirror. So the frame is rendered in all four directions, as a head would turn.
+constexpr std::array kYaws_deg{0.0, 90.0, 180.0, 270.0};
+constexpr std::size_t kTraceFoveae = 8;
 
 struct Case {
-    std::uint32_t width;
-    std::uint32_t height;
+    vk::Extent2D extent;
     double target;        ///< with the disc; a prototype's figures
-    double paper_target;  ///< without it: the paper's pipeline
+    double paper_target;  ///< without it: the paper's pipeline and its figures
+    unsigned most_rounds;
+    bool off_centre;
 };
-constexpr std::array kCases{Case{1920, 1080, 3.9, 2.9}, Case{2560, 1440, 4.1, 3.0},
-                            Case{3840, 2160, 4.1, 3.2}};
+const std::array kCases{Case{{1920, 1080}, 3.9, 2.9, 100, true},
+                        Case{{2560, 1440}, 4.1, 3.0, 3, false},
+                        Case{{3840, 2160}, 4.1, 3.2, 2, false}};
 
-render::FrameRequest centred_frame(const Case& at, const gaze::PerEye<render::ColorImage>& images) {
-    render::FrameRequest request;
-    request.scene_time_s = 2.5;
-    const double aspect = static_cast<double>(at.height) / at.width;
-    const double half_height = std::atan(std::tan(0.8) * aspect);
-    for (const gaze::Eye eye : gaze::kEyes) {
-        const std::size_t e = gaze::index(eye);
-        request.views[e] = {
-            .pose = {.position_m = {eye == gaze::Eye::Left ? -0.0315 : 0.0315, 0.0, 0.0}},
-            .fov = {-0.8, 0.8, half_height, -half_height},
-            .width_px = at.width,
-            .height_px = at.height};
-        request.foveae[e] = {at.width / 2.0, at.height / 2.0};
-        request.targets[e] = {images[e].image(), images[e].view()};
-    }
-    return request;
+/// Times of one way to foveate, a figure for each view.
+struct Times {
+    std::vector<double> full_ms{};
+    std::vector<double> ms{};
+    std::vector<double> pass_i_ms{};
+    std::vector<double> disc_ms{};
+    std::vector<double> resolve_ms{};
+    std::vector<double>
+        predicted_ms{};  ///< Amdahl's: the samples' cost at full resolution + resolve
+    std::vector<double> cells{};
+};
+
+double sum(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-void one_round(Contender& contender, const render::FrameRequest& request, bool keep) {
-    contender.renderer->wait_for_slot();
-    contender.counts = contender.renderer->render(request);
-    contender.renderer->wait_idle();
-    const auto finished = contender.renderer->next_finished();
-    if (!keep || !finished) {
-        return;
-    }
-    double total = 0.0;
-    for (std::size_t pass = 0; pass < latency::kPassCount; ++pass) {
-        if (finished->pass_ns[pass] >= 0) {
-            const double ms = static_cast<double>(finished->pass_ns[pass]) * 1e-6;
-            contender.pass_ms[pass].push_back(ms);
-            total += ms;
+gaze::PixelPosition texel_position(const foveation::SamplingPlan& plan,
+                                   const foveation::LogPolarMap& map, std::uint32_t x,
+                                   std::uint32_t y) {
+    const double radius_px = map.radius_px((x + 0.5) / plan.lp.width);
+    const double angle = (y + 0.5) * 2.0 * std::numbers::pi / plan.lp.height;
+    return {plan.fovea.x_px + radius_px * std::cos(angle),
+            plan.fovea.y_px + radius_px * std::sin(angle)};
+}
+
+class Measurement {
+  public:
+    Measurement(const render::VulkanContext& context, const Case& at, const Options& options)
+        : context_(context),
+          case_(at),
+          name_(fmt::format("{}x{}", at.extent.width, at.extent.height)),
+          rounds_(std::min(options.rounds, at.most_rounds)),
+          setup_(context, at.extent, kHalfWidth_rad),
+          config_(config_of(setup_, options)),
+          full_(context, with_method(config_, render::Method::Full, false)),
+          kfr_(context, with_method(config_, render::Method::Kfr, true)),
+          plain_(context, with_method(config_, render::Method::Kfr, false)) {
+        if (options.trace && at.off_centre) {
+            trace_ = value_or_throw(drivers::read_trace(*options.trace));
         }
     }
-    contender.total_ms.push_back(total);
-}
 
-double samples_of(const latency::SampleCounts& counts) {
-    return static_cast<double>(counts.texels_shaded + counts.pixels_direct);
-}
+    std::vector<Figure> run() {
+        const render::FrameRequest warm_up = setup_.frame(kYaws_deg[0], setup_.centre());
+        for (Contender* const contender : {&full_, &kfr_, &plain_}) {
+            contender->round(warm_up, false);
+        }
+        for (const double yaw_deg : kYaws_deg) {
+            one_view(yaw_deg);
+        }
+        add_figures("", centred_, case_.target, true);
+        add_figures("plain ", centred_plain_, case_.paper_target, true);
+        if (case_.off_centre) {
+            name_ += " edge";
+            add_figures("", edge_, std::nullopt, false);
+            name_.replace(name_.rfind(' '), std::string::npos, " corner");
+            add_figures("", corner_, std::nullopt, false);
+            if (!trace_.samples.empty()) {
+                name_.replace(name_.rfind(' '), std::string::npos, " trace");
+                add_figures("", along_trace_, std::nullopt, false);
+            }
+        }
+        return figures_;
+    }
 
-void add_figures(const std::string& name, const Contender& contender, const Contender& full,
-                 double target, std::vector<Figure>& figures) {
-    const double full_ms = median(full.total_ms);
-    const double ms = median(contender.total_ms);
-    const double resolve_ms = median(contender.pass_ms[static_cast<std::size_t>(Pass::Resolve)]);
-    const double fewer = samples_of(full.counts) / samples_of(contender.counts);
-    // Amdahl: the samples' share of the time shrinks with their number, the resolve comes on top.
-    const double predicted = full_ms / (full_ms / fewer + resolve_ms);
-    const auto add = [&](std::string metric, double value, std::string unit,
-                         std::optional<double> bound, std::optional<double> goal,
-                         std::string better) {
-        figures.push_back({"kfr-raycast", name, std::string(contender.name) + std::move(metric),
-                           value, std::move(unit), std::move(better), bound, goal});
-    };
-    add(" speedup", full_ms / ms, "x", fewer, target, "higher");
-    add(" of Amdahl", 100.0 * full_ms / ms / predicted, "%", 100.0, 90.0, "higher");
-    for (std::size_t pass = 0; pass < latency::kPassCount; ++pass) {
-        if (!contender.pass_ms[pass].empty()) {
-            add(fmt::format(" {}", latency::kPassNames[pass]), median(contender.pass_ms[pass]),
-                "ms", std::nullopt, std::nullopt, "lower");
+  private:
+    static render::RendererConfig config_of(const RaycastSetup& setup, const Options& options) {
+        render::RendererConfig config;
+        config.samples = options.samples.value_or(16);
+        config.extents = setup.extents();
+        return config;
+    }
+
+    static render::RendererConfig with_method(render::RendererConfig config, render::Method method,
+                                              bool disc) {
+        config.method = method;
+        config.kfr.disc = disc;
+        return config;
+    }
+
+    void one_view(double yaw_deg) {
+        const render::FrameRequest centred = setup_.frame(yaw_deg, setup_.centre());
+        full_.reset();
+        kfr_.reset();
+        plain_.reset();
+        for (unsigned round = 0; round < rounds_; ++round) {
+            full_.round(centred);
+            kfr_.round(centred);
+            plain_.round(centred);
+        }
+        const CostMap costs(context_, setup_, config_, yaw_deg, full_.median_ms());
+        keep(kfr_, costs, centred_);
+        keep(plain_, costs, centred_plain_);
+        if (!case_.off_centre) {
+            return;
+        }
+        off_centre(yaw_deg, {0.5, case_.extent.height / 2.0}, costs, edge_);
+        off_centre(yaw_deg, {0.5, 0.5}, costs, corner_);
+        const gaze::EyeView& view = centred.views[0];
+        std::vector<gaze::PixelPosition> foveae;
+        for (std::size_t i = 0; i < trace_.samples.size(); ++i) {
+            const gaze::EyeRay& ray = trace_.samples[i].eyes[0];
+            if (ray.valid) {
+                foveae.push_back(gaze::project(ray.direction, view));
+            }
+        }
+        for (std::size_t i = 0; i < kTraceFoveae && !foveae.empty(); ++i) {
+            const std::size_t at = (2 * i + 1) * foveae.size() / (2 * kTraceFoveae);
+            off_centre(yaw_deg, foveae[at], costs, along_trace_);
         }
     }
-}
+
+    void off_centre(double yaw_deg, const gaze::PixelPosition& fovea, const CostMap& costs,
+                    Times& times) {
+        const render::FrameRequest request = setup_.frame(yaw_deg, fovea);
+        kfr_.reset();
+        kfr_.round(request);
+        keep(kfr_, costs, times);
+    }
+
+    void keep(const Contender& contender, const CostMap& costs, Times& times) const {
+        const foveation::SamplingPlan& plan = contender.plan();
+        const foveation::LogPolarMap map(config_.kfr.kernel,
+                                         {case_.extent.width, case_.extent.height}, plan.fovea);
+        times.full_ms.push_back(full_.median_ms());
+        times.ms.push_back(contender.median_ms());
+        times.pass_i_ms.push_back(contender.median_ms(Pass::PassI));
+        times.disc_ms.push_back(contender.median_ms(Pass::Disc));
+        times.resolve_ms.push_back(contender.median_ms(Pass::Resolve));
+        times.predicted_ms.push_back(
+            times.resolve_ms.back() +
+            costs.predicted_ms(plan, [&](std::uint32_t x, std::uint32_t y) {
+                return texel_position(plan, map, x, y);
+            }));
+        times.cells.push_back(contender.cells());
+    }
+
+    void add_figures(std::string_view prefix, const Times& times, std::optional<double> target,
+                     bool passes) {
+        const auto add = [&](std::string_view metric, double value, std::string_view unit,
+                             std::optional<double> bound, std::optional<double> goal,
+                             std::string_view better) {
+            figures_.push_back({"kfr-raycast", name_, fmt::format("{}{}", prefix, metric), value,
+                                std::string(unit), std::string(better), bound, goal});
+        };
+        const double speedup = sum(times.full_ms) / sum(times.ms);
+        const double views = static_cast<double>(times.ms.size());
+        const double fewer = full_.cells() * views / sum(times.cells);
+        const double amdahl = sum(times.full_ms) / sum(times.predicted_ms);
+        double least = speedup;
+        for (std::size_t i = 0; i < times.ms.size(); ++i) {
+            least = std::min(least, times.full_ms[i] / times.ms[i]);
+        }
+        add("speedup", speedup, "x", amdahl, target, "higher");
+        add("speedup, dearest view", least, "x", std::nullopt, std::nullopt, "higher");
+        add("fewer samples", fewer, "x", std::nullopt, std::nullopt, "higher");
+        add("share of Amdahl", 100.0 * speedup / amdahl, "%", 100.0, 90.0, "higher");
+        if (!passes) {
+            return;
+        }
+        if (prefix.empty()) {
+            add("full", sum(times.full_ms) / views, "ms", std::nullopt, std::nullopt, "lower");
+        }
+        add("pass_i", sum(times.pass_i_ms) / views, "ms", std::nullopt, std::nullopt, "lower");
+        if (sum(times.disc_ms) > 0.0) {
+            add("disc", sum(times.disc_ms) / views, "ms", std::nullopt, std::nullopt, "lower");
+        }
+        add("resolve", sum(times.resolve_ms) / views, "ms", std::nullopt, std::nullopt, "lower");
+    }
+
+    const render::VulkanContext& context_;
+    const Case& case_;
+    std::string name_;
+    unsigned rounds_;
+    RaycastSetup setup_;
+    render::RendererConfig config_;
+    Contender full_;
+    Contender kfr_;
+    Contender plain_;
+    drivers::Trace trace_;
+    Times centred_;
+    Times centred_plain_;
+    Times edge_;
+    Times corner_;
+    Times along_trace_;
+    std::vector<Figure> figures_;
+};
 
 }  // namespace
 
 std::vector<Figure> kfr_raycast(const Options& options) {
-    const std::uint32_t samples = options.samples.value_or(16);
     const render::VulkanContext context({}, nullptr);
     std::vector<Figure> figures;
     for (const Case& at : kCases) {
-        const vk::Extent2D extent(at.width, at.height);
-        render::RendererConfig config;
-        config.samples = samples;
-        config.extents = {extent, extent};
-        gaze::PerEye<render::ColorImage> images;
-        for (render::ColorImage& image : images) {
-            image = render::ColorImage(context, extent, config.format,
-                                       vk::ImageUsageFlagBits::eColorAttachment);
+        if (options.wants(fmt::format("{}x{}", at.extent.width, at.extent.height))) {
+            const std::vector<Figure> more = Measurement(context, at, options).run();
+            figures.insert(figures.end(), more.begin(), more.end());
         }
-        std::array<Contender, 3> contenders{Contender{"full", config}, Contender{"kfr", config},
-                                            Contender{"kfr, no disc", config}};
-        contenders[0].config.method = render::Method::Full;
-        contenders[2].config.kfr.disc = false;
-        for (Contender& contender : contenders) {
-            contender.renderer = std::make_unique<render::FrameRenderer>(context, contender.config);
-        }
-        const render::FrameRequest request = centred_frame(at, images);
-        // The first round compiles.
-        for (unsigned round = 0; round <= options.rounds; ++round) {
-            for (Contender& contender : contenders) {
-                one_round(contender, request, round > 0);
-            }
-        }
-        const std::string name = fmt::format("{}x{}", at.width, at.height);
-        figures.push_back(
-            {"kfr-raycast", name, "full", median(contenders[0].total_ms), "ms", "lower"});
-        add_figures(name, contenders[1], contenders[0], at.target, figures);
-        add_figures(name, contenders[2], contenders[0], at.paper_target, figures);
     }
     return figures;
 }

@@ -1,0 +1,158 @@
+#include "tests/bench/raycast_setup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <numbers>
+
+#include "tests/bench/bench.h"
+
+namespace gazeloop::bench {
+namespace {
+
+constexpr vk::Extent2D kOtherEye(8, 8);
+
+/// An instant at which no exhibit hides another.
+constexpr double kSceneTime_s = 2.5;
+
+}  // namespace
+
+RaycastSetup::RaycastSetup(const render::VulkanContext& context, vk::Extent2D extent,
+                           double half_width_rad)
+    : extents_{extent, kOtherEye}, half_width_rad_(half_width_rad) {
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        images_[e] = render::ColorImage(context, extents_[e], render::RendererConfig{}.format,
+                                        vk::ImageUsageFlagBits::eColorAttachment);
+    }
+}
+
+gaze::PixelPosition RaycastSetup::centre() const {
+    return {extent().width / 2.0, extent().height / 2.0};
+}
+
+render::FrameRequest RaycastSetup::frame(double yaw_deg, const gaze::PixelPosition& fovea) const {
+    render::FrameRequest request;
+    request.scene_time_s = kSceneTime_s;
+    const double half_height_rad =
+        std::atan(std::tan(half_width_rad_) * extent().height / extent().width);
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        request.views[e] = {
+            .pose = {.orientation = glm::angleAxis(yaw_deg * (std::numbers::pi / 180.0),
+                                                   glm::dvec3(0.0, 1.0, 0.0))},
+            .fov = {-half_width_rad_, half_width_rad_, half_height_rad, -half_height_rad},
+            .width_px = extents_[e].width,
+            .height_px = extents_[e].height};
+        request.targets[e] = {images_[e].image(), images_[e].view()};
+    }
+    request.foveae = {fovea, gaze::PixelPosition{kOtherEye.width / 2.0, kOtherEye.height / 2.0}};
+    return request;
+}
+
+Contender::Contender(const render::VulkanContext& context, const render::RendererConfig& config)
+    : renderer_(std::make_unique<render::FrameRenderer>(context, config)) {}
+
+void Contender::round(const render::FrameRequest& request, bool keep) {
+    renderer_->wait_for_slot();
+    counts_ = renderer_->render(request);
+    renderer_->wait_idle();
+    const auto finished = renderer_->next_finished();
+    if (!keep || !finished) {
+        return;
+    }
+    double total = 0.0;
+    for (std::size_t pass = 0; pass < latency::kPassCount; ++pass) {
+        if (finished->pass_ns[pass] >= 0) {
+            const double ms = static_cast<double>(finished->pass_ns[pass]) * 1e-6;
+            pass_ms_[pass].push_back(ms);
+            total += ms;
+        }
+    }
+    total_ms_.push_back(total);
+}
+
+void Contender::reset() {
+    total_ms_.clear();
+    for (auto& pass : pass_ms_) {
+        pass.clear();
+    }
+}
+
+double Contender::median_ms() const { return median(total_ms_); }
+
+double Contender::median_ms(latency::Pass pass) const {
+    const std::vector<double>& rounds = pass_ms_[static_cast<std::size_t>(pass)];
+    return rounds.empty() ? 0.0 : median(rounds);
+}
+
+double Contender::cells() const {
+    return static_cast<double>(counts_.texels_shaded + counts_.pixels_direct);
+}
+
+CostMap::CostMap(const render::VulkanContext& context, const RaycastSetup& setup,
+                 render::RendererConfig config, double yaw_deg, double whole_ms)
+    : extent_(setup.extent()) {
+    const vk::Extent2D cell(extent_.width / kCells, extent_.height / kCells);
+    config.method = render::Method::Full;
+    config.extents = {cell, setup.extents()[1]};
+    const render::ColorImage image(context, cell, config.format,
+                                   vk::ImageUsageFlagBits::eColorAttachment);
+    Contender full(context, config);
+    render::FrameRequest request = setup.frame(yaw_deg, setup.centre());
+    const gaze::FieldOfView whole = request.views[0].fov;
+    request.views[0].width_px = cell.width;
+    request.views[0].height_px = cell.height;
+    request.targets[0] = {image.image(), image.view()};
+    const auto between = [](double from_rad, double to_rad, double share) {
+        return std::atan(std::lerp(std::tan(from_rad), std::tan(to_rad), share));
+    };
+    double sum_ms = 0.0;
+    full.round(request, false);
+    for (std::uint32_t row = 0; row < kCells; ++row) {
+        for (std::uint32_t column = 0; column < kCells; ++column) {
+            const double step = 1.0 / kCells;
+            request.views[0].fov = {between(whole.left_rad, whole.right_rad, column * step),
+                                    between(whole.left_rad, whole.right_rad, (column + 1) * step),
+                                    between(whole.up_rad, whole.down_rad, row * step),
+                                    between(whole.up_rad, whole.down_rad, (row + 1) * step)};
+            full.reset();
+            full.round(request);
+            ms_per_pixel_[std::size_t{row} * kCells + column] = full.median_ms();
+            sum_ms += full.median_ms();
+        }
+    }
+    const double scale =
+        whole_ms / sum_ms /
+        (static_cast<double>(extent_.width) * extent_.height / (double{kCells} * kCells));
+    for (double& cost : ms_per_pixel_) {
+        cost *= scale;
+    }
+}
+
+double CostMap::ms_at(const gaze::PixelPosition& position) const {
+    const auto index = [](double share) {
+        return static_cast<std::size_t>(std::clamp(share * kCells, 0.0, kCells - 1.0));
+    };
+    return ms_per_pixel_[index(position.y_px / extent_.height) * kCells +
+                         index(position.x_px / extent_.width)];
+}
+
+double CostMap::predicted_ms(
+    const foveation::SamplingPlan& plan,
+    const std::function<gaze::PixelPosition(std::uint32_t, std::uint32_t)>& texel_position) const {
+    double sum_ms = 0.0;
+    const auto add = [&](const std::vector<foveation::Columns>& bands, std::uint32_t height,
+                         const auto& position) {
+        for (std::uint32_t y = 0; y < height && y / foveation::kBandRows < bands.size(); ++y) {
+            const foveation::Columns& columns = bands[y / foveation::kBandRows];
+            for (std::uint32_t x = columns.first; x < columns.end; ++x) {
+                sum_ms += ms_at(position(x, y));
+            }
+        }
+    };
+    add(plan.lp_bands, plan.lp.height, texel_position);
+    add(plan.disc_bands, extent_.height,
+        [](std::uint32_t x, std::uint32_t y) { return gaze::PixelPosition{x + 0.5, y + 0.5}; });
+    return sum_ms;
+}
+
+}  // namespace gazeloop::bench

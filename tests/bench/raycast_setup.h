@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "runtime/render/frame_renderer.h"
+
+namespace gazeloop::bench {
+
+/// One eye's picture of the ray-marched scene, as the papers measure it: the other eye's picture is
+/// the smallest that every method takes (8 x 8 px, under a ten thousandth of the work).
+class RaycastSetup {
+  public:
+    /// half_width_rad: half of the horizontal field of view; the vertical one follows from square
+    /// pixels.
+    RaycastSetup(const render::VulkanContext& context, vk::Extent2D extent, double half_width_rad);
+
+    [[nodiscard]] const gaze::PerEye<vk::Extent2D>& extents() const { return extents_; }
+    [[nodiscard]] vk::Extent2D extent() const { return extents_[0]; }
+
+    /// The eye at the scene's origin, the head turned to the left by yaw_deg; the gaze falls on
+    /// `fovea` of the measured picture and on the middle of the other.
+    [[nodiscard]] render::FrameRequest frame(double yaw_deg,
+                                             const gaze::PixelPosition& fovea) const;
+    [[nodiscard]] gaze::PixelPosition centre() const;
+
+  private:
+    gaze::PerEye<vk::Extent2D> extents_;
+    double half_width_rad_;
+    gaze::PerEye<render::ColorImage> images_;
+};
+
+/// One way to render, with the durations of its rounds.
+class Contender {
+  public:
+    Contender(const render::VulkanContext& context, const render::RendererConfig& config);
+
+    /// Renders a frame and keeps what it took, unless it is the first of its kind, which compiles.
+    void round(const render::FrameRequest& request, bool keep = true);
+    /// Forgets the rounds.
+    void reset();
+
+    [[nodiscard]] double median_ms() const;
+    /// 0 for a pass that the method does not have.
+    [[nodiscard]] double median_ms(latency::Pass pass) const;
+    /// Of the last round: cells that were shaded, of both eyes.
+    [[nodiscard]] double cells() const;
+    [[nodiscard]] const foveation::SamplingPlan& plan() const {
+        return renderer_->last_plan(gaze::Eye::Left);
+    }
+
+  private:
+    std::unique_ptr<render::FrameRenderer> renderer_;
+    std::vector<double> total_ms_;
+    std::array<std::vector<double>, latency::kPassCount> pass_ms_;
+    latency::SampleCounts counts_;
+};
+
+/// What a pixel costs at full resolution, cell by cell of a grid over the picture: content is
+/// dearer in one place than in another, and a method that looks where it is dear can't be blamed
+/// for it.
+class CostMap {
+  public:
+    static constexpr std::uint32_t kCells = 6;  ///< a side
+
+    /// Renders every cell for itself at the picture's scale, so that their sum is one full frame;
+    /// then scales them to sum up to `whole_ms`.
+    CostMap(const render::VulkanContext& context, const RaycastSetup& setup,
+            render::RendererConfig config, double yaw_deg, double whole_ms);
+
+    /// What the plan's cells would take if each cost what a pixel at its place costs.
+    /// `texel_position` gives the picture position of an LP texel's centre.
+    [[nodiscard]] double predicted_ms(
+        const foveation::SamplingPlan& plan,
+        const std::function<gaze::PixelPosition(std::uint32_t, std::uint32_t)>& texel_position)
+        const;
+
+  private:
+    [[nodiscard]] double ms_at(const gaze::PixelPosition& position) const;
+
+    vk::Extent2D extent_;
+    std::array<double, std::size_t{kCells} * kCells> ms_per_pixel_{};
+};
+
+}  // namespace gazeloop::bench
