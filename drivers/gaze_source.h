@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "runtime/gaze/gaze_sample.h"
-#include "runtime/gaze/head_track.h"
+#include "runtime/gaze/head_motion.h"
 
 namespace gazeloop::drivers {
 
@@ -22,8 +22,8 @@ class GazeSource {
     /// in the order of arrival. Never blocks.
     virtual void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) = 0;
 
-    /// The head motion that was recorded with the gaze, or null where there is none.
-    [[nodiscard]] virtual const gaze::HeadTrack* head_track() const { return nullptr; }
+    /// The head motion that belongs to the gaze, or null where the source knows none.
+    [[nodiscard]] virtual const gaze::HeadMotion* head_track() const { return nullptr; }
 
     /// Whether its samples are directions in the head on purpose, whatever the head does (fixed
     /// foveation), so that they are not to be held in world.

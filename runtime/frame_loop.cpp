@@ -139,8 +139,8 @@ class FrameLoop {
 
     /// In the world that the views are in: the source's, if it knows the head, else the target's.
     [[nodiscard]] std::optional<gaze::Pose> head_at(std::int64_t time_ns) {
-        if (const gaze::HeadTrack* const track = source_->head_track()) {
-            return track->at(time_ns);
+        if (const gaze::HeadMotion* const motion = source_->head_track()) {
+            return motion->at(time_ns);
         }
         return timeline_->asks_target_for_head() ? parts_.target.head_at(time_ns) : std::nullopt;
     }

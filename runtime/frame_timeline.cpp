@@ -20,7 +20,7 @@ gaze::StereoView on_head(const gaze::Pose& head, const gaze::StereoView& views,
 
 latency::Stamp LiveTimeline::now() { return latency::measured_now(); }
 
-void LiveTimeline::plan(const present::TargetFrame& target, const gaze::HeadTrack* head,
+void LiveTimeline::plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
                         PlannedFrame& frame) {
     frame.display = target.display;
     frame.period_ns = target.period_ns;
@@ -34,7 +34,7 @@ latency::Stamp VirtualTimeline::now() {
     return {static_cast<std::int64_t>(frame_) * model_.period_ns, latency::StampKind::Modelled};
 }
 
-void VirtualTimeline::plan(const present::TargetFrame&, const gaze::HeadTrack* head,
+void VirtualTimeline::plan(const present::TargetFrame&, const gaze::HeadMotion* head,
                            PlannedFrame& frame) {
     frame.display = {now().ns + model_.period_ns, latency::StampKind::Modelled};
     frame.period_ns = model_.period_ns;
@@ -60,7 +60,7 @@ void VirtualTimeline::settle(latency::FrameGpuRecord& record) {
 
 latency::Stamp RecordedTimeline::now() { return frames_[frame_].frame.stamps.wake_up; }
 
-void RecordedTimeline::plan(const present::TargetFrame&, const gaze::HeadTrack*,
+void RecordedTimeline::plan(const present::TargetFrame&, const gaze::HeadMotion*,
                             PlannedFrame& frame) {
     const latency::FrameRecord& recorded = frames_[frame_].frame;
     frame.display = recorded.stamps.display;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "runtime/gaze/head_track.h"
+#include "runtime/gaze/head_motion.h"
 #include "runtime/latency/frame_record.h"
 #include "runtime/present/frame_target.h"
 
@@ -36,7 +36,7 @@ class FrameTimeline {
 
     /// What to render, given what the target announced. `head` is the gaze source's head motion, or
     /// null.
-    virtual void plan(const present::TargetFrame& target, const gaze::HeadTrack* head,
+    virtual void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
                       PlannedFrame& frame) = 0;
 
     /// When the gaze is read: the time now, unless it was decided before.
@@ -60,7 +60,7 @@ class LiveTimeline final : public FrameTimeline {
     explicit LiveTimeline(std::int64_t start_ns) : start_ns_(start_ns) {}
 
     latency::Stamp now() override;
-    void plan(const present::TargetFrame& target, const gaze::HeadTrack* head,
+    void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
               PlannedFrame& frame) override;
     [[nodiscard]] bool asks_target_for_head() const override { return true; }
 
@@ -82,7 +82,7 @@ class VirtualTimeline final : public FrameTimeline {
 
     latency::Stamp now() override;
     void begin(std::uint64_t frame) override { frame_ = frame; }
-    void plan(const present::TargetFrame& target, const gaze::HeadTrack* head,
+    void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
               PlannedFrame& frame) override;
     void settle(latency::FrameRecord& record) override;
     void settle(latency::FrameGpuRecord& record) override;
@@ -104,7 +104,7 @@ class RecordedTimeline final : public FrameTimeline {
 
     latency::Stamp now() override;
     void begin(std::uint64_t frame) override { frame_ = frame; }
-    void plan(const present::TargetFrame& target, const gaze::HeadTrack* head,
+    void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
               PlannedFrame& frame) override;
     latency::Stamp latch() override;
     void settle(latency::FrameRecord& record) override;

@@ -52,7 +52,7 @@ void TraceSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& sampl
     }
 }
 
-const gaze::HeadTrack* TraceSource::head_track() const {
+const gaze::HeadMotion* TraceSource::head_track() const {
     return head_track_.empty() ? nullptr : &head_track_;
 }
 

@@ -24,7 +24,7 @@ class TraceSource final : public GazeSource {
 
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;
     /// The head poses at the samples' times; null if the trace has none.
-    [[nodiscard]] const gaze::HeadTrack* head_track() const override;
+    [[nodiscard]] const gaze::HeadMotion* head_track() const override;
     [[nodiscard]] bool finished() const override { return next_ == trace_.samples.size(); }
     [[nodiscard]] std::string description() const override;
 

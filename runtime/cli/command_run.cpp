@@ -4,8 +4,8 @@
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/gaze_sources.h"
-#include "runtime/cli/profiles.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/cli/tracker_settings.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -13,11 +13,13 @@ namespace {
 struct RunCommand {
     RunOptions options;
     std::string gaze = "fixed:0,0";
+    std::string clock = "wall";
 };
 
 ExitCode run(const RunCommand& command, const std::string& command_line) {
     Settings settings;
     value_or_throw(command.options.apply_to(settings, true));
+    const TrackerProfile tracker = value_or_throw(tracker_in_force(settings));
     if (command.options.print_config) {
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;
@@ -25,8 +27,9 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
     FrameRunRequest request;
     request.settings = &settings;
     request.command_line = command_line;
-    const TrackerProfile tracker = value_or_throw(load_tracker(settings.values().profile.tracker));
-    request.make_source = value_or_throw(gaze_source_named(command.gaze, tracker));
+    request.make_source =
+        value_or_throw(gaze_source_named(command.gaze, tracker, settings.values().sim));
+    request.clock = command.clock == "wall" ? RunClock::Wall : RunClock::Virtual;
     command.options.fill(request);
     request.loop.end_with_source = !command.options.frames && !command.options.seconds;
     return frame_run(request);
@@ -37,8 +40,11 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
 void add_run_command(CLI::App& program, const std::string& command_line, Action& action) {
     CLI::App* const app = program.add_subcommand("run", "run the gaze-contingent frame loop");
     const auto command = std::make_shared<RunCommand>();
-    app->add_option("--gaze", command->gaze, "trace:FILE or fixed:AZ,EL (degrees, right, up)")
+    app->add_option("--gaze", command->gaze, "trace:FILE, fixed:AZ,EL (degrees, right, up), or sim")
         ->type_name("SOURCE");
+    app->add_option("--clock", command->clock,
+                    "wall: in real time; virtual: the same result on every run")
+        ->check(CLI::IsMember({"wall", "virtual"}));
     command->options.add_to(*app);
     app->callback([=, &action] {
         command->options.log.apply();

@@ -5,23 +5,31 @@
 #include "drivers/trace/native_trace.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/cli/tracker_settings.h"
 #include "sim/gaze_generator.h"
 
 namespace gazeloop::cli {
 namespace {
 
 struct SimulateGazeCommand {
-    LogOptions log;
+    RunOptions options;  // of which only the settings are used
     std::string file;
-    sim::GazeGeneratorConfig config;
+    double seconds = 60.0;
 };
 
 ExitCode simulate_gaze(const SimulateGazeCommand& command) {
-    const drivers::Trace trace = sim::generate_gaze(command.config);
+    Settings settings;
+    value_or_throw(command.options.apply_to(settings, true));
+    value_or_throw(tracker_in_force(settings));
+    const sim::GazeSimulation& simulation = settings.values().sim;
+    const drivers::Trace trace = sim::generate_gaze(simulation, command.seconds);
+    if (trace.samples.empty()) {
+        throw SetupError(ExitCode::Usage, "sim.dropout_percent: no sample is left to write");
+    }
     value_or_throw(drivers::write_native_trace(trace, command.file));
-    if (!command.log.quiet) {
+    if (!command.options.log.quiet) {
         fmt::print("{}: {} samples, {} s at {} Hz, seed {}\n", command.file, trace.samples.size(),
-                   command.config.seconds, command.config.rate_hz, command.config.seed);
+                   command.seconds, simulation.tracker.rate_hz, simulation.seed);
     }
     return ExitCode::Ok;
 }
@@ -36,14 +44,16 @@ void add_simulate_command(CLI::App& program, Action& action) {
     gaze->add_option("file", command->file, "the trace to write (overwritten)")
         ->required()
         ->type_name("OUT");
-    gaze->add_option("--seconds", command->config.seconds, "length")
-        ->check(number_between(1e-3, 1e5));
-    gaze->add_option("--rate", command->config.rate_hz, "samples a second, Hz")
-        ->check(number_between(1.0, 1e4));
-    gaze->add_option("--seed", command->config.seed, "the same seed gives the same trace");
-    command->log.add_to(*gaze);
+    gaze->add_option("--seconds", command->seconds, "length")->check(number_between(1e-3, 1e5));
+    command->options.aliases = {
+        {"--rate", "sim.rate_hz", "samples a second, 1 to 10000", ""},
+        {"--seed", "sim.seed", "the same seed gives the same trace", ""},
+        {"--tracker", "profile.tracker", "tracker profile, by name or .toml file", ""},
+    };
+    command->options.log.add_to(*gaze);
+    command->options.add_settings_to(*gaze);
     gaze->callback([=, &action] {
-        command->log.apply();
+        command->options.log.apply();
         action = [=] { return simulate_gaze(*command); };
     });
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -96,13 +97,7 @@ present::DisplayProfile display_of(const FrameRunRequest& request) {
     if (request.clock != RunClock::Recorded || values.target.name != "headless") {
         return value_or_throw(load_display(values.profile.display));
     }
-    const latency::SummaryConfig recorded = summary_config(*request.session);
-    present::DisplayProfile display;
-    display.name = values.profile.display;
-    display.refresh_hz =
-        recorded.period_ns > 0 ? 1e9 / static_cast<double>(recorded.period_ns) : 60.0;
-    display.switching_ns = recorded.switching_ns.value_or(0);
-    return display;
+    return recorded_display(*request.session);
 }
 
 /// The profile's eyes at the target's picture sizes, head at the origin.
@@ -111,11 +106,7 @@ gaze::StereoView profile_views(const present::DisplayProfile& display,
     gaze::StereoView views;
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
-        const double side = eye == gaze::Eye::Left ? -0.5 : 0.5;
-        views[e] = {.pose = {.position_m = {side * display.ipd_m, 0.0, 0.0}},
-                    .fov = display.fov[e],
-                    .width_px = extents[e].width,
-                    .height_px = extents[e].height};
+        views[e] = present::profile_view(display, eye, extents[e].width, extents[e].height);
     }
     return views;
 }
@@ -227,10 +218,12 @@ class FrameRun {
             warm_up(*context_, config_, profile_views(display_, target_->extents()));
         }
         open_recording();
+        if (!display_.assumed.empty()) {
+            spdlog::info("display {}: assumed, not published: {}", display_.name,
+                         fmt::join(display_.assumed, ", "));
+        }
 
-        latency::LatencySummary summary({.clock = loop_clock(),
-                                         .period_ns = display_.period_ns(),
-                                         .switching_ns = display_.switching_ns});
+        latency::LatencySummary summary(summary_config(display_, loop_clock()));
         run_loop(renderer, summary);
         finish(summary);
         return code_;
@@ -293,9 +286,9 @@ class FrameRun {
                                                        std::chrono::system_clock::now())))},
                        {"clock", loop_clock() == latency::LoopClock::Virtual ? "virtual" : "wall"},
                        {"target", values_.target.name},
-                       {"target_format", vk::to_string(target_->format())},
-                       {"display_period_ns", fmt::format("{}", display_.period_ns())},
-                       {"display_switching_ns", fmt::format("{}", display_.switching_ns)}};
+                       {"target_format", vk::to_string(target_->format())}};
+        const auto display_meta = meta_of(display_);
+        header.meta.insert(header.meta.end(), display_meta.begin(), display_meta.end());
         header.config = request_.settings->list();
         for (const auto& [name, value] : target_->properties()) {
             header.device.push_back({name, value});

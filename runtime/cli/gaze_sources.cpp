@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "drivers/fixed/fixed_source.h"
+#include "drivers/simulated/simulated_source.h"
 #include "drivers/trace/read_trace.h"
 #include "drivers/trace/trace_source.h"
 #include "runtime/cli/nearest_name.h"
 
 namespace gazeloop::cli {
 
-Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfile& tracker) {
+Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfile& tracker,
+                                       const sim::GazeSimulation& simulation) {
     const std::size_t colon = text.find(':');
     const std::string_view kind = text.substr(0, colon);
     const std::string_view argument =
@@ -32,7 +34,12 @@ Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfi
         return
             [gaze = *gaze](std::int64_t) { return std::make_unique<drivers::FixedSource>(gaze); };
     }
-    const std::vector<std::string> known{"trace:FILE", "fixed:AZ,EL"};
+    if (text == "sim") {
+        return [simulation](std::int64_t start_ns) {
+            return std::make_unique<drivers::SimulatedSource>(simulation, start_ns);
+        };
+    }
+    const std::vector<std::string> known{"trace:FILE", "fixed:AZ,EL", "sim"};
     return std::unexpected(
         Error{ExitCode::Usage, "--gaze: " + unknown_name("source", text, known)});
 }

@@ -8,14 +8,16 @@
 #include "drivers/trace/trace.h"
 #include "runtime/cli/profiles.h"
 #include "runtime/error.h"
+#include "sim/gaze_simulation.h"
 
 namespace gazeloop::cli {
 
 using MakeSource = std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)>;
 
-/// What --gaze names: trace:FILE or fixed:AZ,EL. Reads a trace at once. Errors: Usage for an
+/// What --gaze names: trace:FILE, fixed:AZ,EL or sim. Reads a trace at once. Errors: Usage for an
 /// unknown source, otherwise the source's own.
-Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfile& tracker);
+Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfile& tracker,
+                                       const sim::GazeSimulation& simulation);
 
 /// Plays a trace, `speed` times as fast as it was recorded; every sample arrives `delay_ns` after
 /// it was taken, later by as much as the trace says.

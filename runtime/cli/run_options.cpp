@@ -44,17 +44,7 @@ void LogOptions::apply() const {
 
 void RunOptions::add_to(CLI::App& command) {
     log.add_to(command);
-    command.add_option("--config", config_files, "TOML file with settings; may be repeated")
-        ->type_name("FILE")
-        ->allow_extra_args(false);
-    command.add_option("--set", assignments, "a setting, e.g. kfr.disc=false; may be repeated")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    for (Alias& alias : aliases) {
-        command
-            .add_option(alias.flag, alias.text, fmt::format("{} ({})", alias.meaning, alias.key))
-            ->check(kNotEmpty);
-    }
+    add_settings_to(command);
     command.add_option("--frames", frames, "end after N frames")
         ->type_name("N")
         ->check(number_between(0, 1e15));
@@ -73,6 +63,20 @@ void RunOptions::add_to(CLI::App& command) {
         ->type_name("FILE")
         ->check(kNotEmpty);
     command.add_flag("--print-config", print_config, "show every setting and where it comes from");
+}
+
+void RunOptions::add_settings_to(CLI::App& command) {
+    command.add_option("--config", config_files, "TOML file with settings; may be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command.add_option("--set", assignments, "a setting, e.g. kfr.disc=false; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    for (Alias& alias : aliases) {
+        command
+            .add_option(alias.flag, alias.text, fmt::format("{} ({})", alias.meaning, alias.key))
+            ->check(kNotEmpty);
+    }
 }
 
 Expected<void> RunOptions::apply_to(Settings& settings, bool standard_files) const {

@@ -41,6 +41,8 @@ struct RunOptions {
         {"--display", "profile.display", "display profile, by name or .toml file", ""},
         {"--sigma", "kfr.sigma", "picture width over LP-buffer width, .5 to 32", ""},
         {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16", ""},
+        {"--seed", "sim.seed", "the same seed gives the same simulated gaze", ""},
+        {"--tracker", "profile.tracker", "tracker profile, by name or .toml file", ""},
         {"--spp", "render.spp", "samples a texel or pixel, 1 to 16", ""},
     };
     std::optional<std::int64_t> frames;
@@ -53,6 +55,8 @@ struct RunOptions {
     bool print_config = false;
 
     void add_to(CLI::App& command);
+    /// Of them only those that change settings: --config, --set and the aliases.
+    void add_settings_to(CLI::App& command);
 
     /// Applies --config, --set and the aliases, in this order. `standard_files`: the user's and the
     /// system's configuration first.

@@ -1,9 +1,22 @@
 #pragma once
 
+#include <vector>
+
 #include "runtime/latency/latency_summary.h"
+#include "runtime/present/display_profile.h"
 #include "runtime/session/session_file.h"
 
 namespace gazeloop::cli {
+
+/// What a session's meta keeps of its display: all that decides when photons come. What the profile
+/// does not know has no entry.
+std::vector<session::NamedValue> meta_of(const present::DisplayProfile& display);
+
+/// The display that a session's meta speaks of, as far as it does. Of 60 Hz where it does not say.
+present::DisplayProfile recorded_display(const session::SessionFile& session);
+
+latency::SummaryConfig summary_config(const present::DisplayProfile& display,
+                                      latency::LoopClock clock);
 
 /// What a session's meta says of its clock and display.
 latency::SummaryConfig summary_config(const session::SessionFile& session);

@@ -111,6 +111,7 @@ Settings::Settings() {
         {"render.scale", "picture size over the display's", Number{&v.render.scale, 0.01, 2.0}},
         {"render.scene", "what is rendered", Choice{&v.render.scene, names(render::kSceneNames)}},
         {"render.spp", "samples a texel or pixel", Whole{&v.render.spp, 1, render::kMaxSamples}},
+        {"sim.seed", "the same seed gives the same simulated gaze", Seed{&v.sim.seed}},
         {"target.name", "where pictures go", Choice{&v.target.name, {"openxr", "headless"}}},
         {"target.validation", "OpenXR core validation layer", &v.target.validation},
         {"virtual_time.gpu_ms", "modelled time on the GPU of a frame in virtual time",
@@ -120,6 +121,11 @@ Settings::Settings() {
         {"vulkan.validation", "Khronos validation layer, with synchronization",
          &v.vulkan.validation},
     };
+    for (const sim::Term& term : sim::terms_of(v.sim)) {
+        entries_.push_back({fmt::format("sim.{}", term.key), std::string(term.meaning),
+                            Number{term.value, term.least, term.greatest}});
+    }
+    std::ranges::sort(entries_, {}, &Entry::key);
 }
 
 std::vector<std::string> Settings::keys() const {
@@ -161,6 +167,13 @@ Expected<void> Settings::set(std::string_view key, std::string_view text, std::s
             return refuse(origin, fmt::format("{} = '{}': must be true or false", key, text));
         }
         **flag = text == "true";
+    } else if (Seed* const seed = std::get_if<Seed>(&entry->slot)) {
+        const auto value = parse_number<std::uint64_t>(text);
+        if (!value) {
+            return refuse(origin, fmt::format("{} = '{}': not a whole number from 0 to {}", key,
+                                              text, std::numeric_limits<std::uint64_t>::max()));
+        }
+        *seed->value = *value;
     } else {
         Choice& choice = std::get<Choice>(entry->slot);
         if (!choice.names.empty() && std::ranges::find(choice.names, text) == choice.names.end()) {
@@ -172,6 +185,15 @@ Expected<void> Settings::set(std::string_view key, std::string_view text, std::s
     }
     entry->origin = origin;
     return {};
+}
+
+Expected<void> Settings::set_default(std::string_view key, std::string_view text,
+                                     std::string_view origin) {
+    const auto entry = std::ranges::find(entries_, key, &Entry::key);
+    if (entry != entries_.end() && entry->origin != kBuiltIn) {
+        return {};
+    }
+    return set(key, text, origin);
 }
 
 Expected<void> Settings::load(const std::filesystem::path& file) {
@@ -217,6 +239,9 @@ std::string Settings::text(const Entry& entry) {
     if (const auto* const whole = std::get_if<Whole>(&entry.slot)) {
         return fmt::format("{}", *whole->value);
     }
+    if (const auto* const seed = std::get_if<Seed>(&entry.slot)) {
+        return fmt::format("{}", *seed->value);
+    }
     if (bool* const* const flag = std::get_if<bool*>(&entry.slot)) {
         return **flag ? "true" : "false";
     }
@@ -235,7 +260,7 @@ std::vector<session::NamedValue> Settings::list() const {
 std::string Settings::describe() const {
     std::string table;
     for (const Entry& entry : entries_) {
-        table += fmt::format("{:26} = {:12} # {:9} {}\n", entry.key, text(entry), entry.origin,
+        table += fmt::format("{:28} = {:12} # {:9} {}\n", entry.key, text(entry), entry.origin,
                              entry.meaning);
     }
     return table;

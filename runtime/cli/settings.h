@@ -9,6 +9,7 @@
 
 #include "runtime/error.h"
 #include "runtime/session/session_recorder.h"
+#include "sim/gaze_simulation.h"
 
 namespace gazeloop::cli {
 
@@ -48,6 +49,7 @@ struct SettingValues {
         std::string display = "fove0";
         std::string tracker = "generic";
     } profile;
+    sim::GazeSimulation sim;
     struct {
         double gpu_ms = 8.0;
     } virtual_time;
@@ -67,6 +69,10 @@ class Settings {
     /// kind, out of range; `origin` ("--set", "FILE:LINE") is part of the message.
     Expected<void> set(std::string_view key, std::string_view text, std::string_view origin);
 
+    /// Sets a key that still has its built-in value, as set() does; leaves any other alone.
+    Expected<void> set_default(std::string_view key, std::string_view text,
+                               std::string_view origin);
+
     /// Sets all keys of a TOML file. Errors: BadInput if it cannot be read or parsed (line named),
     /// else as set().
     Expected<void> load(const std::filesystem::path& file);
@@ -81,6 +87,8 @@ class Settings {
     [[nodiscard]] std::string describe() const;
 
   private:
+    static constexpr std::string_view kBuiltIn = "built-in";
+
     struct Number {
         double* value;
         double least;
@@ -91,6 +99,9 @@ class Settings {
         std::int64_t least;
         std::int64_t greatest;
     };
+    struct Seed {
+        std::uint64_t* value;
+    };
     struct Choice {
         std::string* value;
         std::vector<std::string> names;  ///< empty: any text
@@ -98,8 +109,8 @@ class Settings {
     struct Entry {
         std::string key;
         std::string meaning;
-        std::variant<Number, Whole, bool*, Choice> slot;
-        std::string origin = "built-in";
+        std::variant<Number, Whole, bool*, Seed, Choice> slot;
+        std::string origin{kBuiltIn};
     };
 
     [[nodiscard]] static std::string text(const Entry& entry);

@@ -1,5 +1,8 @@
 #include "runtime/latency/gaze_age.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace gazeloop::latency {
 
 ShownFrame shown_frame(const FrameStamps& stamps, std::int64_t period_ns) {
@@ -19,19 +22,26 @@ ShownFrame shown_frame(const FrameStamps& stamps, std::int64_t period_ns) {
 }
 
 GazeAge gaze_age(const gaze::FoveaPoint& fovea, const FrameStamps& stamps, const Stamp& shown,
-                 std::optional<std::int64_t> switching_ns) {
+                 std::optional<std::int64_t> switching_ns, std::optional<std::int64_t> row_ns) {
     GazeAge age;
     age.at_latch = between(fovea.sampled, stamps.latch);
     age.at_display = between(fovea.sampled, shown);
-    age.stages = {between(fovea.sampled, fovea.arrived), between(fovea.arrived, stamps.latch),
-                  between(stamps.latch, stamps.submit),  between(stamps.submit, stamps.gpu_end),
-                  between(stamps.gpu_end, shown),        Span{}};
-    if (switching_ns) {
-        age.stages[static_cast<std::size_t>(Stage::Switching)] = {*switching_ns,
-                                                                  StampKind::Profile};
-        age.at_display = {saturated(static_cast<__int128>(age.at_display.ns) + *switching_ns),
-                          weaker(age.at_display.kind, StampKind::Profile)};
-    }
+    age.stages = {between(fovea.sampled, fovea.arrived),
+                  between(fovea.arrived, stamps.latch),
+                  between(stamps.latch, stamps.submit),
+                  between(stamps.submit, stamps.gpu_end),
+                  between(stamps.gpu_end, shown),
+                  Span{},
+                  Span{}};
+    const auto add = [&age](Stage stage, std::optional<std::int64_t> delay_ns) {
+        if (delay_ns) {
+            age.stages[static_cast<std::size_t>(stage)] = {*delay_ns, StampKind::Profile};
+            age.at_display = {saturated(static_cast<__int128>(age.at_display.ns) + *delay_ns),
+                              weaker(age.at_display.kind, StampKind::Profile)};
+        }
+    };
+    add(Stage::Row, row_ns);
+    add(Stage::Switching, switching_ns);
     __int128 rest = age.at_display.ns;
     for (const Span& stage : age.stages) {
         rest -= stage.known() ? stage.ns : 0;
@@ -40,12 +50,25 @@ GazeAge gaze_age(const gaze::FoveaPoint& fovea, const FrameStamps& stamps, const
     return age;
 }
 
-const gaze::FoveaPoint& older_gaze(const gaze::FrameFovea& fovea) {
+std::optional<std::int64_t> row_delay_ns(std::optional<std::int64_t> rolling_ns, double y_px,
+                                         std::uint32_t height_px) {
+    if (!rolling_ns || height_px == 0 || std::isnan(y_px)) {
+        return std::nullopt;
+    }
+    const double share = std::clamp(y_px / height_px, 0.0, 1.0);
+    return std::llround((share - 0.5) * static_cast<double>(*rolling_ns));
+}
+
+gaze::Eye older_eye(const gaze::FrameFovea& fovea) {
     const auto& [left, right] = fovea.eyes;
     if (!left.sampled.known() || !right.sampled.known()) {
-        return left.sampled.known() ? right : left;
+        return left.sampled.known() ? gaze::Eye::Right : gaze::Eye::Left;
     }
-    return right.sampled.ns < left.sampled.ns ? right : left;
+    return right.sampled.ns < left.sampled.ns ? gaze::Eye::Right : gaze::Eye::Left;
+}
+
+const gaze::FoveaPoint& older_gaze(const gaze::FrameFovea& fovea) {
+    return fovea.eyes[gaze::index(older_eye(fovea))];
 }
 
 }  // namespace gazeloop::latency

@@ -19,11 +19,12 @@ enum class Stage : std::size_t {
     Submit,     ///< -> the last pass was handed to the GPU
     Gpu,        ///< -> the last pass ended
     Wait,       ///< -> the middle of the display's emission
+    Row,        ///< -> the emission of the fovea's row, earlier above the middle; of the display
     Switching,  ///< -> the pixels have switched, a constant of the display
 };
-inline constexpr std::size_t kStageCount = 6;
+inline constexpr std::size_t kStageCount = 7;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "tracker", "queue", "submit", "gpu", "wait for display", "switching"};
+    "tracker", "queue", "submit", "gpu", "wait for display", "scan to row", "switching"};
 
 /// When a frame came to light.
 struct ShownFrame {
@@ -40,18 +41,27 @@ struct ShownFrame {
 /// How old the gaze was in one frame.
 struct GazeAge {
     Span at_latch;    ///< sampled -> latch
-    Span at_display;  ///< sampled -> shown, with the switching time where that is known
+    Span at_display;  ///< sampled -> shown, with the display's row and switching times if known
     std::array<Span, kStageCount> stages;
     /// at_display less the known stages, exactly; known where at_display is. A stage with an
     /// unknown end leaves its time here.
     Span unaccounted;
 };
 
-/// `switching_ns` is the display profile's.
+/// `switching_ns` is the display profile's; `row_ns` is row_delay_ns of the row that is looked at.
 [[nodiscard]] GazeAge gaze_age(const gaze::FoveaPoint& fovea, const FrameStamps& stamps,
-                               const Stamp& shown, std::optional<std::int64_t> switching_ns);
+                               const Stamp& shown, std::optional<std::int64_t> switching_ns,
+                               std::optional<std::int64_t> row_ns = std::nullopt);
+
+/// From the middle of the emission to that of the row at `y_px` in a picture of `height_px`, where
+/// the rows' emissions begin `rolling_ns` apart from first to last: (y / height - 1/2) rolling, and
+/// 0 with a panel that is lit at once (rolling_ns 0). A row off screen counts as the nearest one.
+/// Unknown where rolling_ns is, or where the row is not a number.
+[[nodiscard]] std::optional<std::int64_t> row_delay_ns(std::optional<std::int64_t> rolling_ns,
+                                                       double y_px, std::uint32_t height_px);
 
 /// The eye whose gaze is older, or of unknown age: a frame is as late as its later eye.
+[[nodiscard]] gaze::Eye older_eye(const gaze::FrameFovea& fovea);
 [[nodiscard]] const gaze::FoveaPoint& older_gaze(const gaze::FrameFovea& fovea);
 
 }  // namespace gazeloop::latency

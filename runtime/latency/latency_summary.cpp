@@ -111,8 +111,11 @@ void LatencySummary::complete(const FrameRecord& record) {
 
     const gaze::FoveaState state = std::max(record.fovea.eyes[0].state, record.fovea.eyes[1].state);
     ++frames_.by_state[static_cast<std::size_t>(state)];
-    const GazeAge age =
-        gaze_age(older_gaze(record.fovea), record.stamps, shown.at, config_.switching_ns);
+    const std::size_t eye = gaze::index(older_eye(record.fovea));
+    const gaze::FoveaPoint& fovea = record.fovea.eyes[eye];
+    const GazeAge age = gaze_age(
+        fovea, record.stamps, shown.at, config_.switching_ns,
+        row_delay_ns(config_.rolling_ns, fovea.position.y_px, record.views[eye].height_px));
     switch (state) {
         case gaze::FoveaState::Tracking:
         case gaze::FoveaState::OtherEye:

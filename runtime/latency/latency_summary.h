@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "runtime/gaze/fovea_point.h"
@@ -24,8 +25,13 @@ enum class LoopClock : std::uint8_t {
 struct SummaryConfig {
     LoopClock clock = LoopClock::Wall;
     std::int64_t period_ns = 0;  ///< the display's nominal period; 0 if unknown
-    /// From the middle of the emission to the photon that counts, from the display's profile.
+    /// From a pixel's emission to the photon that counts, from the display's profile.
     std::optional<std::int64_t> switching_ns = std::nullopt;
+    /// From the first row's emission to the last one's, from the profile; 0: all rows at once.
+    std::optional<std::int64_t> rolling_ns = std::nullopt;
+    /// For how long a pixel is lit, about the middle of its emission, from the profile.
+    std::optional<std::int64_t> persistence_ns = std::nullopt;
+    std::string assumed{};  ///< those of the profile's figures that are assumed, not published
 };
 
 /// Whether the latencies are those of a headset that keeps up.

@@ -52,6 +52,9 @@ Json summary_json(const SummaryReport& report) {
             {"clock", config.clock == LoopClock::Wall ? "wall" : "virtual"},
             {"display_period_ns", config.period_ns > 0 ? Json(config.period_ns) : Json(nullptr)},
             {"switching_ns", or_null(config.switching_ns)},
+            {"rolling_ns", or_null(config.rolling_ns)},
+            {"persistence_ns", or_null(config.persistence_ns)},
+            {"assumed_of_display", config.assumed},
             {"eye_to_photon_percent_by_kind",
              report.share_by_kind_percent ? by_name(*report.share_by_kind_percent, kStampKindNames)
                                           : Json(nullptr)},

@@ -9,6 +9,9 @@ std::vector<NamedRow> rows_of(const SummaryReport& report) {
         {"gaze_age_at_latch", "gaze age at latch", &report.gaze_age_at_latch},
         {"gaze_age_at_display", "gaze age at display", &report.gaze_age_at_display}};
     for (std::size_t stage = 0; stage < kStageCount; ++stage) {
+        if (stage == static_cast<std::size_t>(Stage::Row) && report.stages[stage].count == 0) {
+            continue;  // how the display lights its rows is unknown, which is said once
+        }
         std::string key = "stage_" + std::string(kStageNames[stage]);
         std::replace(key.begin(), key.end(), ' ', '_');
         rows.push_back({key, "  " + std::string(kStageNames[stage]), &report.stages[stage]});

@@ -15,7 +15,8 @@ struct NamedRow {
 };
 
 /// The rows of a report in the order in which they are shown: all that every run has, and of the
-/// rest (passes, held gaze) those that some frame knows. They point into the report.
+/// rest (the display's rows, passes, held gaze) those that some frame knows. They point into the
+/// report.
 std::vector<NamedRow> rows_of(const SummaryReport& report);
 
 }  // namespace gazeloop::latency

@@ -114,6 +114,20 @@ void append_table(std::string& text, const SummaryReport& report) {
     if (!report.config.switching_ns) {
         text += "The display's switching time is unknown and in none of these ages.\n";
     }
+    if (!report.config.rolling_ns) {
+        text +=
+            "Which rows the display lights when is unknown: ages are those of its middle row.\n";
+    }
+    if (report.config.persistence_ns) {
+        fmt::format_to(std::back_inserter(text),
+                       "A pixel is lit for {:.2f} ms, half of it before these ages (profile).\n",
+                       static_cast<double>(*report.config.persistence_ns) / 1e6);
+    }
+    if (!report.config.assumed.empty()) {
+        fmt::format_to(std::back_inserter(text),
+                       "Assumed, not published, in the display's profile: {}.\n",
+                       report.config.assumed);
+    }
 }
 
 /// "2 (0.1 %) by 3 periods, unknown of 4 frames".

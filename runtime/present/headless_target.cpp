@@ -43,11 +43,8 @@ void HeadlessTarget::locate(TargetFrame& frame) {
     frame.head = {};
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
-        const double side = eye == gaze::Eye::Left ? -0.5 : 0.5;
-        frame.views[e] = {.pose = {.position_m = {side * options_.display.ipd_m, 0.0, 0.0}},
-                          .fov = options_.display.fov[e],
-                          .width_px = options_.extents[e].width,
-                          .height_px = options_.extents[e].height};
+        frame.views[e] = profile_view(options_.display, eye, options_.extents[e].width,
+                                      options_.extents[e].height);
     }
 }
 

@@ -22,6 +22,7 @@ struct Drawn {
     FrameStamps stamps;
     std::int64_t period_ns;
     std::optional<std::int64_t> switching_ns;
+    std::optional<std::int64_t> row_ns;
 };
 
 Drawn any_frame(std::int64_t within_ns) {
@@ -36,13 +37,16 @@ Drawn any_frame(std::int64_t within_ns) {
     if (*rc::gen::arbitrary<bool>()) {
         drawn.switching_ns = *rc::gen::inRange<std::int64_t>(0, 10'000'000);
     }
+    if (*rc::gen::arbitrary<bool>()) {
+        drawn.row_ns = *rc::gen::inRange<std::int64_t>(-10'000'000, 10'000'000);
+    }
     return drawn;
 }
 
 RC_GTEST_PROP(GazeAge, StagesAndTheRestAddUpExactly, ()) {
     const Drawn drawn = any_frame(1'000'000'000'000'000);
     const ShownFrame shown = shown_frame(drawn.stamps, drawn.period_ns);
-    const GazeAge age = gaze_age(drawn.fovea, drawn.stamps, shown.at, drawn.switching_ns);
+    const GazeAge age = gaze_age(drawn.fovea, drawn.stamps, shown.at, drawn.switching_ns, drawn.row_ns);
     if (!age.at_display.known()) {
         return;
     }
@@ -51,7 +55,7 @@ RC_GTEST_PROP(GazeAge, StagesAndTheRestAddUpExactly, ()) {
     bool all_known = true;
     for (std::size_t stage = 0; stage < kStageCount; ++stage) {
         sum_ns += age.stages[stage].known() ? age.stages[stage].ns : 0;
-        if (stage != static_cast<std::size_t>(Stage::Switching)) {
+        if (stage < static_cast<std::size_t>(Stage::Row)) {
             all_known = all_known && age.stages[stage].known();
         }
     }
@@ -76,7 +80,7 @@ RC_GTEST_PROP(GazeAge, AFrameIsNeverShownBeforeItIsFinished, ()) {
 RC_GTEST_PROP(GazeAge, TakesAnyTimes, ()) {
     const Drawn drawn = any_frame(std::numeric_limits<std::int64_t>::max());
     const ShownFrame shown = shown_frame(drawn.stamps, drawn.period_ns);
-    const GazeAge age = gaze_age(drawn.fovea, drawn.stamps, shown.at, drawn.switching_ns);
+    const GazeAge age = gaze_age(drawn.fovea, drawn.stamps, shown.at, drawn.switching_ns, drawn.row_ns);
     RC_ASSERT(age.at_display.known() == (drawn.fovea.sampled.known() && shown.at.known()));
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 std::string generated_text(std::uint64_t seed) {
     std::ostringstream out;
-    write_native_trace(sim::generate_gaze({.seed = seed, .seconds = 0.5}), out);
+    write_native_trace(sim::generate_gaze({.seed = seed}, 0.5), out);
     return out.str();
 }
 

@@ -20,7 +20,9 @@ class Replay : public testing::Test {
   protected:
     void SetUp() override {
         const ProgramResult made =
-            run_gazeloop({"simulate", "gaze", trace(), "--seconds", "2", "--seed", "3"});
+            run_gazeloop({"simulate", "gaze", trace(), "--seconds", "2", "--seed", "3",
+                          // two seconds are then sure to hold a blink
+                          "--set", "sim.blinks_per_min=60"});
         ASSERT_EQ(made.exit_code, 0) << made.err;
     }
 

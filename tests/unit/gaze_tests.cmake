@@ -8,6 +8,12 @@ gazeloop_test(unit_drivers
     LINK gazeloop::trace gazeloop::fixed
     LABELS unit)
 gazeloop_test(unit_sim
-    SOURCES sim/gaze_generator_test.cpp
-    LINK gazeloop::sim gazeloop::trace
+    SOURCES sim/eye_tracker_test.cpp sim/gaze_generator_test.cpp sim/person_test.cpp
+        sim/random_test.cpp sim/recorded_head_test.cpp sim/saccade_test.cpp
+        drivers/simulated_source_test.cpp
+    LINK gazeloop::sim gazeloop::trace gazeloop::simulated
+    LABELS unit)
+gazeloop_test(unit_display_profile
+    SOURCES present/display_profile_test.cpp
+    LINK gazeloop::display_profile
     LABELS unit)

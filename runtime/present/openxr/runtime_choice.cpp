@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <pwd.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -75,6 +76,12 @@ std::string fov_text(const gaze::FieldOfView& fov) {
 }
 
 void simulate_display(const DisplayProfile& display) {
+    if (display.cant_outward_rad != gaze::PerEye<double>{}) {
+        spdlog::warn(
+            "display '{}' has canted views, the simulated headset does not: its views are "
+            "parallel; use --target headless to see them as they are",
+            display.name);
+    }
     set_default("SIMULATED_ENABLE", "1");
     set_default("XRT_COMPOSITOR_NULL", "1");
     set_default("XRT_NO_STDIN", "1");

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <optional>
 
 namespace gazeloop::latency {
 namespace {
@@ -138,6 +140,30 @@ TEST_F(GazeAgeOfAFrame, EndsAtTheEmissionWhereTheSwitchingTimeIsUnknown) {
     EXPECT_FALSE(stage(age, Stage::Switching).known());
     EXPECT_EQ(age.at_display, (Span{19'000, StampKind::Profile}));
     EXPECT_EQ(age.unaccounted.ns, 0);
+}
+
+TEST_F(GazeAgeOfAFrame, CountsTheRowThatIsLookedAt) {
+    for (const std::int64_t row_ns : {-3'000, 0, 3'000}) {
+        const GazeAge age = gaze_age(fovea, stamps, stamps.display, 2'000, row_ns);
+        EXPECT_EQ(stage(age, Stage::Row), (Span{row_ns, StampKind::Profile}));
+        EXPECT_EQ(age.at_display, (Span{21'000 + row_ns, StampKind::Predicted}));
+        EXPECT_EQ(age.unaccounted, (Span{0, StampKind::Predicted}));
+    }
+    EXPECT_FALSE(stage(gaze_age(fovea, stamps, stamps.display, 2'000), Stage::Row).known());
+}
+
+TEST(RowDelay, LiesAboutTheMiddleOfTheEmission) {
+    constexpr std::int64_t kRolling_ns = 8'000'000;
+    EXPECT_EQ(row_delay_ns(kRolling_ns, 0.0, 1000), -4'000'000);
+    EXPECT_EQ(row_delay_ns(kRolling_ns, 250.0, 1000), -2'000'000);
+    EXPECT_EQ(row_delay_ns(kRolling_ns, 500.0, 1000), 0);
+    EXPECT_EQ(row_delay_ns(kRolling_ns, 1000.0, 1000), 4'000'000);
+    EXPECT_EQ(row_delay_ns(0, 0.0, 1000), 0) << "all rows at once";
+    EXPECT_EQ(row_delay_ns(kRolling_ns, -1e300, 1000), -4'000'000) << "off screen";
+    EXPECT_EQ(row_delay_ns(kRolling_ns, std::numeric_limits<double>::infinity(), 1000), 4'000'000);
+    EXPECT_EQ(row_delay_ns(kRolling_ns, std::nan(""), 1000), std::nullopt);
+    EXPECT_EQ(row_delay_ns(kRolling_ns, 1.0, 0), std::nullopt);
+    EXPECT_EQ(row_delay_ns(std::nullopt, 1.0, 1000), std::nullopt);
 }
 
 TEST(OlderGaze, IsTheEyeWithTheEarlierOrTheUnknownSample) {
