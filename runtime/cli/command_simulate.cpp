@@ -21,6 +21,10 @@ ExitCode simulate_gaze(const SimulateGazeCommand& command) {
     Settings settings;
     value_or_throw(command.options.apply_to(settings, true));
     value_or_throw(tracker_in_force(settings));
+    if (command.options.print_config) {
+        fmt::print("{}", settings.describe());
+        return ExitCode::Ok;
+    }
     const sim::GazeSimulation& simulation = settings.values().sim;
     const drivers::Trace trace = sim::generate_gaze(simulation, command.seconds);
     if (trace.samples.empty()) {

@@ -15,6 +15,7 @@ using Action = std::function<ExitCode()>;
 void add_run_command(CLI::App& program, const std::string& command_line, Action& action);
 void add_replay_command(CLI::App& program, const std::string& command_line, Action& action);
 void add_report_command(CLI::App& program, Action& action);
+void add_plan_command(CLI::App& program, Action& action);
 void add_simulate_command(CLI::App& program, Action& action);
 
 }  // namespace gazeloop::cli

@@ -62,6 +62,7 @@ int gazeloop_main(int count, char** arguments) {
     gazeloop::cli::add_run_command(program, command_line, action);
     gazeloop::cli::add_replay_command(program, command_line, action);
     gazeloop::cli::add_report_command(program, action);
+    gazeloop::cli::add_plan_command(program, action);
     gazeloop::cli::add_simulate_command(program, action);
     if (const auto refusal = unknown_command(program, count, arguments)) {
         spdlog::error("{}", *refusal);

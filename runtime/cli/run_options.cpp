@@ -62,7 +62,6 @@ void RunOptions::add_to(CLI::App& command) {
     command.add_option("--json", json, "write the summary as JSON; - is stdout")
         ->type_name("FILE")
         ->check(kNotEmpty);
-    command.add_flag("--print-config", print_config, "show every setting and where it comes from");
 }
 
 void RunOptions::add_settings_to(CLI::App& command) {
@@ -77,6 +76,7 @@ void RunOptions::add_settings_to(CLI::App& command) {
             .add_option(alias.flag, alias.text, fmt::format("{} ({})", alias.meaning, alias.key))
             ->check(kNotEmpty);
     }
+    command.add_flag("--print-config", print_config, "show every setting and where it comes from");
 }
 
 Expected<void> RunOptions::apply_to(Settings& settings, bool standard_files) const {

@@ -55,7 +55,7 @@ struct RunOptions {
     bool print_config = false;
 
     void add_to(CLI::App& command);
-    /// Of them only those that change settings: --config, --set and the aliases.
+    /// Of them only those about settings: --config, --set, the aliases and --print-config.
     void add_settings_to(CLI::App& command);
 
     /// Applies --config, --set and the aliases, in this order. `standard_files`: the user's and the

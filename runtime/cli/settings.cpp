@@ -12,7 +12,11 @@
 
 #include "runtime/cli/nearest_name.h"
 #include "runtime/cli/profiles.h"
+#include "runtime/foveation/guenter_acuity.h"
 #include "runtime/foveation/log_polar_map.h"
+#include "runtime/foveation/shading_rings.h"
+#include "runtime/foveation/sparse_pattern.h"
+#include "runtime/foveation/stela_csf.h"
 #include "runtime/render/eye_uniforms.h"
 #include "runtime/render/method.h"
 
@@ -83,7 +87,15 @@ Settings::Settings() {
     using foveation::PowerKernel;
     SettingValues& v = values_;
     const double forever_ms = 1e7;
+    using foveation::SparseParameters;
     entries_ = {
+        {"acuity.luminance_cd_m2", "what stelaCSF takes the picture's luminance to be",
+         Number{&v.acuity.luminance_cd_m2, foveation::StelaConditions::kMinLuminance,
+                foveation::StelaConditions::kMaxLuminance}},
+        {"acuity.mar", "slope m of the line of the least resolvable angle, m e + 1/48",
+         Number{&v.acuity.mar, foveation::kMinMarSlope, foveation::kMaxMarSlope}},
+        {"acuity.nasal", "stelaCSF: sharper towards the nose; else the other side all around",
+         &v.acuity.nasal},
         {"gaze.fixation_distance_m", "distance at which gaze is held in world, m",
          Number{&v.gaze.fixation_distance_m, 0.1, 1000.0}},
         {"gaze.hold_ms", "lost gaze: hold the last point for this long",
@@ -101,6 +113,11 @@ Settings::Settings() {
         {"kfr.disc", "shade pixels directly where a texel a pixel is offered", &v.kfr.disc},
         {"kfr.sigma", "picture width over LP-buffer width",
          Number{&v.kfr.sigma, KfrParameters::kMinSigma, KfrParameters::kMaxSigma}},
+        {"layers.n", "eccentricity layers, at most", Whole{&v.layers.n, 2, 4}},
+        {"layers.outer_weight", "work of the outer layers' samples: 0.5 at half rate",
+         Number{&v.layers.outer_weight, 0.05, 1.0}},
+        {"layers.s2_fixed", "middle layer at 2x2 pixels, as published (layers.n over 2)",
+         &v.layers.s2_fixed},
         {"profile.display", "display profile, or a .toml file", Choice{&v.profile.display, {}}},
         {"profile.tracker", "tracker profile, or a .toml file", Choice{&v.profile.tracker, {}}},
         {"render.frames_in_flight", "frames that the GPU may be working on",
@@ -111,7 +128,27 @@ Settings::Settings() {
         {"render.scale", "picture size over the display's", Number{&v.render.scale, 0.01, 2.0}},
         {"render.scene", "what is rendered", Choice{&v.render.scene, names(render::kSceneNames)}},
         {"render.spp", "samples a texel or pixel", Whole{&v.render.spp, 1, render::kMaxSamples}},
+        {"rings.inner_deg", "a sample a pixel within; both 0: as acuity.mar asks",
+         Number{&v.rings.inner_deg, 0.0, 180.0}},
+        {"rings.outer_deg", "2x2 pixels a sample within, 4x4 beyond",
+         Number{&v.rings.outer_deg, 0.0, 180.0}},
+        {"rings.tile_px", "side of the tiles that have one rate",
+         Whole{&v.rings.tile_px, foveation::RingParameters::kMinTilePx,
+               foveation::RingParameters::kMaxTilePx}},
         {"sim.seed", "the same seed gives the same simulated gaze", Seed{&v.sim.seed}},
+        {"sparse.disc_share", "of the samples that the full disc takes",
+         Number{&v.sparse.disc_share, 0.0, 0.9}},
+        {"sparse.narrow_share", "of the draws that are from the narrow Gaussian",
+         Number{&v.sparse.narrow_share, 0.0, 1.0}},
+        {"sparse.narrow_spread", "its standard deviation over the picture's diagonal",
+         Number{&v.sparse.narrow_spread, SparseParameters::kMinSpread,
+                SparseParameters::kMaxSpread}},
+        {"sparse.placement", "how samples are placed",
+         Choice{&v.sparse.placement, {"gaussian", "blue_noise"}}},
+        {"sparse.share", "samples over pixels, gaze at the centre",
+         Number{&v.sparse.share, SparseParameters::kMinShare, SparseParameters::kMaxShare}},
+        {"sparse.wide_spread", "standard deviation of the wide Gaussian over the diagonal",
+         Number{&v.sparse.wide_spread, SparseParameters::kMinSpread, SparseParameters::kMaxSpread}},
         {"target.name", "where pictures go", Choice{&v.target.name, {"openxr", "headless"}}},
         {"target.validation", "OpenXR core validation layer", &v.target.validation},
         {"virtual_time.gpu_ms", "modelled time on the GPU of a frame in virtual time",

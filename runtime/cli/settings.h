@@ -30,6 +30,29 @@ struct SettingValues {
         double border_px = 6.0;
     } kfr;
     struct {
+        double mar = 0.022;
+        double luminance_cd_m2 = 100.0;
+        bool nasal = false;
+    } acuity;
+    struct {
+        std::int64_t n = 3;
+        bool s2_fixed = false;
+        double outer_weight = 1.0;
+    } layers;
+    struct {
+        double inner_deg = 0.0;
+        double outer_deg = 0.0;
+        std::int64_t tile_px = 16;
+    } rings;
+    struct {
+        double share = 0.1;
+        double disc_share = 0.25;
+        double narrow_share = 0.4;
+        double narrow_spread = 0.1;
+        double wide_spread = 0.3;
+        std::string placement = "gaussian";
+    } sparse;
+    struct {
         std::string method = "kfr";
         std::string scene = "raymarch";
         std::int64_t spp = 1;

@@ -1,0 +1,202 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drivers/fixed/fixed_source.h"
+#include "runtime/cli/commands.h"
+#include "runtime/cli/layer_figures.h"
+#include "runtime/cli/nearest_name.h"
+#include "runtime/cli/output_file.h"
+#include "runtime/cli/plan_report.h"
+#include "runtime/cli/profiles.h"
+#include "runtime/cli/run_options.h"
+#include "runtime/foveation/fovea_widening.h"
+#include "runtime/foveation/geisler_perry_acuity.h"
+#include "runtime/foveation/guenter_acuity.h"
+#include "runtime/foveation/stela_acuity.h"
+
+namespace gazeloop::cli {
+namespace {
+
+struct PlanCommand {
+    RunOptions options;
+    std::string method = "all";
+    std::string model = "all";
+    std::string gaze = "0,0";
+    std::string eye = "left";
+    double widening_deg = 0.0;
+    std::string chart;
+    std::string figures;
+};
+
+using Models = std::vector<std::unique_ptr<foveation::AcuityModel>>;
+
+Models acuity_models(const SettingValues& settings) {
+    const auto& set = settings.acuity;
+    Models models;
+    models.push_back(value_or_throw(foveation::GuenterAcuity::create({.slope = set.mar})));
+    models.push_back(std::make_unique<foveation::GeislerPerryAcuity>());
+    models.push_back(value_or_throw(
+        foveation::StelaAcuity::create({.luminance_cd_m2 = set.luminance_cd_m2},
+                                       set.nasal ? foveation::StelaField::Directional
+                                                 : foveation::StelaField::TemporalEverywhere)));
+    return models;
+}
+
+/// Whether `name` is what was asked for; throws if that is neither "all" nor among the names.
+class Selection {
+  public:
+    Selection(const char* what, std::string asked, std::vector<std::string> names)
+        : asked_(std::move(asked)) {
+        names.emplace_back("all");
+        if (std::ranges::find(names, asked_) == names.end()) {
+            throw SetupError(ExitCode::Usage,
+                             fmt::format("--{}: {}", what, unknown_name(what, asked_, names)));
+        }
+    }
+
+    [[nodiscard]] bool includes(std::string_view name) const {
+        return asked_ == "all" || asked_ == name;
+    }
+
+  private:
+    std::string asked_;
+};
+
+/// In the head frame.
+glm::dvec3 direction(const drivers::FixedGaze& gaze) {
+    const double azimuth = glm::radians(gaze.azimuth_deg);
+    const double elevation = glm::radians(gaze.elevation_deg);
+    return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+            -std::cos(elevation) * std::cos(azimuth)};
+}
+
+ExitCode plan(const PlanCommand& command) {
+    Settings settings;
+    value_or_throw(command.options.apply_to(settings, true));
+    if (command.options.print_config) {
+        fmt::print("{}", settings.describe());
+        return ExitCode::Ok;
+    }
+    const bool show_text = command.options.json != "-" && !command.options.log.quiet;
+    if (!command.figures.empty()) {
+        const std::string claims = value_or_throw(write_layer_figures(command.figures));
+        if (show_text) {
+            fmt::print("{}", claims);
+        }
+        return ExitCode::Ok;
+    }
+    const SettingValues& values = settings.values();
+    const present::DisplayProfile display = value_or_throw(load_display(values.profile.display));
+    const drivers::FixedGaze gaze = value_or_throw(drivers::parse_fixed_gaze(command.gaze));
+    const gaze::Eye eye = command.eye == "left" ? gaze::Eye::Left : gaze::Eye::Right;
+    const gaze::EyeView view =
+        present::profile_view(display, eye, display.width_px, display.height_px);
+    const foveation::GazeField field = value_or_throw(foveation::GazeField::create(
+        view, glm::conjugate(view.pose.orientation) * direction(gaze)));
+
+    PlanQuestion question{.display = display.name,
+                          .eye = eye,
+                          .azimuth_deg = gaze.azimuth_deg,
+                          .elevation_deg = gaze.elevation_deg,
+                          .widening_deg = command.widening_deg,
+                          .field = &field,
+                          .models = {}};
+    const Models models = acuity_models(values);
+    std::vector<std::string> model_names;
+    for (const auto& model : models) {
+        model_names.emplace_back(model->name());
+    }
+    const Selection models_asked("model", command.model, model_names);
+    std::vector<std::unique_ptr<foveation::WidenedAcuity>> widened;
+    for (const auto& model : models) {
+        if (models_asked.includes(model->name())) {
+            widened.push_back(
+                std::make_unique<foveation::WidenedAcuity>(*model, command.widening_deg));
+            question.models.push_back(widened.back().get());
+        }
+    }
+
+    std::vector<std::string> method_names;
+    for (const PlanMethod& method : plan_methods()) {
+        method_names.emplace_back(method.name);
+    }
+    const Selection methods_asked("method", command.method, method_names);
+    const PlanSubject subject{
+        .settings = values, .field = field, .line = {.slope = values.acuity.mar}};
+    const auto plan_of = [&](const auto& wanted) {
+        std::vector<PlanRow> rows;
+        for (const PlanMethod& method : plan_methods()) {
+            if (wanted(method.name)) {
+                rows.push_back({.method = std::string(method.name),
+                                .plan = value_or_throw(method.plan(subject)),
+                                .verdicts = {}});
+            }
+        }
+        return make_plan_report(question, std::move(rows));
+    };
+    const PlanReport report =
+        plan_of([&](std::string_view name) { return methods_asked.includes(name); });
+    if (show_text) {
+        fmt::print("{}", plan_report_text(report));
+    }
+    if (!command.options.json.empty()) {
+        value_or_throw(write_text(command.options.json, plan_report_json(report).dump(2) + "\n"));
+    }
+    if (!command.chart.empty()) {
+        // One method is to be seen among the others.
+        const LineChart chart = command.method == "all"
+                                    ? density_chart(report)
+                                    : density_chart(plan_of([](std::string_view) { return true; }));
+        value_or_throw(write_chart(chart, command.chart));
+    }
+    return ExitCode::Ok;
+}
+
+}  // namespace
+
+void add_plan_command(CLI::App& program, Action& action) {
+    CLI::App* const app =
+        program.add_subcommand("plan", "what methods sample, and what eyes need, on a display");
+    const auto command = std::make_shared<PlanCommand>();
+    RunOptions& options = command->options;
+    options.aliases = {
+        {"--display", "profile.display", "display profile, by name or .toml file", ""},
+        {"--sigma", "kfr.sigma", "picture width over LP-buffer width, .5 to 32", ""},
+        {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16", ""},
+        {"--mar", "acuity.mar", "slope of the acuity line, e.g. .022", ""},
+    };
+    options.log.add_to(*app);
+    options.add_settings_to(*app);
+    app->add_option("--method", command->method, "full, kfr, layers, rings, sparse or all");
+    app->add_option("--model", command->model, "guenter, geisler-perry, stelacsf or all");
+    app->add_option("--gaze", command->gaze, "direction of gaze, degrees to the right and up")
+        ->type_name("AZ,EL");
+    app->add_option("--eye", command->eye, "left or right")
+        ->check(CLI::IsMember({"left", "right"}));
+    app->add_option("--widen", command->widening_deg,
+                    "by how much the gaze may be off, degrees: what eyes then need")
+        ->check(number_between(0.0, foveation::kMaxWideningDeg))
+        ->type_name("DEG");
+    app->add_option("--json", options.json, "write the plan as JSON; - is stdout")
+        ->type_name("FILE");
+    app->add_option("--png", command->chart,
+                    "draw densities over eccentricity, all methods; .png or .svg")
+        ->type_name("FILE");
+    app->add_option("--figures", command->figures,
+                    "instead: what layers save by field of view, as CSV and charts")
+        ->type_name("DIR");
+    app->callback([=, &action] {
+        command->options.log.apply();
+        action = [=] { return plan(*command); };
+    });
+}
+
+}  // namespace gazeloop::cli

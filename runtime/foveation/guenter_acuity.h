@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+
+#include "runtime/error.h"
+#include "runtime/foveation/acuity_model.h"
+#include "runtime/foveation/mar_line.h"
+
+namespace gazeloop::foveation {
+
+/// The slopes and foveal angles that can be computed with; the paper's are .022 to .034 and 1/48.
+inline constexpr double kMinMarSlope = 1e-6;
+inline constexpr double kMaxMarSlope = 1.0;
+inline constexpr double kMinOmega0Deg = 1e-4;
+inline constexpr double kMaxOmega0Deg = 10.0;
+
+/// Errors (Usage): slope or omega0 out of range or not a number.
+Expected<void> check_mar_line(const MarLine& line);
+
+/// Guenter et al. 2012: the cut-off is 1 / omega(e), omega(e) = m e + omega0.
+class GuenterAcuity final : public AcuityModel {
+  public:
+    /// Errors: as check_mar_line.
+    static Expected<std::unique_ptr<GuenterAcuity>> create(const MarLine& line);
+
+    [[nodiscard]] std::string_view name() const override { return "guenter"; }
+    [[nodiscard]] double cutoff_cpd(double eccentricity_deg, double nasal) const override;
+
+  private:
+    explicit GuenterAcuity(const MarLine& line) : line_(line) {}
+
+    MarLine line_;
+};
+
+}  // namespace gazeloop::foveation
