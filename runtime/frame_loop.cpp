@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 
 namespace gazeloop {
@@ -13,6 +14,18 @@ class FrameLoop {
         : parts_(parts), options_(options) {}
 
     LoopResult run() {
+        try {
+            follow_target();
+        } catch (const SetupError&) {
+            finish_frames();  // what was rendered is reported, whatever became of the target
+            throw;
+        }
+        finish_frames();
+        return result_;
+    }
+
+  private:
+    void follow_target() {
         for (;;) {
             ask_for_end();
             const present::TargetState state = parts_.target.poll();
@@ -30,12 +43,13 @@ class FrameLoop {
                 one_frame();
             }
         }
-        parts_.renderer.wait_idle();
-        report_finished_frames();
-        return result_;
     }
 
-  private:
+    void finish_frames() {
+        parts_.renderer.wait_idle();
+        report_finished_frames();
+    }
+
     void begin_time() {
         if (timeline_ == nullptr) {
             timeline_ = parts_.make_timeline();
@@ -97,6 +111,7 @@ class FrameLoop {
         record.scene_time_s = planned_.scene_time_s;
         record.head = planned_.head;
         record.views = planned_.views;
+        follow_hidden_area(record.index);
 
         // A frame that is not to be drawn still takes the gaze, so that none is late for the next.
         gaze::PerEye<render::EyeTarget> images{};
@@ -121,6 +136,33 @@ class FrameLoop {
         }
         ++result_.frames;
         result_.period_ns = planned_.period_ns;
+    }
+
+    /// Another mask, or other fields of view for it: rare, so that it may take its time.
+    void follow_hidden_area(std::uint64_t frame) {
+        const gaze::HiddenMeshes meshes = options_.hidden_area ? planned_.hidden : nullptr;
+        const bool changed = meshes != hidden_.meshes;
+        const auto same_picture = [](const gaze::EyeView& a, const gaze::EyeView& b) {
+            return a.fov == b.fov && a.width_px == b.width_px && a.height_px == b.height_px;
+        };
+        if (!changed && std::ranges::equal(planned_.views, hidden_views_, same_picture)) {
+            return;
+        }
+        hidden_ = {frame, meshes};
+        hidden_views_ = planned_.views;
+        hidden_areas_ = foveation::hidden_areas(meshes, planned_.views);
+        if (changed) {
+            for (FrameObserver* const observer : parts_.observers) {
+                observer->on_hidden(hidden_);
+            }
+            report_event(timeline_->now(), "hidden-area",
+                         fmt::format("hidden pixels: left {}, right {}", hidden_pixels(0),
+                                     hidden_pixels(1)));
+        }
+    }
+
+    [[nodiscard]] std::uint64_t hidden_pixels(std::size_t eye) const {
+        return hidden_areas_[eye] != nullptr ? hidden_areas_[eye]->hidden_pixels() : 0;
     }
 
     void read_gaze(std::int64_t now_ns) {
@@ -157,6 +199,7 @@ class FrameLoop {
             request.foveae[gaze::index(eye)] = record.fovea.eyes[gaze::index(eye)].position;
         }
         request.targets = images;
+        request.hidden = hidden_areas_;
         record.samples = parts_.renderer.render(request);
         record.stamps.submit = timeline_->now();
     }
@@ -228,6 +271,9 @@ class FrameLoop {
     bool ending_ = false;
     present::TargetFrame target_frame_;
     PlannedFrame planned_;
+    gaze::HiddenChange hidden_;  ///< in force, and of these views
+    gaze::StereoView hidden_views_;
+    foveation::HiddenAreas hidden_areas_;
     std::vector<gaze::GazeSample> samples_;
     gaze::PerEye<Seen> seen_;
     LoopResult result_{.end = LoopEnd::TargetEnd};

@@ -27,6 +27,7 @@ struct LoopOptions {
     std::optional<std::uint64_t> frames;
     std::optional<double> seconds;  ///< of the time line, from its start
     bool end_with_source = false;
+    bool hidden_area = true;     ///< leave out what no eye sees
     std::function<bool()> stop;  ///< asked once a frame
 };
 

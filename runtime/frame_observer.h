@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/hidden_mesh.h"
 #include "runtime/latency/frame_record.h"
 
 namespace gazeloop {
@@ -18,6 +19,8 @@ class FrameObserver {
 
     /// A gaze sample that the frame has consumed, head pose filled in where it is known.
     virtual void on_sample(const gaze::GazeSample&, std::uint64_t /*frame*/) {}
+    /// From the frame on, its pictures leave out these parts.
+    virtual void on_hidden(const gaze::HiddenChange&) {}
     /// A frame that was handed to the target.
     virtual void on_frame(const latency::FrameRecord&) {}
     /// The GPU has finished a frame.

@@ -1,5 +1,8 @@
 #include "runtime/frame_timeline.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "runtime/latency/clock.h"
 
 namespace gazeloop {
@@ -28,6 +31,7 @@ void LiveTimeline::plan(const present::TargetFrame& target, const gaze::HeadMoti
     frame.scene_time_s = static_cast<double>(target.display.ns - start_ns_) * 1e-9;
     frame.head = head != nullptr ? head->at(target.display.ns) : target.head;
     frame.views = head != nullptr ? on_head(frame.head, target.views, target.head) : target.views;
+    frame.hidden = target.hidden;
 }
 
 latency::Stamp VirtualTimeline::now() {
@@ -69,6 +73,9 @@ void RecordedTimeline::plan(const present::TargetFrame&, const gaze::HeadMotion*
     frame.scene_time_s = recorded.scene_time_s;
     frame.head = recorded.head;
     frame.views = recorded.views;
+    const auto later = std::ranges::upper_bound(
+        hidden_, frame_, {}, [](const gaze::HiddenChange& change) { return change.frame; });
+    frame.hidden = later == hidden_.begin() ? nullptr : std::prev(later)->meshes;
 }
 
 latency::Stamp RecordedTimeline::latch() { return frames_[frame_].frame.stamps.latch; }

@@ -17,6 +17,7 @@ struct PlannedFrame {
     double scene_time_s = 0.0;
     gaze::Pose head;         ///< in world
     gaze::StereoView views;  ///< in world
+    gaze::HiddenMeshes hidden;
 };
 
 /// Who says what time it is: the clock on the wall, a model of it, or a recording. The loop asks
@@ -99,8 +100,9 @@ class RecordedTimeline final : public FrameTimeline {
         latency::FrameRecord frame;
         latency::FrameGpuRecord gpu;
     };
-    /// Precondition: frames by index, none missing.
-    explicit RecordedTimeline(std::vector<Frame> frames) : frames_(std::move(frames)) {}
+    /// Preconditions: frames by index, none missing; changes by frame.
+    RecordedTimeline(std::vector<Frame> frames, std::vector<gaze::HiddenChange> hidden)
+        : frames_(std::move(frames)), hidden_(std::move(hidden)) {}
 
     latency::Stamp now() override;
     void begin(std::uint64_t frame) override { frame_ = frame; }
@@ -113,6 +115,7 @@ class RecordedTimeline final : public FrameTimeline {
 
   private:
     std::vector<Frame> frames_;
+    std::vector<gaze::HiddenChange> hidden_;
     std::uint64_t frame_ = 0;
 };
 

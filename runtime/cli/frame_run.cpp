@@ -118,6 +118,7 @@ class Recording final : public FrameObserver {
     void on_sample(const gaze::GazeSample& sample, std::uint64_t frame) override {
         recorder_.add(sample, frame);
     }
+    void on_hidden(const gaze::HiddenChange& change) override { recorder_.add(change); }
     void on_frame(const latency::FrameRecord& record) override { recorder_.add(record); }
     void on_gpu(const latency::FrameGpuRecord& record) override { recorder_.add(record); }
     void on_event(latency::Stamp time, std::string_view kind, std::string_view text) override {
@@ -314,7 +315,8 @@ class FrameRun {
                 for (const session::RecordedFrame& recorded : request_.session->frames) {
                     frames.push_back({recorded.frame, recorded.gpu});
                 }
-                return std::make_unique<RecordedTimeline>(std::move(frames));
+                return std::make_unique<RecordedTimeline>(std::move(frames),
+                                                          request_.session->hidden);
             }
         }
         return std::make_unique<LiveTimeline>(latency::measured_now().ns);
@@ -353,6 +355,7 @@ class FrameRun {
         }
         LoopOptions options = request_.loop;
         options.stop = interrupted;
+        options.hidden_area = values_.render.hidden_area;
         try {
             result_ = run_frame_loop(parts, options);
             if (result_.end == LoopEnd::Interrupted) {

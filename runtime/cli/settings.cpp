@@ -122,6 +122,7 @@ Settings::Settings() {
         {"profile.tracker", "tracker profile, or a .toml file", Choice{&v.profile.tracker, {}}},
         {"render.frames_in_flight", "frames that the GPU may be working on",
          Whole{&v.render.frames_in_flight, 1, 3}},
+        {"render.hidden_area", "leave out what the headset shows to no eye", &v.render.hidden_area},
         {"render.method", "which samples a picture takes",
          Choice{&v.render.method, names(render::kMethodNames)}},
         {"render.profile", "time every pass apart, a submit each", &v.render.profile},

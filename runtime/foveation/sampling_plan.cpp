@@ -24,15 +24,22 @@ Columns columns_between(const LogPolarMap& map, LpSize lp, double min_px, double
             static_cast<std::uint32_t>(std::clamp(high, 0.0, last_column)) + 1};
 }
 
-void plan_lp_tiles(const LogPolarMap& map, ImageSize image, double core_px, SamplingPlan& plan) {
+/// What both have; all zero where they have nothing in common.
+Columns common(const Columns& a, const Columns& b) {
+    const Columns both{std::max(a.first, b.first), std::min(a.end, b.end)};
+    return both.empty() ? Columns{} : both;
+}
+
+void plan_lp_tiles(const LogPolarMap& map, ImageSize image, double core_px,
+                   const HiddenArea* hidden, SamplingPlan& plan) {
     const double row_angle = 2.0 * std::numbers::pi / plan.lp.height;
     plan.lp_bands.clear();
     for (std::uint32_t y0 = 0; y0 < plan.lp.height; y0 += kBandRows) {
         const std::uint32_t y1 = std::min(y0 + kBandRows, plan.lp.height);
         // A row is read by pixels less than one row away from its centre.
-        const auto on_screen =
-            screen_radii_in_wedge(image, plan.fovea, (y0 - 0.5 - kRowSlack) * row_angle,
-                                  (y1 + 0.5 + kRowSlack) * row_angle);
+        const double from_rad = (y0 - 0.5 - kRowSlack) * row_angle;
+        const double to_rad = (y1 + 0.5 + kRowSlack) * row_angle;
+        const auto on_screen = screen_radii_in_wedge(image, plan.fovea, from_rad, to_rad);
         Columns& band = plan.lp_bands.emplace_back();
         if (!on_screen) {
             continue;
@@ -46,12 +53,22 @@ void plan_lp_tiles(const LogPolarMap& map, ImageSize image, double core_px, Samp
         band =
             columns_between(map, plan.lp, std::max(on_screen->min_px, core_px), on_screen->max_px);
         plan.texels_under_disc += rows * (band.first - needed.first);
+        if (hidden != nullptr) {
+            const Columns whole = band;
+            const auto visible = hidden->visible_radii_in_wedge(plan.fovea, from_rad, to_rad);
+            band = visible && visible->max_px > core_px
+                       ? common(whole,
+                                columns_between(map, plan.lp, std::max(visible->min_px, core_px),
+                                                visible->max_px))
+                       : Columns{};
+            plan.texels_hidden += rows * ((whole.end - whole.first) - (band.end - band.first));
+        }
         plan.texels_shaded += rows * (band.end - band.first);
     }
     append_band_tiles(plan.lp_bands, plan.lp.height, plan.lp_tiles);
 }
 
-void plan_disc_tiles(ImageSize image, SamplingPlan& plan) {
+void plan_disc_tiles(ImageSize image, const HiddenArea* hidden, SamplingPlan& plan) {
     const double radius = plan.disc_radius_px + kDiscSlackPx;
     const double width = image.width_px;
     plan.disc_bands.clear();
@@ -69,6 +86,9 @@ void plan_disc_tiles(ImageSize image, SamplingPlan& plan) {
                     std::clamp(std::ceil(plan.fovea.x_px - reach - 0.5), 0.0, width)),
                 static_cast<std::uint32_t>(
                     std::clamp(std::floor(plan.fovea.x_px + reach + 0.5), 0.0, width))};
+        if (hidden != nullptr) {
+            band = common(band, hidden->visible_columns(y0));
+        }
         if (!band.empty()) {
             plan.pixels_direct += std::uint64_t{y1 - y0} * (band.end - band.first);
         }
@@ -79,7 +99,7 @@ void plan_disc_tiles(ImageSize image, SamplingPlan& plan) {
 }  // namespace
 
 void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
-              const gaze::PixelPosition& fovea, SamplingPlan& plan) {
+              const gaze::PixelPosition& fovea, SamplingPlan& plan, const HiddenArea* hidden) {
     const LogPolarMap map(parameters.kernel, image, fovea);
     plan.lp = lp;
     plan.fovea = fovea;
@@ -91,18 +111,19 @@ void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
     plan.disc_tiles.clear();
     plan.texels_shaded = 0;
     plan.texels_under_disc = 0;
+    plan.texels_hidden = 0;
     plan.pixels_direct = 0;
     if (plan.disc_radius_px >= map.max_radius_px()) {
         plan.disc_border_px = 0.0;  // the disc covers the screen: there is nothing to blend with
     }
     const double core_px =
         plan.disc_radius_px > 0.0 ? plan.disc_radius_px - plan.disc_border_px : 0.0;
-    plan_lp_tiles(map, image, core_px, plan);
+    plan_lp_tiles(map, image, core_px, hidden, plan);
     if (plan.disc_radius_px > 0.0) {
-        plan_disc_tiles(image, plan);
+        plan_disc_tiles(image, hidden, plan);
     }
-    plan.texels_off_screen =
-        std::uint64_t{lp.width} * lp.height - plan.texels_shaded - plan.texels_under_disc;
+    plan.texels_off_screen = std::uint64_t{lp.width} * lp.height - plan.texels_shaded -
+                             plan.texels_under_disc - plan.texels_hidden;
 }
 
 }  // namespace gazeloop::foveation

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runtime/foveation/band_tiles.h"
+#include "runtime/foveation/hidden_area.h"
 #include "runtime/foveation/log_polar_map.h"
 #include "runtime/foveation/tile.h"
 #include "runtime/gaze/view.h"
@@ -24,14 +25,17 @@ struct SamplingPlan {
     std::uint64_t texels_shaded = 0;
     std::uint64_t texels_off_screen = 0;
     std::uint64_t texels_under_disc = 0;
+    std::uint64_t texels_hidden = 0;  ///< on screen, but read by hidden pixels alone
     std::uint64_t pixels_direct = 0;
 };
 
 /// Plans an eye's picture by KFR. Reuses the plan's memory: no allocation once it has grown.
 ///
 /// A texel is in the plan exactly if the bilinear read of some pixel centre outside the disc's
-/// unblended core touches it (up to the granularity of kBandRows rows).
+/// unblended core touches it (up to the granularity of kBandRows rows). With a hidden area, which
+/// must be of this picture, only visible pixels count (up to their convex hull); null: all do.
 void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
-              const gaze::PixelPosition& fovea, SamplingPlan& plan);
+              const gaze::PixelPosition& fovea, SamplingPlan& plan,
+              const HiddenArea* hidden = nullptr);
 
 }  // namespace gazeloop::foveation

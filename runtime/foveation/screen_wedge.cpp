@@ -4,84 +4,99 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <limits>
 #include <numbers>
 
 namespace gazeloop::foveation {
 namespace {
 
-struct Box {
-    glm::dvec2 low;
-    glm::dvec2 high;
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+/// Least and greatest distance from the origin of what lies on a segment, gathered.
+class Reach {
+  public:
+    /// The part of the segment between the parameters, 0 at a and 1 at b.
+    void include(const glm::dvec2& a, const glm::dvec2& b, double from, double to) {
+        const glm::dvec2 along = b - a;
+        const double squared = glm::dot(along, along);
+        const double foot = squared > 0.0 ? -glm::dot(a, along) / squared : 0.0;
+        const double near = glm::length(a + std::clamp(foot, from, to) * along);
+        range_.min_px = std::min(range_.min_px, near);
+        range_.max_px = std::max(
+            {range_.max_px, near, glm::length(a + from * along), glm::length(a + to * along)});
+    }
+    void include_origin() {
+        range_.min_px = 0.0;
+        range_.max_px = std::max(range_.max_px, 0.0);
+    }
+    [[nodiscard]] std::optional<RadiusRange> range() const {
+        return range_.max_px < 0.0 ? std::nullopt : std::optional(range_);
+    }
+
+  private:
+    RadiusRange range_{std::numeric_limits<double>::infinity(), -1.0};
 };
 
-/// The part of the ray from the origin that lies in the box (slab method).
-std::optional<RadiusRange> clip_ray(const Box& box, const glm::dvec2& direction) {
-    double enter = 0.0;
-    double leave = std::numeric_limits<double>::infinity();
-    for (int axis = 0; axis < 2; ++axis) {
-        if (direction[axis] == 0.0) {
-            if (box.low[axis] > 0.0 || box.high[axis] < 0.0) {
-                return std::nullopt;
-            }
-            continue;
-        }
-        const double a = box.low[axis] / direction[axis];
-        const double b = box.high[axis] / direction[axis];
-        enter = std::max(enter, std::min(a, b));
-        leave = std::min(leave, std::max(a, b));
-    }
-    if (enter > leave) {
-        return std::nullopt;
-    }
-    return RadiusRange{enter, leave};
-}
+/// Where a segment lies in the half-plane of the points p with sign * cross(direction, p) >= 0.
+struct Part {
+    double from = 0.0;
+    double to = 1.0;
 
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+    void clip(double at_a, double at_b) {
+        if (at_a < 0.0 && at_b < 0.0) {
+            to = -1.0;
+        } else if (at_a < 0.0) {
+            from = std::max(from, at_a / (at_a - at_b));
+        } else if (at_b < 0.0) {
+            to = std::min(to, at_a / (at_a - at_b));
+        }
+    }
+    [[nodiscard]] bool empty() const { return from > to; }
+};
 
 }  // namespace
 
-std::optional<RadiusRange> screen_radii_in_wedge(ImageSize image, const gaze::PixelPosition& fovea,
-                                                 double from_rad, double to_rad) {
+std::optional<RadiusRange> radii_in_wedge(std::span<const glm::dvec2> polygon,
+                                          const gaze::PixelPosition& fovea, double from_rad,
+                                          double to_rad) {
     const glm::dvec2 origin{fovea.x_px, fovea.y_px};
-    const Box box{glm::dvec2{0.5, 0.5} - origin,
-                  glm::dvec2{image.width_px - 0.5, image.height_px - 0.5} - origin};
-    const std::array<glm::dvec2, 4> corners{box.low, glm::dvec2{box.high.x, box.low.y}, box.high,
-                                            glm::dvec2{box.low.x, box.high.y}};
-    const glm::dvec2 nearest{std::clamp(0.0, box.low.x, box.high.x),
-                             std::clamp(0.0, box.low.y, box.high.y)};
     // Half a turn or more is not convex any more: take every direction.
     const bool all_directions = to_rad - from_rad >= std::numbers::pi * 0.999;
     const glm::dvec2 first{std::cos(from_rad), std::sin(from_rad)};
     const glm::dvec2 last{std::cos(to_rad), std::sin(to_rad)};
 
-    RadiusRange range{std::numeric_limits<double>::infinity(), -1.0};
-    const auto include = [&](double radius) {
-        range.min_px = std::min(range.min_px, radius);
-        range.max_px = std::max(range.max_px, radius);
-    };
-    const auto include_point = [&](const glm::dvec2& point) {
-        if (all_directions || (cross(first, point) >= 0.0 && cross(point, last) >= 0.0)) {
-            include(glm::length(point));
+    // What is nearest to the origin or farthest from it lies on an edge, or is the origin itself.
+    Reach reach;
+    bool left_of_all = true;
+    bool right_of_all = true;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 a = polygon[i] - origin;
+        const glm::dvec2 b = polygon[(i + 1) % polygon.size()] - origin;
+        const double side = cross(a, b);
+        left_of_all = left_of_all && side >= 0.0;
+        right_of_all = right_of_all && side <= 0.0;
+        Part part;
+        if (!all_directions) {
+            part.clip(cross(first, a), cross(first, b));
+            part.clip(cross(a, last), cross(b, last));
         }
-    };
-    for (const glm::dvec2& corner : corners) {
-        include_point(corner);
-    }
-    include_point(nearest);
-    if (!all_directions) {
-        for (const glm::dvec2& direction : {first, last}) {
-            if (const auto clipped = clip_ray(box, direction)) {
-                include(clipped->min_px);
-                include(clipped->max_px);
-            }
+        if (!part.empty()) {
+            reach.include(a, b, part.from, part.to);
         }
     }
-    if (range.max_px < 0.0) {
-        return std::nullopt;
+    if (left_of_all != right_of_all) {
+        reach.include_origin();
     }
-    return range;
+    return reach.range();
+}
+
+std::optional<RadiusRange> screen_radii_in_wedge(ImageSize image, const gaze::PixelPosition& fovea,
+                                                 double from_rad, double to_rad) {
+    const double right = image.width_px - 0.5;
+    const double bottom = image.height_px - 0.5;
+    const std::array<glm::dvec2, 4> corners{glm::dvec2{0.5, 0.5}, glm::dvec2{right, 0.5},
+                                            glm::dvec2{right, bottom}, glm::dvec2{0.5, bottom}};
+    return radii_in_wedge(corners, fovea, from_rad, to_rad);
 }
 
 }  // namespace gazeloop::foveation

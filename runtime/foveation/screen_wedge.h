@@ -1,6 +1,8 @@
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <optional>
+#include <span>
 
 #include "runtime/foveation/log_polar_map.h"
 #include "runtime/gaze/view.h"
@@ -18,5 +20,11 @@ struct RadiusRange {
 /// The range is exact for the rectangle that the pixel centres span.
 std::optional<RadiusRange> screen_radii_in_wedge(ImageSize image, const gaze::PixelPosition& fovea,
                                                  double from_rad, double to_rad);
+
+/// The same for a convex polygon, pixels: its corners in turn, with or against the clock; one or
+/// two make a point or a line. Nothing for none.
+std::optional<RadiusRange> radii_in_wedge(std::span<const glm::dvec2> polygon,
+                                          const gaze::PixelPosition& fovea, double from_rad,
+                                          double to_rad);
 
 }  // namespace gazeloop::foveation

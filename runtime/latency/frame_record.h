@@ -24,8 +24,10 @@ struct SampleCounts {
     std::uint64_t texels_shaded = 0;      ///< of them, shaded in pass I
     std::uint64_t texels_off_screen = 0;  ///< left out: no pixel on screen reads them
     std::uint64_t texels_under_disc = 0;  ///< left out: the direct disc covers them
+    std::uint64_t texels_hidden = 0;      ///< left out: only hidden pixels read them
     std::uint64_t pixels_direct = 0;      ///< pixels shaded one by one (disc, or full resolution)
     std::uint64_t pixels_output = 0;      ///< pixels of the pictures
+    std::uint64_t pixels_hidden = 0;      ///< of them not drawn: the headset shows them to no eye
 
     friend bool operator==(const SampleCounts&, const SampleCounts&) = default;
 };

@@ -38,8 +38,10 @@ void add_to(SampleCounts& sum, const SampleCounts& frame) {
     sum.texels_shaded += frame.texels_shaded;
     sum.texels_off_screen += frame.texels_off_screen;
     sum.texels_under_disc += frame.texels_under_disc;
+    sum.texels_hidden += frame.texels_hidden;
     sum.pixels_direct += frame.pixels_direct;
     sum.pixels_output += frame.pixels_output;
+    sum.pixels_hidden += frame.pixels_hidden;
 }
 
 }  // namespace
@@ -57,7 +59,8 @@ std::optional<double> SummaryReport::samples_saved_factor() const {
     if (shaded == 0) {
         return std::nullopt;
     }
-    return static_cast<double>(samples.pixels_output) / static_cast<double>(shaded);
+    const std::uint64_t hidden = std::min(samples.pixels_hidden, samples.pixels_output);
+    return static_cast<double>(samples.pixels_output - hidden) / static_cast<double>(shaded);
 }
 
 LatencySummary::LatencySummary(const SummaryConfig& config) : config_(config) {}

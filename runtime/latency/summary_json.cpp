@@ -77,8 +77,10 @@ Json summary_json(const SummaryReport& report) {
               {"texels_shaded", samples.texels_shaded},
               {"texels_off_screen", samples.texels_off_screen},
               {"texels_under_disc", samples.texels_under_disc},
+              {"texels_hidden", samples.texels_hidden},
               {"pixels_direct", samples.pixels_direct},
               {"pixels_output", samples.pixels_output},
+              {"pixels_hidden", samples.pixels_hidden},
               {"times_fewer_than_full", or_null(report.samples_saved_factor())}}}};
 }
 

@@ -145,6 +145,11 @@ std::string missed(const SummaryReport& report) {
     return text;
 }
 
+/// Said only where there is a mask.
+std::string hidden(const SampleCounts& samples, std::uint64_t of_them) {
+    return samples.pixels_hidden > 0 ? fmt::format(", hidden {}", count(of_them)) : "";
+}
+
 void append_counts(std::string& text, const SummaryReport& report) {
     auto out = std::back_inserter(text);
     const FrameCounts& frames = report.frames;
@@ -159,11 +164,12 @@ void append_counts(std::string& text, const SummaryReport& report) {
                    count(report.gaze.received), count(report.gaze.invalid), count(report.gaze.lost),
                    count(report.gaze.out_of_order));
     const SampleCounts& samples = report.samples;
-    fmt::format_to(out, "texels   shaded {} of {}, off screen {}, under the disc {}\n",
+    fmt::format_to(out, "texels   shaded {} of {}, off screen {}, under the disc {}{}\n",
                    count(samples.texels_shaded), count(samples.texels_planned),
-                   count(samples.texels_off_screen), count(samples.texels_under_disc));
-    fmt::format_to(out, "pixels   shaded directly {} of {}\n", count(samples.pixels_direct),
-                   count(samples.pixels_output));
+                   count(samples.texels_off_screen), count(samples.texels_under_disc),
+                   hidden(samples, samples.texels_hidden));
+    fmt::format_to(out, "pixels   shaded directly {} of {}{}\n", count(samples.pixels_direct),
+                   count(samples.pixels_output), hidden(samples, samples.pixels_hidden));
     if (const std::optional<double> fewer = report.samples_saved_factor()) {
         const std::string compared =
             *fewer > 1.0   ? fmt::format("{:.1f}x fewer samples than", *fewer)

@@ -6,12 +6,22 @@
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
+#include "runtime/gaze/hidden_mesh.h"
 #include "runtime/gaze/view.h"
 #include "runtime/latency/stamp.h"
 #include "runtime/render/frame_renderer.h"
 #include "runtime/render/vulkan_context.h"
 
 namespace gazeloop::present {
+
+/// What the depth images of a frame mean: the distances from the view's plane, along its axis, that
+/// the values 0 and 1 stand for. In between, the value v at distance z is
+/// far / (far - near) * (1 - near / z), as a perspective projection gives it; far may be infinite,
+/// and either one may be the greater. Every value must be of the surface that the same pixel shows.
+struct DepthRange {
+    float near_m = 0.0F;
+    float far_m = 0.0F;
+};
 
 /// What the target knows of the frame that is about to begin.
 struct TargetFrame {
@@ -20,6 +30,9 @@ struct TargetFrame {
     bool should_render = true;   ///< false: begin and end it, but draw nothing
     gaze::Pose head;             ///< in world, at the display time
     gaze::StereoView views;      ///< in world, at the display time
+    gaze::HiddenMeshes hidden;   ///< what of the views no eye sees
+    /// Set by whoever filled the depth images; unset: they are not handed over.
+    std::optional<DepthRange> depth;
 };
 
 /// Whether the target wants frames.
@@ -47,6 +60,8 @@ class FrameTarget {
 
     [[nodiscard]] virtual gaze::PerEye<vk::Extent2D> extents() const = 0;
     [[nodiscard]] virtual vk::Format format() const = 0;
+    /// Of the depth images that acquire() gives; nothing: it gives none.
+    [[nodiscard]] virtual std::optional<vk::Format> depth_format() const { return std::nullopt; }
 
     /// Handles what the target has to say; waits a few milliseconds while it is idle.
     /// Throws SetupError (SessionLost) when it is lost.
@@ -55,10 +70,12 @@ class FrameTarget {
     /// Blocks until it is time for the next frame.
     virtual void wait_frame(TargetFrame& frame) = 0;
     virtual void begin_frame() = 0;
-    /// Fills in head and views at the frame's display time.
+    /// Fills in head, views and what they hide at the frame's display time.
     virtual void locate(TargetFrame& frame) = 0;
     virtual gaze::PerEye<render::EyeTarget> acquire() = 0;
-    /// Hands over the pictures, if any were acquired, as seen from the frame's views.
+    /// Hands over the pictures, if any were acquired, as seen from the frame's views, in
+    /// COLOR_ATTACHMENT_OPTIMAL; and depth images, if they were filled, in
+    /// DEPTH_STENCIL_ATTACHMENT_OPTIMAL.
     virtual void end_frame(const TargetFrame& frame, bool rendered) = 0;
 
     /// The head pose in world at a past host time, where the target knows it.

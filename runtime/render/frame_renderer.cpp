@@ -235,13 +235,16 @@ latency::SampleCounts FrameRenderer::render(const FrameRequest& request) {
         const std::size_t e = gaze::index(eye);
         const gaze::EyeView& view = request.views[e];
         const std::uint64_t pixels = std::uint64_t{view.width_px} * view.height_px;
+        const std::uint64_t hidden =
+            request.hidden[e] != nullptr ? request.hidden[e]->hidden_pixels() : 0;
         counts.pixels_output += pixels;
+        counts.pixels_hidden += hidden;
         EyeSlot& at = slot.eyes[e];
         foveation::SamplingPlan* plan = nullptr;
         if (const KfrEye* const kfr = eyes_[e].get()) {
             plan = &plans_[e];
             foveation::plan_kfr(kfr->parameters(), kfr->lp(), kfr->image(), request.foveae[e],
-                                *plan);
+                                *plan, request.hidden[e].get());
             at.bands.write(std::span<const foveation::Columns>(plan->lp_bands));
             at.bands.write(std::span<const foveation::Columns>(plan->disc_bands),
                            plan->lp_bands.size() * sizeof(foveation::Columns));
@@ -249,9 +252,10 @@ latency::SampleCounts FrameRenderer::render(const FrameRequest& request) {
             counts.texels_shaded += plan->texels_shaded;
             counts.texels_off_screen += plan->texels_off_screen;
             counts.texels_under_disc += plan->texels_under_disc;
+            counts.texels_hidden += plan->texels_hidden;
             counts.pixels_direct += plan->pixels_direct;
         } else {
-            counts.pixels_direct += pixels;
+            counts.pixels_direct += pixels - hidden;
         }
         at.uniforms.write(eye_uniforms(view, request.scene_time_s, config_.samples, plan));
     }
@@ -319,7 +323,7 @@ void FrameRenderer::shade_tiles(Slot& slot, std::size_t eye, const ColorImage& t
                                     Access::eShaderSampledRead));
 }
 
-/// Draws both eyes' whole pictures.
+/// Draws both eyes' pictures, less what no eye sees of them.
 void FrameRenderer::draw_pictures(const Slot& slot, const FrameRequest& request,
                                   const vk::raii::Pipeline& pipeline) {
     const vk::raii::CommandBuffer& commands = slot.commands();
@@ -328,9 +332,20 @@ void FrameRenderer::draw_pictures(const Slot& slot, const FrameRequest& request,
         discard_and_attach(commands, request.targets[e].image);
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0,
                                     *slot.eyes[e].set, {});
-        begin_rendering(commands, request.targets[e].view, config_.extents[e],
-                        vk::AttachmentLoadOp::eDontCare);
-        commands.draw(3, 1, 0, 0);
+        const foveation::HiddenArea* const hidden = request.hidden[e].get();
+        begin_rendering(
+            commands, request.targets[e].view, config_.extents[e],
+            hidden != nullptr ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare);
+        if (hidden != nullptr) {
+            for (const foveation::Tile& tile : hidden->visible_tiles()) {
+                commands.setScissor(0, vk::Rect2D({static_cast<std::int32_t>(tile.x0),
+                                                   static_cast<std::int32_t>(tile.y0)},
+                                                  {tile.x1 - tile.x0, tile.y1 - tile.y0}));
+                commands.draw(3, 1, 0, 0);
+            }
+        } else {
+            commands.draw(3, 1, 0, 0);
+        }
         commands.endRendering();
     }
 }

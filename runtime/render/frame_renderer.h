@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/foveation/hidden_area.h"
 #include "runtime/foveation/sampling_plan.h"
 #include "runtime/gaze/view.h"
 #include "runtime/latency/frame_record.h"
@@ -32,9 +33,13 @@ struct RendererConfig {
     std::optional<std::array<float, 4>> lp_background;
 };
 
+/// Where an eye's picture goes. The depth image, as large as the picture, is there only where the
+/// target takes one.
 struct EyeTarget {
     vk::Image image;
     vk::ImageView view;
+    vk::Image depth_image{};
+    vk::ImageView depth_view{};
 };
 
 /// One frame to render: everything that depends on time, head or gaze.
@@ -44,6 +49,7 @@ struct FrameRequest {
     gaze::StereoView views;
     gaze::PerEye<gaze::PixelPosition> foveae;
     gaze::PerEye<EyeTarget> targets;  ///< any layout before, COLOR_ATTACHMENT_OPTIMAL after
+    foveation::HiddenAreas hidden{};  ///< of these views; what they hide is black
 };
 
 /// Renders both eyes' pictures by scene x method, times every pass and counts its samples.

@@ -4,6 +4,7 @@ namespace gazeloop::render {
 namespace {
 
 constexpr vk::ImageSubresourceRange kWholeColor{vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
+constexpr vk::ImageSubresourceRange kWholeDepth{vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1};
 
 }  // namespace
 
@@ -45,6 +46,12 @@ vk::raii::ImageView make_color_view(const VulkanContext& context, vk::Image imag
                                     vk::Format format) {
     return {context.device(),
             vk::ImageViewCreateInfo({}, image, vk::ImageViewType::e2D, format, {}, kWholeColor)};
+}
+
+vk::raii::ImageView make_depth_view(const VulkanContext& context, vk::Image image,
+                                    vk::Format format) {
+    return {context.device(),
+            vk::ImageViewCreateInfo({}, image, vk::ImageViewType::e2D, format, {}, kWholeDepth)};
 }
 
 vk::ImageMemoryBarrier2 image_barrier(vk::Image image, vk::ImageLayout from, vk::ImageLayout to,

@@ -63,8 +63,11 @@ class ColorImage {
     vk::Format format_ = vk::Format::eUndefined;
 };
 
-/// A two-dimensional colour view of level and layer 0.
+/// A two-dimensional view of level and layer 0: of colours, or of the depth of a format without
+/// stencil.
 vk::raii::ImageView make_color_view(const VulkanContext& context, vk::Image image,
+                                    vk::Format format);
+vk::raii::ImageView make_depth_view(const VulkanContext& context, vk::Image image,
                                     vk::Format format);
 
 /// A layout transition of a whole colour image with its memory dependency.

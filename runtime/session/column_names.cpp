@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "runtime/session/record_fields.h"
 
 namespace gazeloop::session {
@@ -25,9 +27,15 @@ std::string ColumnNames::update(std::string_view table, std::string_view key) co
                        key);
 }
 
-std::string ColumnNames::select_from(std::string_view table, std::string_view key) const {
-    return fmt::format("SELECT {2}, {0} FROM {1} ORDER BY {2}", fmt::join(names_, ", "), table,
-                       key);
+std::string ColumnNames::select_from(std::string_view table, std::string_view key,
+                                     std::span<const std::string_view> absent) const {
+    std::vector<std::string> names = names_;
+    for (std::string& name : names) {
+        if (std::ranges::find(absent, name) != absent.end()) {
+            name = "NULL AS " + name;
+        }
+    }
+    return fmt::format("SELECT {2}, {0} FROM {1} ORDER BY {2}", fmt::join(names, ", "), table, key);
 }
 
 ColumnNames named_value_columns() {
@@ -75,6 +83,13 @@ ColumnNames fovea_columns() {
     ColumnNames names;
     const gaze::FoveaPoint fovea;
     visit_fovea(names, kFrame, kEye, fovea);
+    return names;
+}
+
+ColumnNames hidden_columns() {
+    ColumnNames names;
+    const gaze::HiddenTriangle triangle;
+    visit_hidden(names, kFrame, kEye, triangle);
     return names;
 }
 

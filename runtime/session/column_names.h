@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +19,10 @@ class ColumnNames {
     [[nodiscard]] std::string insert_into(std::string_view table) const;
     /// Sets every column in the row whose `key` is the parameter after theirs.
     [[nodiscard]] std::string update(std::string_view table, std::string_view key) const;
-    /// The key, one column or several, then these columns, in the order of the key.
-    [[nodiscard]] std::string select_from(std::string_view table, std::string_view key) const;
+    /// The key, one column or several, then these columns, in the order of the key; NULL in place
+    /// of those that are `absent` in the table.
+    [[nodiscard]] std::string select_from(std::string_view table, std::string_view key,
+                                          std::span<const std::string_view> absent = {}) const;
 
   private:
     std::vector<std::string> names_;
@@ -33,5 +36,6 @@ ColumnNames whole_frame_columns();  ///< both, in this order
 ColumnNames view_columns();
 ColumnNames fovea_columns();
 ColumnNames event_columns();
+ColumnNames hidden_columns();  ///< of hidden_area
 
 }  // namespace gazeloop::session

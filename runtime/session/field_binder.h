@@ -25,7 +25,8 @@ class FieldBinder {
     void bind(double value) { statement_.bind(parameter_, value); }
     void bind(std::string_view text) { statement_.bind(parameter_, text); }
     template <typename T>
-    requires(std::is_integral_v<T> || std::is_enum_v<T>) void bind(T value) {
+        requires(std::is_integral_v<T> || std::is_enum_v<T>)
+    void bind(T value) {
         statement_.bind(parameter_, static_cast<std::int64_t>(value));
     }
     template <typename T>

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/hidden_mesh.h"
 #include "runtime/latency/frame_record.h"
 #include "runtime/session/fixed_text.h"
 
@@ -20,8 +21,15 @@ struct EventRecord {
     FixedText<240> text;
 };
 
+/// One triangle of what the views hide from a frame on; without corners where that is nothing.
+struct HiddenRecord {
+    std::uint64_t frame = 0;
+    gaze::Eye eye = gaze::Eye::Left;
+    gaze::HiddenTriangle triangle;
+};
+
 /// What the loop hands to the recorder's thread.
-using Record =
-    std::variant<SampleRecord, latency::FrameRecord, latency::FrameGpuRecord, EventRecord>;
+using Record = std::variant<SampleRecord, latency::FrameRecord, latency::FrameGpuRecord,
+                            EventRecord, HiddenRecord>;
 
 }  // namespace gazeloop::session

@@ -69,6 +69,16 @@ void visit_sample(Visitor& visit, Frame& frame, Sample& sample) {
     }
 }
 
+/// A count that the first files of this schema version lack: 0 there (see kLaterColumns).
+template <typename Visitor, typename Count>
+void visit_later(Visitor& visit, std::string_view column, Count& count) {
+    std::optional<std::uint64_t> stored = count;
+    visit(column, "", stored);
+    if constexpr (!std::is_const_v<Count>) {
+        count = stored.value_or(0);
+    }
+}
+
 template <typename Visitor, typename Record>
 void visit_frame(Visitor& visit, Record& record) {
     visit("number", "", record.index);
@@ -91,6 +101,8 @@ void visit_frame(Visitor& visit, Record& record) {
     visit("texels_under_disc", "", record.samples.texels_under_disc);
     visit("pixels_direct", "", record.samples.pixels_direct);
     visit("pixels_output", "", record.samples.pixels_output);
+    visit_later(visit, "texels_hidden", record.samples.texels_hidden);
+    visit_later(visit, "pixels_hidden", record.samples.pixels_hidden);
 }
 
 /// The columns of `frame` that are NULL until the GPU has finished it.
@@ -137,6 +149,24 @@ void visit_fovea(Visitor& visit, Frame& frame, Eye& eye, Fovea& fovea) {
     visit("sample_sequence", "", fovea.sample_sequence);
     visit_stamp(visit, "sampled", fovea.sampled);
     visit_stamp(visit, "arrived", fovea.arrived);
+}
+
+template <typename Visitor, typename Frame, typename Eye, typename Triangle>
+void visit_hidden(Visitor& visit, Frame& frame, Eye& eye, Triangle& triangle) {
+    visit("frame", "", frame);
+    visit("eye", "", eye);
+    constexpr std::array<std::string_view, 3> kCorners{"a", "b", "c"};
+    for (std::size_t corner = 0; corner < kCorners.size(); ++corner) {
+        visit(kCorners[corner], "_x", triangle.corners[corner].x);
+        visit(kCorners[corner], "_y", triangle.corners[corner].y);
+    }
+}
+
+/// A triangle without corners: not-a-number becomes NULL.
+inline gaze::HiddenTriangle no_triangle() {
+    gaze::HiddenTriangle triangle;
+    triangle.corners.fill(glm::dvec2{std::numeric_limits<double>::quiet_NaN()});
+    return triangle;
 }
 
 /// `kind` and `text` are text of the reader's or the writer's own kind.

@@ -95,6 +95,8 @@ CREATE TABLE frame (
     texels_under_disc       INTEGER NOT NULL,
     pixels_direct           INTEGER NOT NULL,
     pixels_output           INTEGER NOT NULL,
+    texels_hidden           INTEGER,
+    pixels_hidden           INTEGER,
     reported_gpu_begin_ns   INTEGER,
     reported_gpu_begin_kind INTEGER,
     reported_gpu_end_ns     INTEGER,
@@ -142,6 +144,18 @@ CREATE TABLE fovea (
     arrived_kind    INTEGER NOT NULL,
     PRIMARY KEY (frame, eye)
 ) STRICT, WITHOUT ROWID;
+
+CREATE TABLE hidden_area (
+    position INTEGER PRIMARY KEY,
+    frame    INTEGER NOT NULL,
+    eye      INTEGER NOT NULL,
+    a_x      ANY,
+    a_y      ANY,
+    b_x      ANY,
+    b_y      ANY,
+    c_x      ANY,
+    c_y      ANY
+) STRICT;
 
 CREATE TABLE event (
     position  INTEGER PRIMARY KEY,

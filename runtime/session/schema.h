@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string_view>
 
 namespace gazeloop::session {
@@ -9,6 +10,11 @@ inline constexpr int kSchemaVersion = 1;
 
 /// Creates the tables in an empty database. SCHEMA.md says what their columns mean.
 extern const char* const kCreateTables;
+
+/// Columns and tables that the first files of this version lack; none of these names is in another
+/// table.
+inline constexpr std::array<std::string_view, 2> kLaterColumns{"texels_hidden", "pixels_hidden"};
+inline constexpr std::string_view kHiddenTable = "hidden_area";
 
 /// Names in `meta` that the recorder itself keeps.
 inline constexpr std::string_view kMetaSchemaVersion = "schema_version";

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <fstream>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -137,6 +139,32 @@ std::vector<RecordedEvent> read_events(const Database& database) {
     return events;
 }
 
+std::vector<gaze::HiddenChange> read_hidden(const Database& database) {
+    std::vector<gaze::HiddenChange> changes;
+    if (!has_table(database, kHiddenTable)) {
+        return changes;
+    }
+    std::shared_ptr<gaze::PerEye<gaze::HiddenMesh>> meshes;
+    TableReader reader(database, kHiddenTable, "position", hidden_columns());
+    while (reader.next()) {
+        std::uint64_t frame = 0;
+        gaze::Eye eye{};
+        gaze::HiddenTriangle triangle;
+        visit_hidden(reader, frame, eye, triangle);
+        if (changes.empty() || frame != changes.back().frame) {
+            if (!changes.empty() && frame < changes.back().frame) {
+                reader.fail("is of an earlier frame than the row before it");
+            }
+            meshes = std::make_shared<gaze::PerEye<gaze::HiddenMesh>>();
+            changes.push_back({frame, meshes});
+        }
+        if (!std::isnan(triangle.corners[0].x)) {
+            (*meshes)[gaze::index(eye)].push_back(triangle);
+        }
+    }
+    return changes;
+}
+
 /// An empty one may be SQLite's own, for reading.
 bool has_write_ahead_log(const std::filesystem::path& file) {
     std::error_code error;
@@ -174,6 +202,7 @@ SessionFile read_tables(const Database& database) {
     session.samples = read_samples(database);
     session.frames = read_frames(database);
     session.events = read_events(database);
+    session.hidden = read_hidden(database);
     return session;
 }
 

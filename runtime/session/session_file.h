@@ -35,6 +35,7 @@ struct SessionFile {
     std::vector<RecordedSample> samples;  ///< by frame, then arrival
     std::vector<RecordedFrame> frames;    ///< by index
     std::vector<RecordedEvent> events;
+    std::vector<gaze::HiddenChange> hidden;  ///< by frame
     std::uint64_t records_dropped = 0;  ///< by a full queue, as far as was known when writing ended
     bool closed_cleanly = false;
     bool writing_failed = false;       ///< and the disk still took a note of it

@@ -14,6 +14,7 @@
 
 #include "runtime/session/new_session.h"
 #include "runtime/session/record.h"
+#include "runtime/session/record_fields.h"
 #include "runtime/session/session_writer.h"
 #include "runtime/session/spsc_queue.h"
 
@@ -180,6 +181,22 @@ void SessionRecorder::add(const gaze::GazeSample& sample, std::uint64_t frame) {
 void SessionRecorder::add(const latency::FrameRecord& record) { impl_->add(record); }
 
 void SessionRecorder::add(const latency::FrameGpuRecord& record) { impl_->add(record); }
+
+void SessionRecorder::add(const gaze::HiddenChange& change) {
+    bool any = false;
+    for (const gaze::Eye eye : gaze::kEyes) {
+        if (change.meshes == nullptr) {
+            continue;
+        }
+        for (const gaze::HiddenTriangle& triangle : (*change.meshes)[gaze::index(eye)]) {
+            impl_->add(HiddenRecord{change.frame, eye, triangle});
+            any = true;
+        }
+    }
+    if (!any) {
+        impl_->add(HiddenRecord{change.frame, gaze::Eye::Left, no_triangle()});
+    }
+}
 
 void SessionRecorder::event(latency::Stamp time, std::string_view kind, std::string_view text) {
     impl_->add(EventRecord{time, FixedText<32>(kind), FixedText<240>(text)});

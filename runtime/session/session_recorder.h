@@ -9,6 +9,7 @@
 
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/hidden_mesh.h"
 #include "runtime/latency/frame_record.h"
 
 namespace gazeloop::session {
@@ -54,6 +55,8 @@ class SessionRecorder {
     void add(const gaze::GazeSample& sample, std::uint64_t frame);
     void add(const latency::FrameRecord& record);
     void add(const latency::FrameGpuRecord& record);
+    /// Frame numbers of changes do not decrease.
+    void add(const gaze::HiddenChange& change);
     /// `kind` is one word of at most 32 bytes, e.g. "session-state", "gaze-lost", "interrupted";
     /// `text` is cut after 240 bytes, between characters.
     void event(latency::Stamp time, std::string_view kind, std::string_view text);

@@ -29,6 +29,7 @@ SessionWriter::SessionWriter(const std::filesystem::path& file)
       insert_view_(database_, view_columns().insert_into("view")),
       insert_fovea_(database_, fovea_columns().insert_into("fovea")),
       insert_event_(database_, event_columns().insert_into("event")),
+      insert_hidden_(database_, hidden_columns().insert_into(kHiddenTable)),
       set_meta_(database_, kSetMeta) {}
 
 void SessionWriter::begin() { database_.execute("BEGIN IMMEDIATE"); }
@@ -79,6 +80,12 @@ void SessionWriter::write_one(const EventRecord& record) {
     const std::string_view text = record.text.view();
     visit_event(binder, record.time, kind, text);
     insert_event_.run();
+}
+
+void SessionWriter::write_one(const HiddenRecord& record) {
+    FieldBinder binder(insert_hidden_);
+    visit_hidden(binder, record.frame, record.eye, record.triangle);
+    insert_hidden_.run();
 }
 
 void SessionWriter::set_meta(std::string_view name, std::string_view value) {

@@ -37,6 +37,7 @@ class SessionWriter {
     void write_one(const latency::FrameRecord& record);
     void write_one(const latency::FrameGpuRecord& record);
     void write_one(const EventRecord& record);
+    void write_one(const HiddenRecord& record);
     void set_meta(std::string_view name, std::string_view value);
 
     Database database_;
@@ -46,6 +47,7 @@ class SessionWriter {
     Statement insert_view_;
     Statement insert_fovea_;
     Statement insert_event_;
+    Statement insert_hidden_;
     Statement set_meta_;
     std::uint64_t dropped_written_ = 0;
 };

@@ -5,31 +5,47 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <vector>
+
+#include "runtime/session/schema.h"
 
 namespace gazeloop::session {
 namespace {
 
-/// A view or a virtual table of the same name could hold anything, without end.
-void require_table(const Database& database, std::string_view table) {
-    Statement find(
-        database, "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND rootpage > 0 AND name = ?");
-    find.bind(0, table);
-    if (!find.next()) {
-        throw FormatError(fmt::format("not a session: has no table {}", table));
+/// Those of kLaterColumns that this file's table is too old for.
+std::vector<std::string_view> absent_columns(const Database& database, std::string_view table) {
+    std::vector<std::string_view> absent;
+    for (const std::string_view column : kLaterColumns) {
+        Statement find(database, "SELECT 1 FROM pragma_table_info(?) WHERE name = ?");
+        find.bind(0, table);
+        find.bind(1, column);
+        if (!find.next()) {
+            absent.push_back(column);
+        }
     }
+    return absent;
 }
 
 Statement select(const Database& database, std::string_view table, std::string_view key,
                  const ColumnNames& columns) {
     try {
-        require_table(database, table);
-        return {database, columns.select_from(table, key)};
+        if (!has_table(database, table)) {
+            throw FormatError(fmt::format("not a session: has no table {}", table));
+        }
+        return {database, columns.select_from(table, key, absent_columns(database, table))};
     } catch (const DatabaseError& error) {
         throw FormatError(fmt::format("table {}: {}", table, error.what()));
     }
 }
 
 }  // namespace
+
+bool has_table(const Database& database, std::string_view table) {
+    Statement find(
+        database, "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND rootpage > 0 AND name = ?");
+    find.bind(0, table);
+    return find.next();
+}
 
 TableReader::TableReader(const Database& database, std::string_view table, std::string_view key,
                          const ColumnNames& columns)

@@ -22,6 +22,10 @@ class FormatError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Whether the file has a real table of that name: a view or a virtual table of the same name could
+/// hold anything, without end.
+bool has_table(const Database& database, std::string_view table);
+
 /// The rows of one table in the order of its key, checked field by field. Every member throws
 /// FormatError.
 class TableReader {

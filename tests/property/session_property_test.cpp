@@ -62,7 +62,8 @@ class AnyRecord {
                      stamp()};
         }
         frame.fovea.latched = stamp();
-        frame.samples = {integer(), integer(), integer(), integer(), integer(), integer()};
+        frame.samples = {integer(), integer(), integer(), integer(),
+                         integer(), integer(), integer(), integer()};
         return frame;
     }
 
@@ -78,6 +79,19 @@ class AnyRecord {
             gpu.pixel_hash = integer();
         }
         return gpu;
+    }
+
+    /// Finite: a triangle that is not is none.
+    gaze::HiddenMeshes hidden() {
+        const auto meshes = std::make_shared<gaze::PerEye<gaze::HiddenMesh>>();
+        for (gaze::HiddenMesh& mesh : *meshes) {
+            for (std::uint64_t count = below(3); count > 0; --count) {
+                for (glm::dvec2& corner : mesh.emplace_back().corners) {
+                    corner = {static_cast<double>(signed_integer()), coin() ? -0.0 : 1e-300};
+                }
+            }
+        }
+        return meshes;
     }
 
     bool coin() { return below(2) == 1; }
@@ -202,7 +216,8 @@ Bits bits_of(const latency::FrameRecord& frame) {
     const latency::SampleCounts& samples = frame.samples;
     for (const std::uint64_t count :
          {samples.texels_planned, samples.texels_shaded, samples.texels_off_screen,
-          samples.texels_under_disc, samples.pixels_direct, samples.pixels_output}) {
+          samples.texels_under_disc, samples.texels_hidden, samples.pixels_direct,
+          samples.pixels_output, samples.pixels_hidden}) {
         append(bits, count);
     }
     return bits;
@@ -229,6 +244,7 @@ RC_GTEST_PROP(Session, ComesBackBitForBit,
     AnyRecord any(seed);
     std::vector<RecordedSample> samples;
     std::vector<RecordedFrame> frames;
+    std::vector<gaze::HiddenChange> hidden;
 
     const tests::TemporaryFolder folder;
     const std::filesystem::path file = folder / "run.session";
@@ -244,6 +260,8 @@ RC_GTEST_PROP(Session, ComesBackBitForBit,
         frame.gpu.index = number;
         recorder->add(samples[samples.size() - 2].sample, number);
         recorder->add(samples.back().sample, number);
+        hidden.push_back({number, any.hidden()});
+        recorder->add(hidden.back());
         recorder->add(frame.frame);
         if (any.coin()) {
             frame.gpu = any.gpu(number);
@@ -263,6 +281,11 @@ RC_GTEST_PROP(Session, ComesBackBitForBit,
     for (std::size_t i = 0; i < samples.size(); ++i) {
         RC_ASSERT(session.samples[i].frame == samples[i].frame);
         RC_ASSERT(bits_of(session.samples[i].sample) == bits_of(samples[i].sample));
+    }
+    RC_ASSERT(session.hidden.size() == hidden.size());
+    for (std::size_t i = 0; i < hidden.size(); ++i) {
+        RC_ASSERT(session.hidden[i].frame == hidden[i].frame);
+        RC_ASSERT(*session.hidden[i].meshes == *hidden[i].meshes);
     }
     RC_ASSERT(session.frames.size() == frames.size());
     for (std::size_t i = 0; i < frames.size(); ++i) {

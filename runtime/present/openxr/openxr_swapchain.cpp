@@ -8,10 +8,13 @@
 namespace gazeloop::present {
 
 OpenXrSwapchain::OpenXrSwapchain(const render::VulkanContext& context, XrSession session,
-                                 vk::Extent2D extent, vk::Format format)
+                                 vk::Extent2D extent, vk::Format format, SwapchainContent content)
     : extent_(extent) {
     auto info = typed<XrSwapchainCreateInfo>(XR_TYPE_SWAPCHAIN_CREATE_INFO);
-    info.usageFlags = XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_TRANSFER_SRC_BIT;
+    const bool depth = content == SwapchainContent::Depth;
+    info.usageFlags =
+        depth ? XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+              : XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_TRANSFER_SRC_BIT;
     info.format = static_cast<std::int64_t>(format);
     info.sampleCount = 1;
     info.width = extent.width;
@@ -31,7 +34,8 @@ OpenXrSwapchain::OpenXrSwapchain(const render::VulkanContext& context, XrSession
         "xrEnumerateSwapchainImages");
     for (const XrSwapchainImageVulkan2KHR& image : images) {
         images_.emplace_back(image.image);
-        views_.push_back(render::make_color_view(context, image.image, format));
+        views_.push_back(depth ? render::make_depth_view(context, image.image, format)
+                               : render::make_color_view(context, image.image, format));
     }
 }
 
@@ -48,7 +52,7 @@ OpenXrSwapchain::~OpenXrSwapchain() {
     }
 }
 
-render::EyeTarget OpenXrSwapchain::acquire() {
+OpenXrSwapchain::Image OpenXrSwapchain::acquire() {
     std::uint32_t index = 0;
     const auto acquire = typed<XrSwapchainImageAcquireInfo>(XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO);
     xr_check(xrAcquireSwapchainImage(swapchain_, &acquire, &index), "xrAcquireSwapchainImage");

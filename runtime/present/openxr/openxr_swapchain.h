@@ -8,11 +8,14 @@
 
 namespace gazeloop::present {
 
+/// What a swapchain's images hold.
+enum class SwapchainContent { Color, Depth };
+
 /// One eye's swapchain with views of its images.
 class OpenXrSwapchain {
   public:
     OpenXrSwapchain(const render::VulkanContext& context, XrSession session, vk::Extent2D extent,
-                    vk::Format format);
+                    vk::Format format, SwapchainContent content);
     OpenXrSwapchain(OpenXrSwapchain&& other) noexcept;
     OpenXrSwapchain& operator=(OpenXrSwapchain&&) = delete;
     OpenXrSwapchain(const OpenXrSwapchain&) = delete;
@@ -20,7 +23,11 @@ class OpenXrSwapchain {
     ~OpenXrSwapchain();
 
     /// Acquires the next image and waits until the compositor has let go of it.
-    render::EyeTarget acquire();
+    struct Image {
+        vk::Image image;
+        vk::ImageView view;
+    };
+    Image acquire();
     void release();
 
     [[nodiscard]] XrSwapchainSubImage sub_image() const;

@@ -13,6 +13,7 @@
 #include "runtime/error.h"
 #include "runtime/present/openxr/openxr_swapchain.h"
 #include "runtime/present/openxr/runtime_choice.h"
+#include "runtime/present/openxr/visibility_mask.h"
 #include "runtime/present/openxr/xr_check.h"
 
 namespace gazeloop::present {
@@ -46,7 +47,7 @@ std::vector<T> enumerate(const T& blank, const char* what, Enumerate&& call) {
 /// Instance and system; also the factory of the Vulkan objects the runtime asks for.
 class OpenXrInstance final : public render::VulkanFactory {
   public:
-    OpenXrInstance(const RuntimeChoice& choice, bool validation) {
+    OpenXrInstance(const RuntimeChoice& choice, const OpenXrOptions& options) {
         const std::array required{XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME,
                                   XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME};
         const auto offered = enumerate(
@@ -54,10 +55,13 @@ class OpenXrInstance final : public render::VulkanFactory {
             "the OpenXR runtime could not be loaded; check XR_RUNTIME_JSON, run ./dev setup to "
             "build Monado, or use --target headless",
             [](auto... a) { return xrEnumerateInstanceExtensionProperties(nullptr, a...); });
+        const auto offers = [&offered](const char* name) {
+            return std::ranges::any_of(offered, [name](const XrExtensionProperties& extension) {
+                return std::strcmp(extension.extensionName, name) == 0;
+            });
+        };
         for (const char* name : required) {
-            if (std::ranges::none_of(offered, [&](const XrExtensionProperties& extension) {
-                    return std::strcmp(extension.extensionName, name) == 0;
-                })) {
+            if (!offers(name)) {
                 throw SetupError(ExitCode::NoDevice,
                                  fmt::format("the OpenXR runtime {} lacks {}: use another runtime "
                                              "(XR_RUNTIME_JSON) or --target headless",
@@ -70,9 +74,18 @@ class OpenXrInstance final : public render::VulkanFactory {
         info.applicationInfo.applicationVersion = 1;
         info.applicationInfo.engineVersion = 1;
         info.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
-        info.enabledExtensionCount = static_cast<std::uint32_t>(required.size());
-        info.enabledExtensionNames = required.data();
-        if (validation) {
+        std::vector<const char*> enabled(required.begin(), required.end());
+        has_visibility_mask_ = offers(XR_KHR_VISIBILITY_MASK_EXTENSION_NAME);
+        if (has_visibility_mask_) {
+            enabled.push_back(XR_KHR_VISIBILITY_MASK_EXTENSION_NAME);
+        }
+        takes_depth_ = options.depth && offers(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
+        if (takes_depth_) {
+            enabled.push_back(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
+        }
+        info.enabledExtensionCount = static_cast<std::uint32_t>(enabled.size());
+        info.enabledExtensionNames = enabled.data();
+        if (options.validation) {
             info.enabledApiLayerCount = 1;
             info.enabledApiLayerNames = &kCoreValidationLayer;
         }
@@ -82,11 +95,15 @@ class OpenXrInstance final : public render::VulkanFactory {
                              "target.validation is on, but its layer is not installed (Debian: "
                              "openxr-layer-corevalidation)");
         }
-        xr_check(created, fmt::format("the runtime {} did not start; does Vulkan have a driver "
-                                      "(vulkaninfo), and is the runtime's service running? "
-                                      "./dev setup builds an in-process Monado; --target headless "
-                                      "needs no runtime",
-                                      choice.manifest));
+        // Whatever a runtime calls it, before there is an instance nothing can have been lost.
+        if (XR_FAILED(created)) {
+            throw SetupError(
+                ExitCode::NoDevice,
+                fmt::format("OpenXR: the runtime {} did not start ({}): is its service running, "
+                            "and does Vulkan have a driver (vulkaninfo)? ./dev setup builds an "
+                            "in-process Monado; --target headless needs no runtime",
+                            choice.manifest, xr_name(created)));
+        }
         auto properties = typed<XrInstanceProperties>(XR_TYPE_INSTANCE_PROPERTIES);
         xr_check(xrGetInstanceProperties(instance_, &properties), "xrGetInstanceProperties");
         runtime_name_ = fmt::format("{} {}.{}.{}", properties.runtimeName,
@@ -163,6 +180,8 @@ class OpenXrInstance final : public render::VulkanFactory {
     [[nodiscard]] XrSystemId system() const { return system_; }
     [[nodiscard]] const std::string& runtime_name() const { return runtime_name_; }
     [[nodiscard]] const std::string& system_name() const { return system_name_; }
+    [[nodiscard]] bool has_visibility_mask() const { return has_visibility_mask_; }
+    [[nodiscard]] bool takes_depth() const { return takes_depth_; }
 
   private:
     void check_vulkan(VkResult result, std::string_view what) const {
@@ -179,6 +198,8 @@ class OpenXrInstance final : public render::VulkanFactory {
     XrSystemId system_ = XR_NULL_SYSTEM_ID;
     std::string runtime_name_;
     std::string system_name_;
+    bool has_visibility_mask_ = false;
+    bool takes_depth_ = false;
 };
 
 class OpenXrTarget final : public FrameTarget {
@@ -186,7 +207,7 @@ class OpenXrTarget final : public FrameTarget {
     explicit OpenXrTarget(const OpenXrOptions& options)
         : options_(options),
           choice_(choose_runtime(options.display)),
-          instance_(choice_, options.validation),
+          instance_(choice_, options),
           to_timespec_(xr_function<PFN_xrConvertTimeToTimespecTimeKHR>(
               instance_.handle(), "xrConvertTimeToTimespecTimeKHR")),
           from_timespec_(xr_function<PFN_xrConvertTimespecTimeToTimeKHR>(
@@ -219,6 +240,7 @@ class OpenXrTarget final : public FrameTarget {
     OpenXrTarget(const OpenXrTarget&) = delete;
     OpenXrTarget& operator=(const OpenXrTarget&) = delete;
     ~OpenXrTarget() override {
+        depth_swapchains_.clear();
         swapchains_.clear();
         for (const XrSpace space : {view_space_, local_space_}) {
             if (space != XR_NULL_HANDLE) {
@@ -245,14 +267,24 @@ class OpenXrTarget final : public FrameTarget {
         xr_check(xrCreateSession(instance_.handle(), &info, &session_), "xrCreateSession");
         local_space_ = make_space(XR_REFERENCE_SPACE_TYPE_LOCAL);
         view_space_ = make_space(XR_REFERENCE_SPACE_TYPE_VIEW);
-        choose_format();
+        if (instance_.has_visibility_mask()) {
+            visibility_mask_.emplace(instance_.handle());
+            hidden_ = visibility_mask_->query(session_, kStereo);
+        }
+        choose_formats();
         for (const gaze::Eye eye : gaze::kEyes) {
-            swapchains_.emplace_back(context, session_, extents_[gaze::index(eye)], format_);
+            const vk::Extent2D extent = extents_[gaze::index(eye)];
+            swapchains_.emplace_back(context, session_, extent, format_, SwapchainContent::Color);
+            if (depth_format_) {
+                depth_swapchains_.emplace_back(context, session_, extent, *depth_format_,
+                                               SwapchainContent::Depth);
+            }
         }
     }
 
     [[nodiscard]] gaze::PerEye<vk::Extent2D> extents() const override { return extents_; }
     [[nodiscard]] vk::Format format() const override { return format_; }
+    [[nodiscard]] std::optional<vk::Format> depth_format() const override { return depth_format_; }
 
     TargetState poll() override {
         auto event = typed<XrEventDataBuffer>(XR_TYPE_EVENT_DATA_BUFFER);
@@ -329,15 +361,27 @@ class OpenXrTarget final : public FrameTarget {
             head_ = *head;
         }
         frame.views = views_;
+        frame.hidden = hidden_;
         frame.head = head_;
     }
 
     gaze::PerEye<render::EyeTarget> acquire() override {
-        return {swapchains_[0].acquire(), swapchains_[1].acquire()};
+        gaze::PerEye<render::EyeTarget> targets;
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            const OpenXrSwapchain::Image color = swapchains_[e].acquire();
+            targets[e] = {color.image, color.view};
+            if (depth_format_) {
+                const OpenXrSwapchain::Image depth = depth_swapchains_[e].acquire();
+                targets[e].depth_image = depth.image;
+                targets[e].depth_view = depth.view;
+            }
+        }
+        return targets;
     }
 
     void end_frame(const TargetFrame& frame, bool rendered) override {
         std::array<XrCompositionLayerProjectionView, gaze::kEyeCount> layer_views{};
+        std::array<XrCompositionLayerDepthInfoKHR, gaze::kEyeCount> layer_depths{};
         auto layer = typed<XrCompositionLayerProjection>(XR_TYPE_COMPOSITION_LAYER_PROJECTION);
         const XrCompositionLayerBaseHeader* const layers[] = {
             reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer)};
@@ -351,6 +395,18 @@ class OpenXrTarget final : public FrameTarget {
                     static_cast<float>(view.fov.left_rad), static_cast<float>(view.fov.right_rad),
                     static_cast<float>(view.fov.up_rad), static_cast<float>(view.fov.down_rad)};
                 layer_views[e].subImage = swapchains_[e].sub_image();
+                if (!depth_format_) {
+                    continue;
+                }
+                depth_swapchains_[e].release();
+                if (frame.depth) {
+                    layer_depths[e].type = XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR;
+                    layer_depths[e].subImage = depth_swapchains_[e].sub_image();
+                    layer_depths[e].maxDepth = 1.0F;
+                    layer_depths[e].nearZ = frame.depth->near_m;
+                    layer_depths[e].farZ = frame.depth->far_m;
+                    layer_views[e].next = &layer_depths[e];
+                }
             }
             layer.space = local_space_;
             layer.viewCount = static_cast<std::uint32_t>(layer_views.size());
@@ -404,11 +460,18 @@ class OpenXrTarget final : public FrameTarget {
         return space;
     }
 
-    /// Formats that encode sRGB by themselves first; among them the runtime's preference.
-    void choose_format() {
+    /// Formats that encode sRGB by themselves first; among them the runtime's preference. Of depth,
+    /// the most exact one that has no stencil.
+    void choose_formats() {
         const auto formats =
             enumerate(std::int64_t{0}, "xrEnumerateSwapchainFormats",
                       [&](auto... a) { return xrEnumerateSwapchainFormats(session_, a...); });
+        for (const vk::Format wanted : {vk::Format::eD16Unorm, vk::Format::eD32Sfloat}) {
+            if (instance_.takes_depth() &&
+                std::ranges::find(formats, static_cast<std::int64_t>(wanted)) != formats.end()) {
+                depth_format_ = wanted;
+            }
+        }
         for (const auto& wanted :
              {std::array{vk::Format::eR8G8B8A8Srgb, vk::Format::eB8G8R8A8Srgb},
               std::array{vk::Format::eR8G8B8A8Unorm, vk::Format::eB8G8R8A8Unorm}}) {
@@ -434,6 +497,10 @@ class OpenXrTarget final : public FrameTarget {
         }
         if (event.type == XR_TYPE_EVENT_DATA_EVENTS_LOST) {
             events_.emplace_back("OpenXR events were lost");
+        }
+        if (event.type == XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR && visibility_mask_) {
+            hidden_ = visibility_mask_->query(session_, kStereo);
+            events_.emplace_back("visibility mask changed");
         }
         if (event.type != XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) {
             return;
@@ -496,9 +563,13 @@ class OpenXrTarget final : public FrameTarget {
     gaze::PerEye<vk::Extent2D> extents_;
     vk::Format format_ = vk::Format::eUndefined;
     std::vector<OpenXrSwapchain> swapchains_;
+    std::optional<vk::Format> depth_format_;
+    std::vector<OpenXrSwapchain> depth_swapchains_;  ///< none without a depth format
     XrTime display_time_ = 0;
     gaze::Pose head_;
     gaze::StereoView views_;
+    std::optional<VisibilityMask> visibility_mask_;
+    gaze::HiddenMeshes hidden_;
     std::vector<std::string> events_;
     bool session_running_ = false;
     bool exit_requested_ = false;

@@ -11,6 +11,8 @@ struct OpenXrOptions {
     DisplayProfile display;   ///< what the simulated display is set to, where we simulate it
     double scale = 1.0;       ///< of the runtime's recommended size
     bool validation = false;  ///< the core validation layer; its findings go to the log
+    /// Give depth images along, where the runtime takes them (XR_KHR_composition_layer_depth).
+    bool depth = false;
 };
 
 /// A stereo session: vulkan_enable2, one swapchain an eye, a projection layer in LOCAL space.

@@ -24,8 +24,12 @@ XrResult xr_check(XrResult result, std::string_view what) {
     }
     const bool lost = result == XR_ERROR_INSTANCE_LOST || result == XR_ERROR_SESSION_LOST ||
                       result == XR_ERROR_RUNTIME_FAILURE;
-    throw SetupError(lost ? ExitCode::SessionLost : ExitCode::NoDevice,
-                     fmt::format("OpenXR: {}: {}", what, xr_name(result)));
+    throw SetupError(
+        lost ? ExitCode::SessionLost : ExitCode::NoDevice,
+        lost ? fmt::format("OpenXR: the runtime failed, or its service is gone ({}: {}); "
+                           "start it and run again",
+                           what, xr_name(result))
+             : fmt::format("OpenXR: {}: {}", what, xr_name(result)));
 }
 
 gaze::Pose from_xr(const XrPosef& pose) {

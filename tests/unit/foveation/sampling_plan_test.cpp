@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/unit/foveation/masks.h"
+
 namespace gazeloop::foveation {
 namespace {
 
@@ -18,26 +20,37 @@ struct Case {
     KfrParameters parameters;
     ImageSize image;
     gaze::PixelPosition fovea;
+    gaze::HiddenMesh mask{};
 };
 
 void PrintTo(const Case& at, std::ostream* out) { *out << at.name; }
 
+HiddenArea hidden_of(const Case& at) {
+    return {at.mask, tests::square_view(at.image.width_px, at.image.height_px)};
+}
+
 SamplingPlan plan_of(const Case& at) {
     SamplingPlan plan;
+    const HiddenArea hidden = hidden_of(at);
     plan_kfr(at.parameters, value_or_throw(lp_buffer_size(at.parameters, at.image)), at.image,
-             at.fovea, plan);
+             at.fovea, plan, at.mask.empty() ? nullptr : &hidden);
     return plan;
 }
 
-/// Texels that the bilinear read of some pixel outside the disc's core touches with some weight.
+/// Texels that the bilinear read of some visible pixel outside the disc's core touches with some
+/// weight.
 std::vector<bool> read_texels(const Case& at, const SamplingPlan& plan) {
     const LogPolarMap map(at.parameters.kernel, at.image, at.fovea);
+    const std::vector<bool> visible = tests::visible_pixels(hidden_of(at), at.image);
     std::vector<bool> read(std::size_t{plan.lp.width} * plan.lp.height, false);
     for (std::uint32_t y = 0; y < at.image.height_px; ++y) {
         for (std::uint32_t x = 0; x < at.image.width_px; ++x) {
             const double dx = x + 0.5 - at.fovea.x_px;
             const double dy = y + 0.5 - at.fovea.y_px;
             const double r = std::hypot(dx, dy);
+            if (!visible[std::size_t{y} * at.image.width_px + x]) {
+                continue;
+            }
             if (plan.disc_radius_px > 0.0 && r <= plan.disc_radius_px - plan.disc_border_px) {
                 continue;
             }
@@ -99,7 +112,9 @@ TEST_P(SamplingPlans, ShadeWhatIsReadAndLittleElse) {
         covered += static_cast<std::uint64_t>(shaded[i]);
     }
     EXPECT_EQ(covered, plan.texels_shaded);
-    EXPECT_EQ(plan.texels_shaded + plan.texels_off_screen + plan.texels_under_disc, read.size());
+    EXPECT_EQ(
+        plan.texels_shaded + plan.texels_off_screen + plan.texels_under_disc + plan.texels_hidden,
+        read.size());
     // Where the buffer is finer than the picture (near the fovea) texels between the read ones are
     // shaded too; elsewhere only the bands' steps are.
     if (plan.disc_radius_px > 0.0 && plan.lp.width > 100) {
@@ -107,9 +122,10 @@ TEST_P(SamplingPlans, ShadeWhatIsReadAndLittleElse) {
     }
 }
 
-TEST_P(SamplingPlans, DiscHoldsEveryPixelWithinItsRadiusOnce) {
+TEST_P(SamplingPlans, DiscHoldsEveryVisiblePixelWithinItsRadiusOnce) {
     const Case& at = GetParam();
     const SamplingPlan plan = plan_of(at);
+    const std::vector<bool> visible = tests::visible_pixels(hidden_of(at), at.image);
     const std::vector<int> direct =
         cells_drawn(plan.disc_bands, plan.disc_tiles, at.image.width_px, at.image.height_px);
     EXPECT_EQ(plan.pixels_direct,
@@ -119,7 +135,9 @@ TEST_P(SamplingPlans, DiscHoldsEveryPixelWithinItsRadiusOnce) {
             const double r = std::hypot(x + 0.5 - at.fovea.x_px, y + 0.5 - at.fovea.y_px);
             const int count = direct[std::size_t{y} * at.image.width_px + x];
             ASSERT_LE(count, 1);
-            if (r < plan.disc_radius_px - 1e-9) {
+            if (!visible[std::size_t{y} * at.image.width_px + x]) {
+                ASSERT_EQ(count, 0) << x << ' ' << y;
+            } else if (r < plan.disc_radius_px - 1e-9) {
                 ASSERT_EQ(count, 1) << x << ' ' << y;
             }
         }
@@ -146,6 +164,43 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"no_border", {.kernel = {4}, .border_px = 0}, {320, 240}, {160, 120}},
                     Case{"flat", {.sigma = 1, .kernel = {4}}, {700, 4}, {350, 2}}),
     [](const auto& instance) { return instance.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Masks, SamplingPlans,
+    testing::Values(
+        Case{"octagon", {.kernel = {4}}, {320, 240}, {160, 120}, tests::cut_corners(0.125)},
+        Case{"octagon_from_a_corner", {.kernel = {4}}, {320, 240}, {5, 7}, tests::cut_corners(0.3)},
+        Case{"ellipse", {.kernel = {4}}, {320, 240}, {150, 100}, tests::outside_ellipse(0.9, 64)},
+        Case{"ellipse_seen_from_outside",
+             {.kernel = {4}},
+             {320, 240},
+             {-80, 300},
+             tests::outside_ellipse(0.8, 64)},
+        Case{"ellipse_no_disc",
+             {.kernel = {1}, .disc = false},
+             {320, 240},
+             {100, 180},
+             tests::outside_ellipse(0.95, 24)},
+        Case{"small_hole", {.kernel = {4}}, {320, 240}, {20, 20}, tests::outside_ellipse(0.1, 32)},
+        Case{"left_half", {.kernel = {4}}, {320, 240}, {40, 120}, tests::left_of(0.0)}),
+    [](const auto& instance) { return instance.param.name; });
+
+TEST(SamplingPlan, LeavesOutWhatOnlyHiddenPixelsRead) {
+    const KfrParameters kfr{.sigma = 1.8, .kernel = {4}};
+    const Case open{"", kfr, {1280, 1440}, {640, 720}};
+    Case masked = open;
+    masked.mask = tests::outside_ellipse(1.0, 64);
+    const SamplingPlan whole = plan_of(open);
+    const SamplingPlan plan = plan_of(masked);
+    EXPECT_EQ(whole.texels_hidden, 0U);
+    EXPECT_EQ(plan.texels_off_screen, whole.texels_off_screen);
+    EXPECT_EQ(plan.texels_shaded + plan.texels_hidden, whole.texels_shaded);
+    // The corners are 21.5 % of the pixels, and the texels out there are few.
+    const double share =
+        static_cast<double>(plan.texels_hidden) / static_cast<double>(whole.texels_shaded);
+    EXPECT_GT(share, 0.05);
+    EXPECT_LT(share, 0.215);
+}
 
 // Figures of a prototype and of the reference, variant B, alpha 4, sigma 1.8, without disc.
 TEST(SamplingPlan, CountsTheTexelsOnScreen) {

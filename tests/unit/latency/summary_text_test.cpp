@@ -120,6 +120,23 @@ TEST(SummaryText, UnknownIsNeverZero) {
     EXPECT_THAT(text, HasSubstr("switching time is unknown"));
 }
 
+TEST(SummaryText, SaysWhatWasHiddenOnlyWhereThereIsAMask) {
+    const auto text_with = [](std::uint64_t texels_hidden, std::uint64_t pixels_hidden) {
+        LatencySummary summary({.period_ns = 10'000'000});
+        FrameRecord frame = example_frame(0);
+        frame.samples.texels_hidden = texels_hidden;
+        frame.samples.pixels_hidden = pixels_hidden;
+        summary.add(frame);
+        return summary_text(summary.report());
+    };
+    EXPECT_THAT(text_with(0, 0), testing::Not(HasSubstr("hidden")));
+    const std::string masked = text_with(70, 400);
+    EXPECT_THAT(masked, HasSubstr("under the disc 50, hidden 70\n"));
+    EXPECT_THAT(masked, HasSubstr("shaded directly 200 of 3400, hidden 400\n"));
+    // Full resolution would leave them out as well: 3000 over 1000, not 3400.
+    EXPECT_THAT(masked, HasSubstr("3.0x fewer samples"));
+}
+
 TEST(SummaryText, NeverExceedsItsWidth) {
     LatencySummary summary({.period_ns = std::numeric_limits<std::int64_t>::max()});
     for (std::uint64_t index = 0; index < 20; ++index) {

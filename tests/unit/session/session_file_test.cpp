@@ -136,6 +136,39 @@ TEST_F(ReadSession, IgnoresColumnsAndTablesThatItDoesNotKnow) {
     EXPECT_EQ(error(), "no error");
 }
 
+// As it was written before there were masks.
+TEST_F(ReadSession, ReadsFilesThatKnowOfNothingHidden) {
+    record();
+    change("ALTER TABLE frame DROP COLUMN texels_hidden; DROP TABLE hidden_area");
+    change("ALTER TABLE frame DROP COLUMN pixels_hidden");
+    const Expected<SessionFile> session = read_session(file);
+    ASSERT_TRUE(session.has_value()) << session.error().message;
+    EXPECT_TRUE(session->hidden.empty());
+    EXPECT_EQ(session->frames[1].frame.samples, latency::example_frame(1).samples);
+    EXPECT_EQ(session->frames[1].gpu.gpu_end, latency::example_gpu(1).gpu_end);
+}
+
+TEST_F(ReadSession, KnowsWhatWasHiddenFromWhichFrameOn) {
+    const gaze::HiddenTriangle triangle{{glm::dvec2{1, 2}, glm::dvec2{3, 4}, glm::dvec2{5, 6}}};
+    const auto meshes = std::make_shared<const gaze::PerEye<gaze::HiddenMesh>>(
+        gaze::PerEye<gaze::HiddenMesh>{gaze::HiddenMesh{}, gaze::HiddenMesh{triangle, triangle}});
+    {
+        const auto recorder = value_or_throw(SessionRecorder::create(file, {}));
+        recorder->add(gaze::HiddenChange{3, meshes});
+        recorder->add(gaze::HiddenChange{8, nullptr});
+        EXPECT_TRUE(recorder->close().complete());
+    }
+    const Expected<SessionFile> session = read_session(file);
+    ASSERT_TRUE(session.has_value()) << session.error().message;
+    ASSERT_EQ(session->hidden.size(), 2U);
+    EXPECT_EQ(session->hidden[0].frame, 3U);
+    EXPECT_EQ(*session->hidden[0].meshes, *meshes);
+    EXPECT_EQ(session->hidden[1].frame, 8U);
+    EXPECT_TRUE((*session->hidden[1].meshes)[1].empty());
+    change("UPDATE hidden_area SET frame = 1 WHERE frame = 8");
+    EXPECT_THAT(error(), HasSubstr("table hidden_area, row 3: is of an earlier frame"));
+}
+
 TEST_F(ReadSession, NamesTableRowAndColumnOfAWrongType) {
     record();
     loosen("frame");

@@ -1,0 +1,133 @@
+// Depth images on their way to a real runtime, filled by a clear, validation on.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include "runtime/error.h"
+#include "runtime/present/openxr/openxr_target.h"
+#include "runtime/render/gpu_memory.h"
+#include "tests/support/run_program.h"
+
+namespace gazeloop::present {
+namespace {
+
+using Layout = vk::ImageLayout;
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
+void clear(const render::VulkanContext& context, const render::EyeTarget& target,
+           vk::Extent2D extent) {
+    const vk::raii::Device& device = context.device();
+    const vk::raii::CommandPool pool(device, vk::CommandPoolCreateInfo({}, context.queue_family()));
+    const vk::raii::CommandBuffers buffers(
+        device, vk::CommandBufferAllocateInfo(*pool, vk::CommandBufferLevel::ePrimary, 1));
+    const vk::raii::CommandBuffer& commands = buffers[0];
+    commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+    const auto color_barrier =
+        render::image_barrier(target.image, Layout::eUndefined, Layout::eColorAttachmentOptimal,
+                              Stage::eColorAttachmentOutput, Access::eNone,
+                              Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    auto depth_barrier = color_barrier;
+    constexpr auto kTests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+    depth_barrier.setImage(target.depth_image)
+        .setNewLayout(Layout::eDepthStencilAttachmentOptimal)
+        .setSrcStageMask(kTests)
+        .setDstStageMask(kTests)
+        .setDstAccessMask(Access::eDepthStencilAttachmentWrite)
+        .setSubresourceRange({vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1});
+    const std::array barriers{color_barrier, depth_barrier};
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barriers));
+    const vk::RenderingAttachmentInfo color(target.view, Layout::eColorAttachmentOptimal, {}, {},
+                                            {}, vk::AttachmentLoadOp::eClear,
+                                            vk::AttachmentStoreOp::eStore);
+    const vk::RenderingAttachmentInfo depth(
+        target.depth_view, Layout::eDepthStencilAttachmentOptimal, {}, {}, {},
+        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+        vk::ClearValue(vk::ClearDepthStencilValue(0.5F, 0)));
+    commands.beginRendering(vk::RenderingInfo({}, vk::Rect2D({0, 0}, extent), 1, 0, color, &depth));
+    commands.endRendering();
+    commands.end();
+    const vk::CommandBufferSubmitInfo info(*commands);
+    context.queue().submit2(vk::SubmitInfo2({}, {}, info));
+    device.waitIdle();
+}
+
+/// Frames until `rendered` of them were asked for and drawn.
+void present_frames(FrameTarget& target, const render::VulkanContext& context, int rendered,
+                    std::optional<DepthRange> depth) {
+    TargetFrame frame;
+    int left = rendered;
+    for (;;) {
+        const TargetState state = target.poll();
+        if (state == TargetState::Ended) {
+            return;
+        }
+        if (state == TargetState::Idle) {
+            continue;
+        }
+        frame.depth = depth;
+        target.wait_frame(frame);
+        target.begin_frame();
+        target.locate(frame);
+        const bool draw = frame.should_render && left > 0;
+        if (draw) {
+            const gaze::PerEye<render::EyeTarget> images = target.acquire();
+            for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+                clear(context, images[e], target.extents()[e]);
+            }
+            --left;
+        }
+        target.end_frame(frame, draw);
+        if (left == 0) {
+            target.request_exit();
+        }
+    }
+}
+
+class DepthLayer : public testing::Test {
+  protected:
+    void run(std::optional<DepthRange> depth) {
+        const std::string log = scratch_.file("validation.txt");
+        setenv("XR_CORE_VALIDATION_EXPORT_TYPE", "text", 1);
+        setenv("XR_CORE_VALIDATION_FILE_NAME", log.c_str(), 1);
+        DisplayProfile display;
+        display.fov = {gaze::FieldOfView{-0.8, 0.7, 0.7, -0.7}, {-0.7, 0.8, 0.7, -0.7}};
+        display.width_px = 64;
+        display.height_px = 48;
+        display.refresh_hz = 200.0;
+        {
+            std::optional<render::VulkanContext> context;  // outlives the target
+            const auto target =
+                make_openxr_target({.display = display, .validation = true, .depth = true});
+            context.emplace(render::VulkanOptions{.validation = true, .device = ""},
+                            target->vulkan_factory());
+            target->start(*context);
+            ASSERT_EQ(target->depth_format(), vk::Format::eD32Sfloat);
+            present_frames(*target, *context, 3, depth);
+            EXPECT_EQ(context->validation_messages(), 0U);
+        }
+        std::ifstream file(log);
+        for (std::string line; std::getline(file, line);) {
+            EXPECT_EQ(line.find("VUID"), std::string::npos) << line;
+        }
+    }
+
+    tests::ScratchFolder scratch_;
+};
+
+TEST_F(DepthLayer, IsTakenByTheRuntime) { run(DepthRange{0.1F, 100.0F}); }
+
+TEST_F(DepthLayer, MayBeReversedAndEndless) {
+    run(DepthRange{std::numeric_limits<float>::infinity(), 0.1F});
+}
+
+// The runtime looks at it: a range that is none is refused.
+TEST_F(DepthLayer, ReachesTheRuntime) { EXPECT_THROW(run(DepthRange{1.0F, 1.0F}), SetupError); }
+
+TEST_F(DepthLayer, IsLeftOutWhereNobodyFilledIt) { run(std::nullopt); }
+
+}  // namespace
+}  // namespace gazeloop::present
