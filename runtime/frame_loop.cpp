@@ -65,8 +65,8 @@ class FrameLoop {
         if (ending_) {
             return;
         }
-        if (options_.stop && options_.stop()) {
-            end(LoopEnd::Interrupted);
+        if (const auto why = options_.stop ? options_.stop() : std::nullopt) {
+            end(*why);
         } else if ((options_.frames && result_.frames >= *options_.frames) ||
                    (options_.seconds && time_is_up())) {
             end(LoopEnd::Limit);
@@ -202,6 +202,9 @@ class FrameLoop {
         request.hidden = hidden_areas_;
         record.samples = parts_.renderer.render(request);
         record.stamps.submit = timeline_->now();
+        for (FrameObserver* const observer : parts_.observers) {
+            observer->on_rendered(request);
+        }
     }
 
     /// Frames overlap on the GPU only while it keeps up with the display: behind a backlog the gaze

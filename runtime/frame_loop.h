@@ -19,7 +19,8 @@ namespace gazeloop {
 enum class LoopEnd {
     Limit,        ///< the asked number of frames or seconds
     SourceEnd,    ///< the trace or the recorded session is over
-    Interrupted,  ///< stop() said so
+    Interrupted,  ///< by a signal
+    Closed,       ///< its window was closed
     TargetEnd,    ///< the runtime wanted it
 };
 
@@ -27,8 +28,8 @@ struct LoopOptions {
     std::optional<std::uint64_t> frames;
     std::optional<double> seconds;  ///< of the time line, from its start
     bool end_with_source = false;
-    bool hidden_area = true;     ///< leave out what no eye sees
-    std::function<bool()> stop;  ///< asked once a frame
+    bool hidden_area = true;                       ///< leave out what no eye sees
+    std::function<std::optional<LoopEnd>()> stop;  ///< asked once a frame: is it to end, and why
 };
 
 struct LoopResult {

@@ -6,6 +6,10 @@
 #include "runtime/gaze/hidden_mesh.h"
 #include "runtime/latency/frame_record.h"
 
+namespace gazeloop::render {
+struct FrameRequest;
+}  // namespace gazeloop::render
+
 namespace gazeloop {
 
 /// Is told what the loop does, on the loop's thread: must not block and, in steady state, not
@@ -21,6 +25,10 @@ class FrameObserver {
     virtual void on_sample(const gaze::GazeSample&, std::uint64_t /*frame*/) {}
     /// From the frame on, its pictures leave out these parts.
     virtual void on_hidden(const gaze::HiddenChange&) {}
+    /// A frame whose passes have been submitted. Its pictures still belong to the loop and lie in
+    /// COLOR_ATTACHMENT_OPTIMAL; who reads them submits that to the context's queue, here, and
+    /// leaves them as they are.
+    virtual void on_rendered(const render::FrameRequest&) {}
     /// A frame that was handed to the target.
     virtual void on_frame(const latency::FrameRecord&) {}
     /// The GPU has finished a frame.

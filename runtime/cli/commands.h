@@ -17,5 +17,8 @@ void add_replay_command(CLI::App& program, const std::string& command_line, Acti
 void add_report_command(CLI::App& program, Action& action);
 void add_plan_command(CLI::App& program, Action& action);
 void add_simulate_command(CLI::App& program, Action& action);
+void add_doctor_command(CLI::App& program, Action& action);
+/// Hidden: what --preview starts.
+void add_preview_window_command(CLI::App& program, Action& action);
 
 }  // namespace gazeloop::cli

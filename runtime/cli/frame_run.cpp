@@ -23,6 +23,8 @@
 #include "runtime/latency/summary_text.h"
 #include "runtime/present/headless_target.h"
 #include "runtime/present/openxr/openxr_target.h"
+#include "runtime/preview/preview_feed.h"
+#include "runtime/preview/window_process.h"
 #include "runtime/render/snapshot.h"
 #include "runtime/session/session_recorder.h"
 
@@ -182,6 +184,8 @@ std::string_view end_text(LoopEnd end) {
             return "gaze source ended";
         case LoopEnd::Interrupted:
             return "interrupted";
+        case LoopEnd::Closed:
+            return "the preview was closed";
         case LoopEnd::TargetEnd:
             return "ended by the runtime";
     }
@@ -201,6 +205,9 @@ class FrameRun {
         }
         if (request_.snapshot) {
             value_or_throw(render::make_snapshot_folder(*request_.snapshot));
+        }
+        if (request_.preview_eyes != 0) {
+            window_ = std::make_unique<preview::WindowProcess>(request_.preview_eyes);
         }
         target_ = make_target(request_, display_);
         context_ = std::make_unique<render::VulkanContext>(
@@ -226,6 +233,8 @@ class FrameRun {
 
         latency::LatencySummary summary(summary_config(display_, loop_clock()));
         run_loop(renderer, summary);
+        preview_.reset();
+        window_.reset();
         finish(summary);
         return code_;
     }
@@ -353,8 +362,12 @@ class FrameRun {
         if (check_) {
             parts.observers.push_back(&*check_);
         }
+        open_preview(renderer);
+        if (preview_ != nullptr) {
+            parts.observers.push_back(preview_.get());
+        }
         LoopOptions options = request_.loop;
-        options.stop = interrupted;
+        options.stop = [this] { return why_stop(); };
         options.hidden_area = values_.render.hidden_area;
         try {
             result_ = run_frame_loop(parts, options);
@@ -362,6 +375,10 @@ class FrameRun {
                 code_ = ExitCode::Interrupted;
             }
             spdlog::info("{} frames, {}", result_.frames, end_text(result_.end));
+            if (preview_ != nullptr) {
+                spdlog::info("preview: {} frames shown, {} dropped", preview_->frames_shown(),
+                             preview_->frames_dropped());
+            }
             compare_with_profile();
             if (recorder_ != nullptr) {
                 recorder_->event(latency::measured_now(), "gpu-clock",
@@ -376,6 +393,38 @@ class FrameRun {
         } catch (const vk::SystemError& error) {
             fail(ExitCode::SessionLost, fmt::format("Vulkan failed ({})", error.what()));
         }
+    }
+
+    void open_preview(const render::FrameRenderer& renderer) {
+        if (window_ == nullptr) {
+            return;
+        }
+        preview_ = std::make_unique<preview::PreviewFeed>(
+            *context_,
+            preview::PreviewFeed::Options{
+                .extents = config_.extents,
+                .format = config_.format,
+                .switching_ns = display_.switching_ns,
+                .ring_radius_px =
+                    [&renderer](gaze::Eye eye) { return renderer.last_plan(eye).disc_radius_px; }},
+            window_->memory());
+    }
+
+    /// A preview that breaks is no reason to end: the headset is what counts.
+    [[nodiscard]] std::optional<LoopEnd> why_stop() {
+        if (interrupted()) {
+            return LoopEnd::Interrupted;
+        }
+        if (window_ == nullptr || window_broken_) {
+            return std::nullopt;
+        }
+        const preview::WindowState state = window_->state();
+        if (state == preview::WindowState::Broken) {
+            window_broken_ = true;
+            spdlog::warn("the preview's window broke (the display went away?): the run goes on");
+        }
+        return state == preview::WindowState::Closed ? std::optional(LoopEnd::Closed)
+                                                     : std::nullopt;
     }
 
     /// The runtime's display counts; the profile then supplies only what the runtime cannot say.
@@ -489,6 +538,9 @@ class FrameRun {
     // The target's swapchains live on the context's device: they go first.
     std::unique_ptr<render::VulkanContext> context_;
     std::unique_ptr<present::FrameTarget> target_;
+    std::unique_ptr<preview::WindowProcess> window_;
+    std::unique_ptr<preview::PreviewFeed> preview_;  // writes into the window's memory
+    bool window_broken_ = false;
     render::RendererConfig config_;
     std::unique_ptr<session::SessionRecorder> recorder_;
     std::unique_ptr<Recording> recording_;

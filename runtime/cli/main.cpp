@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <clocale>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -37,10 +38,12 @@ std::optional<std::string> unknown_command(const CLI::App& program, int count, c
     }
     std::vector<std::string> known;
     for (const CLI::App* const command : program.get_subcommands({})) {
-        known.push_back(command->get_name());
-    }
-    if (std::ranges::find(known, arguments[1]) != known.end()) {
-        return std::nullopt;
+        if (command->get_name() == arguments[1]) {
+            return std::nullopt;
+        }
+        if (!command->get_group().empty()) {  // what has none is the program's own
+            known.push_back(command->get_name());
+        }
     }
     return gazeloop::cli::unknown_name("command", arguments[1], known);
 }
@@ -54,6 +57,10 @@ int gazeloop_main(int count, char** arguments) {
     std::signal(SIGXFSZ, SIG_IGN);
     gazeloop::cli::catch_interrupts();
 
+    // Numbers are read and written with points, whatever the environment or a preloaded library
+    // says.
+    std::setlocale(LC_ALL, "C");
+
     CLI::App program("An eye-tracked HMD runtime with a gaze-contingent frame loop", "gazeloop");
     program.set_version_flag("--version", fmt::format("gazeloop {}", gazeloop::cli::kVersion));
     program.require_subcommand(1);
@@ -64,6 +71,8 @@ int gazeloop_main(int count, char** arguments) {
     gazeloop::cli::add_report_command(program, action);
     gazeloop::cli::add_plan_command(program, action);
     gazeloop::cli::add_simulate_command(program, action);
+    gazeloop::cli::add_doctor_command(program, action);
+    gazeloop::cli::add_preview_window_command(program, action);
     if (const auto refusal = unknown_command(program, count, arguments)) {
         spdlog::error("{}", *refusal);
         return code(ExitCode::Usage);

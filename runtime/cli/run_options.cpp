@@ -5,15 +5,37 @@
 
 #include <charconv>
 
+#include "runtime/preview/preview_memory.h"
+#include "runtime/preview/preview_window.h"
+
 namespace gazeloop::cli {
 
 namespace {
+
+/// 0: there is no such eye.
+std::uint32_t eyes_named(std::string_view text) {
+    if (text.empty() || text == "both") {
+        return preview::kBothEyes;
+    }
+    if (text == "left") {
+        return preview::kLeftEye;
+    }
+    return text == "right" ? preview::kRightEye : 0;
+}
 
 const CLI::Validator kNotEmpty(
     [](const std::string& text) {
         return text.empty() ? std::string("a name is needed") : std::string();
     },
     "", "NOT_EMPTY");
+
+const CLI::Validator kEyes(
+    [](const std::string& text) {
+        return text.empty() || eyes_named(text) != 0
+                   ? std::string()
+                   : fmt::format("'{}' must be left, right or both", text);
+    },
+    "", "");
 
 }  // namespace
 
@@ -62,6 +84,13 @@ void RunOptions::add_to(CLI::App& command) {
     command.add_option("--json", json, "write the summary as JSON; - is stdout")
         ->type_name("FILE")
         ->check(kNotEmpty);
+    command
+        .add_option("--preview", preview,
+                    fmt::format("show the result in a window: left, right or both eyes. Keys: {}",
+                                preview::kWindowKeys))
+        ->type_name("[left|right|both]")
+        ->expected(0, 1)
+        ->check(kEyes);
 }
 
 void RunOptions::add_settings_to(CLI::App& command) {
@@ -123,6 +152,7 @@ void RunOptions::fill(FrameRunRequest& request) const {
     request.record = path(record);
     request.snapshot = path(snapshot);
     request.json = path(json);
+    request.preview_eyes = preview ? eyes_named(*preview) : 0;
     request.mark_fovea = mark_fovea;
     request.hash = hash;
     request.quiet = log.quiet;

@@ -50,6 +50,7 @@ struct RunOptions {
     std::string record;
     std::string snapshot;
     std::string json;
+    std::optional<std::string> preview;  ///< eyes, if asked for
     bool mark_fovea = false;
     bool hash = false;
     bool print_config = false;

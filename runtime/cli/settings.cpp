@@ -4,11 +4,17 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
+#include <initializer_list>
 #include <limits>
 #include <optional>
+#include <sstream>
+#include <type_traits>
 
 #include "runtime/cli/nearest_name.h"
 #include "runtime/cli/profiles.h"
@@ -23,15 +29,23 @@
 namespace gazeloop::cli {
 namespace {
 
+/// A number written in full; an error says what the text is instead.
 template <typename T>
-std::optional<T> parse_number(std::string_view text) {
+std::expected<T, std::string_view> parse_number(std::string_view text) {
     T value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) {
-        return std::nullopt;
+    if (end != text.data() + text.size() || error == std::errc::invalid_argument) {
+        return std::unexpected(std::is_integral_v<T> ? "not a whole number" : "not a number");
+    }
+    if (error != std::errc{}) {
+        return std::unexpected("too large or too small a number");
     }
     return value;
 }
+
+/// In the order of Settings::Written.
+constexpr std::array<std::string_view, 6> kWrittenNames{
+    "a bare word", "a text", "a number", "a whole number", "true or false", "a table"};
 
 template <std::size_t N>
 std::vector<std::string> names(const std::array<std::string_view, N>& views) {
@@ -43,41 +57,61 @@ std::unexpected<Error> refuse(std::string_view origin, std::string message) {
         Error{ExitCode::Usage, fmt::format("{}: {}", origin, std::move(message))});
 }
 
-std::string scalar_text(const toml::node& node) {
+/// One line of a TOML file.
+struct Assignment {
+    std::string key;
+    std::string text;
+    Settings::Written written = Settings::Written::Bare;
+    toml::source_index line = 0;
+};
+
+std::optional<Assignment> assignment(std::string key, const toml::node& node) {
+    using Written = Settings::Written;
+    const toml::source_index line = node.source().begin.line;
     if (const auto text = node.value_exact<std::string>()) {
-        return *text;
+        return Assignment{std::move(key), *text, Written::Text, line};
     }
     if (const auto whole = node.value_exact<std::int64_t>()) {
-        return fmt::format("{}", *whole);
+        return Assignment{std::move(key), fmt::format("{}", *whole), Written::Whole, line};
     }
     if (const auto number = node.value_exact<double>()) {
-        return fmt::format("{}", *number);
+        return Assignment{std::move(key), fmt::format("{}", *number), Written::Number, line};
     }
     if (const auto flag = node.value_exact<bool>()) {
-        return *flag ? "true" : "false";
+        return Assignment{std::move(key), *flag ? "true" : "false", Written::Flag, line};
     }
-    return "";
+    return std::nullopt;
 }
 
-Expected<void> load_table(Settings& settings, const toml::table& table, const std::string& prefix,
-                          const std::string& file) {
+/// A table's lines with their full keys. A table without any is a line of its own, so that a
+/// misspelt one is noticed.
+Expected<void> flatten(const toml::table& table, const std::string& prefix, const std::string& file,
+                       std::vector<Assignment>& lines) {
     for (const auto& [name, node] : table) {
         const std::string key = prefix + std::string(name.str());
         if (const toml::table* const inner = node.as_table()) {
-            if (auto loaded = load_table(settings, *inner, key + ".", file); !loaded) {
-                return loaded;
+            if (inner->empty()) {
+                lines.push_back({key, "", Settings::Written::Group, node.source().begin.line});
+            } else if (auto flat = flatten(*inner, key + ".", file, lines); !flat) {
+                return flat;
             }
             continue;
         }
-        const std::string origin = fmt::format("{}:{}", file, node.source().begin.line);
-        if (node.is_array() || node.is_date() || node.is_time() || node.is_date_time()) {
-            return refuse(origin, fmt::format("{}: one value is expected", key));
+        auto line = assignment(key, node);
+        if (!line) {
+            return refuse(fmt::format("{}:{}", file, node.source().begin.line),
+                          fmt::format("{}: one value is expected", key));
         }
-        if (auto set = settings.set(key, scalar_text(node), origin); !set) {
-            return set;
-        }
+        lines.push_back(std::move(*line));
     }
     return {};
+}
+
+/// As TOML writes it.
+std::string quoted(const std::string& text) {
+    std::ostringstream out;
+    out << toml::value(text);
+    return out.str();
 }
 
 }  // namespace
@@ -176,33 +210,63 @@ std::vector<std::string> Settings::keys() const {
 }
 
 Expected<void> Settings::set(std::string_view key, std::string_view text, std::string_view origin) {
+    return assign(key, text, Written::Bare, origin);
+}
+
+Expected<void> Settings::assign(std::string_view key, std::string_view text, Written written,
+                                std::string_view origin) {
     const auto entry = std::ranges::find(entries_, key, &Entry::key);
     if (entry == entries_.end()) {
-        return refuse(origin, unknown_name("key", key, keys()));
+        const bool group =
+            written == Written::Group && std::ranges::any_of(entries_, [&](const Entry& one) {
+                return one.key.starts_with(std::string(key) + ".");
+            });
+        return group ? Expected<void>{} : refuse(origin, unknown_name("key", key, keys()));
     }
+    const auto wrong_kind = [&](std::string_view wanted) {
+        return refuse(origin, fmt::format("{}: {} is expected, this is {}", key, wanted,
+                                          kWrittenNames[static_cast<std::size_t>(written)]));
+    };
+    const auto out_of_range = [&](auto least, auto greatest) {
+        return refuse(origin,
+                      fmt::format("{} = {}: must lie in [{}, {}]", key, text, least, greatest));
+    };
+    const auto malformed = [&](std::string_view why) {
+        return refuse(origin, fmt::format("{} = '{}': {}", key, text, why));
+    };
+    const auto is = [&](std::initializer_list<Written> kinds) {
+        return written == Written::Bare || std::ranges::find(kinds, written) != kinds.end();
+    };
     if (Number* const number = std::get_if<Number>(&entry->slot)) {
+        if (!is({Written::Number, Written::Whole})) {
+            return wrong_kind("a number");
+        }
         const auto value = parse_number<double>(text);
         if (!value) {
-            return refuse(origin, fmt::format("{} = '{}': not a number", key, text));
+            return malformed(value.error());
         }
         if (!(*value >= number->least && *value <= number->greatest)) {
-            return refuse(origin, fmt::format("{} = {}: must lie in [{}, {}]", key, text,
-                                              number->least, number->greatest));
+            return out_of_range(number->least, number->greatest);
         }
         *number->value = *value;
     } else if (Whole* const whole = std::get_if<Whole>(&entry->slot)) {
+        if (!is({Written::Whole})) {
+            return wrong_kind("a whole number");
+        }
         const auto value = parse_number<std::int64_t>(text);
         if (!value) {
-            return refuse(origin, fmt::format("{} = '{}': not a whole number", key, text));
+            return malformed(value.error());
         }
         if (*value < whole->least || *value > whole->greatest) {
-            return refuse(origin, fmt::format("{} = {}: must lie in [{}, {}]", key, text,
-                                              whole->least, whole->greatest));
+            return out_of_range(whole->least, whole->greatest);
         }
         *whole->value = *value;
     } else if (bool** const flag = std::get_if<bool*>(&entry->slot)) {
+        if (!is({Written::Flag})) {
+            return wrong_kind("true or false");
+        }
         if (text != "true" && text != "false") {
-            return refuse(origin, fmt::format("{} = '{}': must be true or false", key, text));
+            return malformed("must be true or false");
         }
         **flag = text == "true";
     } else if (Seed* const seed = std::get_if<Seed>(&entry->slot)) {
@@ -213,6 +277,9 @@ Expected<void> Settings::set(std::string_view key, std::string_view text, std::s
         }
         *seed->value = *value;
     } else {
+        if (!is({Written::Text})) {
+            return wrong_kind("a text in quotes");
+        }
         Choice& choice = std::get<Choice>(entry->slot);
         if (!choice.names.empty() && std::ranges::find(choice.names, text) == choice.names.end()) {
             const std::string_view what = key.substr(key.find('.') + 1);
@@ -235,33 +302,67 @@ Expected<void> Settings::set_default(std::string_view key, std::string_view text
 }
 
 Expected<void> Settings::load(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    std::error_code ignored;
-    if (!in || std::filesystem::is_directory(file, ignored)) {
+    const std::string name = file.string();
+    const auto unreadable = [&](std::string_view why) {
         return std::unexpected(
             Error{ExitCode::BadInput,
-                  fmt::format("{}: the configuration cannot be read", file.string())});
+                  fmt::format("{}: the configuration cannot be read ({})", name, why)});
+    };
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) {
+        return unreadable("it is a folder");
     }
+    std::ifstream in(file);
+    if (!in) {
+        return unreadable(std::strerror(errno));
+    }
+    std::vector<Assignment> lines;
     try {
-        return load_table(*this, toml::parse(in, file.string()), "", file.string());
+        if (auto flat = flatten(toml::parse(in, name), "", name, lines); !flat) {
+            return flat;
+        }
     } catch (const toml::parse_error& error) {
         return std::unexpected(
-            Error{ExitCode::BadInput, fmt::format("{}:{}: {}", file.string(),
-                                                  error.source().begin.line, error.description())});
+            Error{ExitCode::BadInput,
+                  fmt::format("{}:{}: {}", name, error.source().begin.line, error.description())});
     }
+    // The first of several errors is the one that stands first.
+    std::ranges::stable_sort(lines, {}, &Assignment::line);
+    for (const Assignment& line : lines) {
+        if (auto set =
+                assign(line.key, line.text, line.written, fmt::format("{}:{}", name, line.line));
+            !set) {
+            return set;
+        }
+    }
+    return {};
+}
+
+std::vector<std::filesystem::path> Settings::standard_files() {
+    std::vector<std::filesystem::path> folders{"/etc"};
+    const char* const config = std::getenv("XDG_CONFIG_HOME");
+    // The base directory specification: a relative path there counts as none.
+    if (config != nullptr && std::filesystem::path(config).is_absolute()) {
+        folders.emplace_back(config);
+    } else if (const char* const home = std::getenv("HOME"); home != nullptr && *home != '\0') {
+        folders.push_back(std::filesystem::path(home) / ".config");
+    }
+    for (std::filesystem::path& folder : folders) {
+        folder /= "gazeloop/config.toml";
+    }
+    return folders;
+}
+
+bool Settings::is_there(const std::filesystem::path& file) {
+    // What may not be looked at, or points nowhere, is there: reading it then says what is wrong.
+    std::error_code failure;
+    return std::filesystem::symlink_status(file, failure).type() !=
+           std::filesystem::file_type::not_found;
 }
 
 Expected<void> Settings::load_standard_files() {
-    std::vector<std::filesystem::path> folders{"/etc"};
-    if (const char* const config = std::getenv("XDG_CONFIG_HOME"); config && *config) {
-        folders.emplace_back(config);
-    } else if (const char* const home = std::getenv("HOME"); home && *home) {
-        folders.push_back(std::filesystem::path(home) / ".config");
-    }
-    for (const std::filesystem::path& folder : folders) {
-        const std::filesystem::path file = folder / "gazeloop" / "config.toml";
-        std::error_code ignored;
-        if (std::filesystem::exists(file, ignored)) {
+    for (const std::filesystem::path& file : standard_files()) {
+        if (is_there(file)) {
             if (auto loaded = load(file); !loaded) {
                 return loaded;
             }
@@ -298,8 +399,10 @@ std::vector<session::NamedValue> Settings::list() const {
 std::string Settings::describe() const {
     std::string table;
     for (const Entry& entry : entries_) {
-        table += fmt::format("{:28} = {:12} # {:9} {}\n", entry.key, text(entry), entry.origin,
-                             entry.meaning);
+        const bool is_text = std::holds_alternative<Choice>(entry.slot);
+        table +=
+            fmt::format("{:28} = {:12} # {:9} {}\n", entry.key,
+                        is_text ? quoted(text(entry)) : text(entry), entry.origin, entry.meaning);
     }
     return table;
 }

@@ -87,6 +87,9 @@ class Settings {
     Settings& operator=(const Settings&) = delete;
     ~Settings() = default;
 
+    /// How a value is written: bare on the command line, or as TOML's kinds.
+    enum class Written { Bare, Text, Number, Whole, Flag, Group };
+
     [[nodiscard]] const SettingValues& values() const { return values_; }
 
     /// Sets a key from text. Errors (Usage): unknown key (nearest one named), not a value of its
@@ -97,17 +100,24 @@ class Settings {
     Expected<void> set_default(std::string_view key, std::string_view text,
                                std::string_view origin);
 
-    /// Sets all keys of a TOML file. Errors: BadInput if it cannot be read or parsed (line named),
-    /// else as set().
+    /// Sets all keys of a TOML file, which must give each value in its kind. Errors: BadInput if it
+    /// cannot be read or parsed (line named), else as set().
     Expected<void> load(const std::filesystem::path& file);
 
-    /// Loads /etc/gazeloop/config.toml and $XDG_CONFIG_HOME/gazeloop/config.toml where they exist.
+    /// /etc/gazeloop/config.toml and $XDG_CONFIG_HOME/gazeloop/config.toml, in the order in which
+    /// they count.
+    [[nodiscard]] static std::vector<std::filesystem::path> standard_files();
+
+    /// Whether a standard file is to be loaded: also one that cannot be read, which is an error.
+    [[nodiscard]] static bool is_there(const std::filesystem::path& file);
+
+    /// Loads the standard files that are there.
     Expected<void> load_standard_files();
 
     /// Key and value of every setting, in the order of the keys.
     [[nodiscard]] std::vector<session::NamedValue> list() const;
 
-    /// A table of keys, values, origins and meanings.
+    /// A table of keys, values, origins and meanings: TOML, and so a configuration again.
     [[nodiscard]] std::string describe() const;
 
   private:
@@ -137,6 +147,8 @@ class Settings {
         std::string origin{kBuiltIn};
     };
 
+    Expected<void> assign(std::string_view key, std::string_view text, Written written,
+                          std::string_view origin);
     [[nodiscard]] static std::string text(const Entry& entry);
     [[nodiscard]] std::vector<std::string> keys() const;
 

@@ -13,13 +13,16 @@ constexpr double kCalibrateAgainNs = 1e9;
 
 GpuClock::GpuClock(const VulkanContext& context) : context_(&context) {
     if (context.has_calibrated_timestamps()) {
-        const auto domains = context.physical().getCalibrateableTimeDomainsEXT();
-        usable_ = std::ranges::find(domains, vk::TimeDomainEXT::eClockMonotonic) != domains.end() &&
-                  std::ranges::find(domains, vk::TimeDomainEXT::eDevice) != domains.end();
+        usable_ = relates(context.physical().getCalibrateableTimeDomainsEXT());
     }
     if (usable_) {
         calibrate();
     }
+}
+
+bool GpuClock::relates(std::span<const vk::TimeDomainEXT> domains) {
+    return std::ranges::find(domains, vk::TimeDomainEXT::eClockMonotonic) != domains.end() &&
+           std::ranges::find(domains, vk::TimeDomainEXT::eDevice) != domains.end();
 }
 
 void GpuClock::calibrate() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "runtime/latency/stamp.h"
 #include "runtime/render/vulkan_context.h"
@@ -12,6 +13,9 @@ namespace gazeloop::render {
 class GpuClock {
   public:
     explicit GpuClock(const VulkanContext& context);
+
+    /// Whether a device with these time domains can relate its clock to CLOCK_MONOTONIC.
+    [[nodiscard]] static bool relates(std::span<const vk::TimeDomainEXT> domains);
 
     /// Unknown where the device cannot relate its clock to CLOCK_MONOTONIC.
     [[nodiscard]] latency::Stamp host_time(std::uint64_t gpu_ticks);

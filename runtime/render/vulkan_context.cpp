@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "runtime/error.h"
+#include "runtime/render/device_requirements.h"
 
 namespace gazeloop::render {
 namespace {
 
-constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kNoDeviceRemedy =
     "install a Vulkan 1.3 driver (on Debian without a GPU: apt-get install mesa-vulkan-drivers) "
     "and "
@@ -26,20 +26,6 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
     static_cast<std::atomic<std::uint64_t>*>(user)->fetch_add(1);
     spdlog::error("Vulkan validation: {}", data->pMessage);
     return VK_FALSE;
-}
-
-bool supports(const vk::raii::PhysicalDevice& device) {
-    if (device.getProperties().apiVersion < VK_API_VERSION_1_3) {
-        return false;
-    }
-    const auto features =
-        device
-            .getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceTimelineSemaphoreFeatures,
-                          vk::PhysicalDeviceVulkan13Features>();
-    const auto& v13 = features.get<vk::PhysicalDeviceVulkan13Features>();
-    return v13.dynamicRendering != VK_FALSE && v13.synchronization2 != VK_FALSE &&
-           features.get<vk::PhysicalDeviceTimelineSemaphoreFeatures>().timelineSemaphore !=
-               VK_FALSE;
 }
 
 int rank(vk::PhysicalDeviceType type) {
@@ -147,11 +133,10 @@ void VulkanContext::create_instance(const VulkanOptions& options, VulkanFactory*
 void VulkanContext::choose_device(const VulkanOptions& options, VulkanFactory* factory) {
     if (const VkPhysicalDevice chosen = factory->choose_physical_device(*instance_)) {
         physical_ = vk::raii::PhysicalDevice(instance_, chosen);
-        if (!supports(physical_)) {
+        if (const std::string lacks = lacking(physical_); !lacks.empty()) {
             throw no_device(
-                fmt::format("the OpenXR runtime asks for the Vulkan device '{}', which "
-                            "lacks Vulkan 1.3 with dynamic rendering",
-                            device_name()));
+                fmt::format("the OpenXR runtime asks for the Vulkan device '{}', which lacks: {}",
+                            device_name(), lacks));
         }
         return;
     }
@@ -160,8 +145,12 @@ void VulkanContext::choose_device(const VulkanOptions& options, VulkanFactory* f
     for (vk::raii::PhysicalDevice& candidate : vk::raii::PhysicalDevices(instance_)) {
         const vk::PhysicalDeviceProperties properties = candidate.getProperties();
         const std::string_view name = properties.deviceName.data();
+        const std::string lacks = lacking(candidate);
         seen += fmt::format("{}'{}'", seen.empty() ? "" : ", ", name);
-        if (!supports(candidate) || name.find(options.device) == std::string_view::npos) {
+        if (!lacks.empty()) {
+            seen += fmt::format(" (lacks {})", lacks);
+        }
+        if (!lacks.empty() || name.find(options.device) == std::string_view::npos) {
             continue;
         }
         if (!best || rank(properties.deviceType) > rank(best->getProperties().deviceType)) {
@@ -177,24 +166,14 @@ void VulkanContext::choose_device(const VulkanOptions& options, VulkanFactory* f
                             options.device, seen));
         }
         throw no_device(seen.empty() ? std::string("there is no Vulkan device")
-                                     : "no device has Vulkan 1.3 with dynamic rendering (there "
-                                       "are: " +
-                                           seen + ")");
+                                     : "no Vulkan device has all that is needed: " + seen);
     }
     physical_ = std::move(*best);
 }
 
 void VulkanContext::create_device(VulkanFactory* factory) {
     memory_ = physical_.getMemoryProperties();
-    const auto families = physical_.getQueueFamilyProperties();
-    const auto family = std::ranges::find_if(families, [](const auto& candidate) {
-        return bool(candidate.queueFlags & vk::QueueFlagBits::eGraphics) &&
-               candidate.timestampValidBits > 0;
-    });
-    if (family == families.end()) {
-        throw no_device("the Vulkan device has no graphics queue with timestamps");
-    }
-    queue_family_ = static_cast<std::uint32_t>(family - families.begin());
+    queue_family_ = queue_family_of(physical_).value();  // no device is chosen without one
     timestamp_period_ns_ = physical_.getProperties().limits.timestampPeriod;
 
     std::vector<const char*> extensions;

@@ -11,6 +11,9 @@
 
 namespace gazeloop::render {
 
+/// What `validation` asks for.
+inline constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
 struct VulkanOptions {
     bool validation = false;  ///< Khronos validation layer with synchronization validation
     std::string device;  ///< part of the device's name; empty: the best one (no factory choice)

@@ -26,7 +26,8 @@ namespace {
             setenv(name.c_str(), value.c_str(), 1);
         }
     }
-    std::vector<std::string> words{std::string(GAZELOOP_BINARY_DIR) + "/gazeloop"};
+    std::vector<std::string> words = options.wrapper;
+    words.push_back(std::string(GAZELOOP_BINARY_DIR) + "/gazeloop");
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
@@ -34,7 +35,7 @@ namespace {
         pointers.push_back(word.data());
     }
     pointers.push_back(nullptr);
-    execv(pointers[0], pointers.data());
+    execvp(pointers[0], pointers.data());
     _exit(127);
 }
 

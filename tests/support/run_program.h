@@ -18,6 +18,8 @@ struct ProgramResult {
 struct ProgramOptions {
     /// Added to the environment{}; an empty value removes the variable.
     std::vector<std::pair<std::string, std::string>> environment{};
+    /// Words before the program, "unshare -m ..."; looked up in PATH.
+    std::vector<std::string> wrapper{};
     std::chrono::seconds timeout{120};  ///< then it is killed and the result says 137
     /// Called with the process id as soon as its output contains `trigger`.
     std::string trigger{};

@@ -12,6 +12,7 @@
 
 #include "runtime/error.h"
 #include "runtime/present/openxr/openxr_swapchain.h"
+#include "runtime/present/openxr/required_extensions.h"
 #include "runtime/present/openxr/runtime_choice.h"
 #include "runtime/present/openxr/visibility_mask.h"
 #include "runtime/present/openxr/xr_check.h"
@@ -48,8 +49,7 @@ std::vector<T> enumerate(const T& blank, const char* what, Enumerate&& call) {
 class OpenXrInstance final : public render::VulkanFactory {
   public:
     OpenXrInstance(const RuntimeChoice& choice, const OpenXrOptions& options) {
-        const std::array required{XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME,
-                                  XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME};
+        const auto& required = kRequiredXrExtensions;
         const auto offered = enumerate(
             typed<XrExtensionProperties>(XR_TYPE_EXTENSION_PROPERTIES),
             "the OpenXR runtime could not be loaded; check XR_RUNTIME_JSON, run ./dev setup to "

@@ -8,6 +8,7 @@
 #include <bit>
 #include <clocale>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -15,6 +16,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/comma_locale.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/unit/drivers/trace_text.h"
 
 namespace gazeloop::drivers {
@@ -121,9 +124,14 @@ TEST(NativeTrace, WritesTheColumnsThatItReads) {
 TEST(NativeTrace, DoesNotLetTheLocaleIn) {
     const char* const old = std::setlocale(LC_ALL, nullptr);
     const std::string before = old != nullptr ? old : "C";
-    if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr) {
-        GTEST_SKIP() << "no locale with a decimal comma";
+    const tests::TemporaryFolder folder;
+    const auto locale = tests::make_comma_locale(folder.path());
+    if (!locale) {
+        GTEST_SKIP() << "no locale with a decimal comma can be made (localedef)";
     }
+    setenv("LOCPATH", locale->folder.c_str(), 1);
+    ASSERT_NE(std::setlocale(LC_ALL, locale->name.c_str()), nullptr);
+    ASSERT_STREQ(std::localeconv()->decimal_point, ",");
     const std::string text = written(awkward_trace());
     const bool read = read_text(text).has_value();
     std::setlocale(LC_ALL, before.c_str());

@@ -1,0 +1,129 @@
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <memory>
+
+#include "runtime/cli/commands.h"
+#include "runtime/cli/interrupt.h"
+#include "runtime/cli/profiles.h"
+#include "runtime/cli/run_options.h"
+#include "runtime/cli/version.h"
+#include "runtime/doctor/checks.h"
+
+namespace gazeloop::cli {
+namespace {
+
+struct DoctorCommand {
+    RunOptions options;  ///< of which those of the settings are offered
+    std::string folder = ".";
+    std::string root = "/";
+    double patience_s = 20.0;
+    bool json = false;
+};
+
+doctor::Finding load_layer(Settings& settings, const std::string& check,
+                           const std::filesystem::path& file) {
+    doctor::Finding finding{.check = check, .facts = {{"file", file.string()}}};
+    if (const auto loaded = settings.load(file)) {
+        finding.found = file.string() + " is in force";
+    } else {
+        finding.verdict = doctor::Verdict::Failure;
+        finding.found = loaded.error().message;
+        finding.remedy = "correct what it names, or remove the file";
+        finding.stops_loop = true;
+    }
+    return finding;
+}
+
+/// A file that may be missing.
+doctor::Finding load_standard_layer(Settings& settings, const std::string& check,
+                                    const std::filesystem::path& file) {
+    if (Settings::is_there(file)) {
+        return load_layer(settings, check, file);
+    }
+    return {.check = check,
+            .verdict = doctor::Verdict::NotApplicable,
+            .found = file.string() + " is not there",
+            .facts = {{"file", file.string()}}};
+}
+
+/// Loads every layer that is there and can be loaded, in order.
+doctor::Findings check_configuration(const DoctorCommand& command, Settings& settings) {
+    doctor::Findings findings;
+    const auto files = Settings::standard_files();
+    findings.push_back(load_standard_layer(settings, "configuration.system", files.front()));
+    if (files.size() > 1) {
+        findings.push_back(load_standard_layer(settings, "configuration.user", files.back()));
+    }
+    for (std::size_t i = 0; i < command.options.config_files.size(); ++i) {
+        findings.push_back(load_layer(settings, fmt::format("configuration.file.{}", i),
+                                      command.options.config_files[i]));
+    }
+    return findings;
+}
+
+ExitCode run_doctor(const DoctorCommand& command) {
+    Settings settings;
+    doctor::Findings findings = check_configuration(command, settings);
+    // The files are loaded already, as far as they can be.
+    RunOptions rest = command.options;
+    rest.config_files.clear();
+    value_or_throw(rest.apply_to(settings, false));
+    const SettingValues& values = settings.values();
+    const present::DisplayProfile display = value_or_throw(load_display(values.profile.display));
+
+    const auto add = [&](doctor::Findings more) {
+        std::ranges::move(more, std::back_inserter(findings));
+    };
+    const doctor::ProbeLimits limits{
+        .patience = std::chrono::milliseconds(std::llround(command.patience_s * 1e3)),
+        .stop = interrupted};
+    add(doctor::check_vulkan(
+        {.device = values.vulkan.device, .validation = values.vulkan.validation}, limits));
+    add(doctor::check_openxr({.display = display,
+                              .scale = values.render.scale,
+                              .is_target = values.target.name == "openxr"},
+                             limits));
+    add(doctor::check_hid(command.root));
+    add(doctor::check_clocks(command.root));
+    add(doctor::check_scheduling(command.root));
+    add(doctor::check_recording_folder(command.folder));
+    if (interrupted()) {
+        return ExitCode::Interrupted;
+    }
+    if (command.json) {
+        nlohmann::json report = doctor::findings_json(findings);
+        report["program"] = fmt::format("gazeloop {}", kVersion);
+        report["target"] = values.target.name;
+        fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    } else {
+        fmt::print("{}", doctor::findings_text(findings));
+    }
+    return doctor::loop_can_run(findings) ? ExitCode::Ok : ExitCode::NoDevice;
+}
+
+}  // namespace
+
+void add_doctor_command(CLI::App& program, Action& action) {
+    CLI::App* const app = program.add_subcommand(
+        "doctor", "check what the loop needs of this machine; exit code 4: it cannot run");
+    const auto command = std::make_shared<DoctorCommand>();
+    app->add_flag("--json", command->json, "for a program, to stdout");
+    command->options.log.add_to(*app);
+    command->options.add_settings_to(*app);
+    app->add_option("--folder", command->folder, "where recordings are to go")->type_name("DIR");
+    app->add_option("--patience", command->patience_s,
+                    "how long a driver or runtime may take before it counts as hanging")
+        ->type_name("SECONDS")
+        ->check(number_between(0.1, 600.0));
+    // Stands in for the machine's /sys and /dev, for tests.
+    app->add_option("--root", command->root)->group("");
+    app->callback([=, &action] {
+        command->options.log.apply();
+        action = [=] { return run_doctor(*command); };
+    });
+}
+
+}  // namespace gazeloop::cli

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runtime/doctor/finding.h"
+#include "runtime/doctor/probe.h"
+#include "runtime/present/display_profile.h"
+
+namespace gazeloop::doctor {
+
+using Findings = std::vector<Finding>;
+
+struct VulkanChecks {
+    std::string device;       ///< the setting vulkan.device
+    bool validation = false;  ///< the setting vulkan.validation
+};
+
+/// Loader, each device, the one that the loop would choose, its clock, validation layers. In a
+/// process of its own.
+Findings check_vulkan(const VulkanChecks& asked, const ProbeLimits& limits);
+
+struct OpenXrChecks {
+    present::DisplayProfile display;
+    double scale = 1.0;
+    bool is_target = true;  ///< the loop is to run over OpenXR: a failure stops it
+};
+
+/// Runtime, extensions, system, eye gaze gate by gate, clock, and the loop's own session. In
+/// processes of their own.
+Findings check_openxr(const OpenXrChecks& asked, const ProbeLimits& limits);
+
+/// Trackers on HID: who may read their nodes. `root` is where /sys and /dev are.
+Findings check_hid(const std::filesystem::path& root);
+
+/// Whether a HID report descriptor has the usage page 0x12, Eye and Head Trackers, in a collection.
+/// Takes any bytes.
+[[nodiscard]] bool describes_eye_tracker(std::string_view report_descriptor);
+
+/// CLOCK_MONOTONIC and what it is read from.
+Findings check_clocks(const std::filesystem::path& root);
+
+/// Whether threads may run in real time, and how the processors are governed.
+Findings check_scheduling(const std::filesystem::path& root);
+
+/// Whether recordings can be written into a folder, and how fast.
+Findings check_recording_folder(const std::filesystem::path& folder);
+
+}  // namespace gazeloop::doctor

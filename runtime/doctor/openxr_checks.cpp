@@ -1,0 +1,311 @@
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "runtime/doctor/checks.h"
+#include "runtime/doctor/probe.h"
+#include "runtime/latency/clock.h"
+#include "runtime/present/openxr/openxr_target.h"
+#include "runtime/present/openxr/required_extensions.h"
+#include "runtime/present/openxr/runtime_choice.h"
+
+namespace gazeloop::doctor {
+namespace {
+
+using present::typed;
+using present::xr_check;
+
+constexpr const char* kOtherRuntime =
+    "use another runtime (XR_RUNTIME_JSON), the Monado that ./dev setup builds, or --target "
+    "headless";
+constexpr const char* kEyeGaze = XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME;
+constexpr const char* kGazeWithoutIt = "use a headset with an eye tracker, or --gaze with a trace";
+
+/// What the runtime's manifest says of its library.
+std::string library_of(const std::string& manifest) {
+    std::ifstream file(manifest);
+    const nlohmann::json parsed = nlohmann::json::parse(file, nullptr, false);
+    const nlohmann::json runtime =
+        parsed.is_object() ? parsed.value("runtime", nlohmann::json()) : nlohmann::json();
+    return runtime.is_object() && runtime.contains("library_path") &&
+                   runtime["library_path"].is_string()
+               ? runtime["library_path"].get<std::string>()
+               : "unknown";
+}
+
+/// The instance-level questions. A handle that is not released here goes with the process.
+class RuntimeProbe {
+  public:
+    RuntimeProbe(const OpenXrChecks& asked, ProbeReport& report) : asked_(asked), report_(report) {}
+
+    void run() {
+        report_.step("choosing an OpenXR runtime");
+        const present::RuntimeChoice choice = present::choose_runtime(asked_.display);
+        const std::string library = library_of(choice.manifest);
+        report_.add(
+            {.check = "openxr.runtime",
+             .found = fmt::format("{} ({}), library {}", choice.manifest, choice.reason, library),
+             .facts = {
+                 {"manifest", choice.manifest}, {"reason", choice.reason}, {"library", library}}});
+        report_.step("loading the OpenXR runtime");
+        list_extensions();
+        report_.step("creating an OpenXR instance");
+        create_instance();
+        report_.step("asking for the headset");
+        describe_system();
+        report_.step("asking for eye gaze");
+        check_eye_gaze();
+        report_.step("converting OpenXR's time");
+        check_time();
+    }
+
+  private:
+    [[nodiscard]] bool offers(std::string_view name) const {
+        return std::ranges::find(extensions_, name) != extensions_.end();
+    }
+
+    void list_extensions() {
+        std::uint32_t count = 0;
+        xr_check(xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr),
+                 "the runtime could not be loaded");
+        std::vector<XrExtensionProperties> offered(
+            count, typed<XrExtensionProperties>(XR_TYPE_EXTENSION_PROPERTIES));
+        xr_check(xrEnumerateInstanceExtensionProperties(nullptr, count, &count, offered.data()),
+                 "the runtime could not be loaded");
+        for (const XrExtensionProperties& one : offered) {
+            extensions_.emplace_back(one.extensionName);
+        }
+        std::vector<std::string> missing;
+        for (const char* name : present::kRequiredXrExtensions) {
+            if (!offers(name)) {
+                missing.emplace_back(name);
+            }
+        }
+        report_.add({.check = "openxr.extensions",
+                     .verdict = missing.empty() ? Verdict::Ok : Verdict::Failure,
+                     .found = missing.empty()
+                                  ? fmt::format("{} offered, among them {}", extensions_.size(),
+                                                fmt::join(present::kRequiredXrExtensions, ", "))
+                                  : fmt::format("the runtime lacks {}", fmt::join(missing, ", ")),
+                     .remedy = missing.empty() ? "" : kOtherRuntime,
+                     .facts = {{"offered", extensions_}, {"missing", missing}},
+                     .stops_loop = !missing.empty() && asked_.is_target});
+    }
+
+    void create_instance() {
+        std::vector<const char*> enabled;
+        for (const char* name : present::kRequiredXrExtensions) {
+            if (offers(name)) {
+                enabled.push_back(name);
+            }
+        }
+        if (offers(kEyeGaze)) {
+            enabled.push_back(kEyeGaze);
+        }
+        auto info = typed<XrInstanceCreateInfo>(XR_TYPE_INSTANCE_CREATE_INFO);
+        std::strcpy(info.applicationInfo.applicationName, "gazeloop doctor");
+        info.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
+        info.enabledExtensionCount = static_cast<std::uint32_t>(enabled.size());
+        info.enabledExtensionNames = enabled.data();
+        xr_check(xrCreateInstance(&info, &instance_), "the runtime did not start");
+        auto properties = typed<XrInstanceProperties>(XR_TYPE_INSTANCE_PROPERTIES);
+        xr_check(xrGetInstanceProperties(instance_, &properties), "xrGetInstanceProperties");
+        const std::string version =
+            fmt::format("{}.{}.{}", XR_VERSION_MAJOR(properties.runtimeVersion),
+                        XR_VERSION_MINOR(properties.runtimeVersion),
+                        XR_VERSION_PATCH(properties.runtimeVersion));
+        report_.add({.check = "openxr.instance",
+                     .found = fmt::format("{} {}", properties.runtimeName, version),
+                     .facts = {{"name", properties.runtimeName}, {"version", version}}});
+    }
+
+    void describe_system() {
+        auto get = typed<XrSystemGetInfo>(XR_TYPE_SYSTEM_GET_INFO);
+        get.formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY;
+        xr_check(xrGetSystem(instance_, &get, &system_),
+                 "there is no head-mounted display now; connect one and switch it on");
+        auto properties = typed<XrSystemProperties>(XR_TYPE_SYSTEM_PROPERTIES);
+        xr_check(xrGetSystemProperties(instance_, system_, &properties), "xrGetSystemProperties");
+        constexpr XrViewConfigurationType kStereo = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+        std::array<XrViewConfigurationView, 2> views{
+            typed<XrViewConfigurationView>(XR_TYPE_VIEW_CONFIGURATION_VIEW),
+            typed<XrViewConfigurationView>(XR_TYPE_VIEW_CONFIGURATION_VIEW)};
+        std::uint32_t count = 0;
+        xr_check(xrEnumerateViewConfigurationViews(instance_, system_, kStereo, views.size(),
+                                                   &count, views.data()),
+                 "it has no two views for stereo");
+        const XrViewConfigurationView& view = views[0];
+        report_.add({.check = "openxr.system",
+                     .found = fmt::format(
+                         "{}: {} views, {}x{} recommended, {}x{} at most", properties.systemName,
+                         count, view.recommendedImageRectWidth, view.recommendedImageRectHeight,
+                         view.maxImageRectWidth, view.maxImageRectHeight),
+                     .facts = {{"name", properties.systemName},
+                               {"views", count},
+                               {"recommended_width_px", view.recommendedImageRectWidth},
+                               {"recommended_height_px", view.recommendedImageRectHeight}}});
+    }
+
+    /// Each gate opens the next.
+    void check_eye_gaze() {
+        const auto gate = [&](const char* name, bool open, std::string found) {
+            report_.add({.check = fmt::format("openxr.eye_gaze.{}", name),
+                         .verdict = open ? Verdict::Ok : Verdict::Warning,
+                         .found = std::move(found),
+                         .remedy = open ? "" : kGazeWithoutIt});
+            return open;
+        };
+        const auto not_reached = [&](const char* name) {
+            report_.add({.check = fmt::format("openxr.eye_gaze.{}", name),
+                         .verdict = Verdict::NotApplicable,
+                         .found = "not reached: a gate before it is shut"});
+        };
+        const bool listed = offers(kEyeGaze);
+        gate("extension", listed, fmt::format("{} is {}offered", kEyeGaze, listed ? "" : "not "));
+        bool supported = false;
+        if (listed) {
+            auto gaze = typed<XrSystemEyeGazeInteractionPropertiesEXT>(
+                XR_TYPE_SYSTEM_EYE_GAZE_INTERACTION_PROPERTIES_EXT);
+            auto properties = typed<XrSystemProperties>(XR_TYPE_SYSTEM_PROPERTIES);
+            properties.next = &gaze;
+            xr_check(xrGetSystemProperties(instance_, system_, &properties),
+                     "xrGetSystemProperties");
+            supported = gaze.supportsEyeGazeInteraction == XR_TRUE;
+            gate("system", supported,
+                 fmt::format("supportsEyeGazeInteraction is {}", supported ? "true" : "false"));
+        } else {
+            not_reached("system");
+        }
+        bool bound = false;
+        if (supported) {
+            const XrResult result = suggest_gaze();
+            bound = XR_SUCCEEDED(result);
+            gate("bindings", bound,
+                 fmt::format("/user/eyes_ext/input/gaze_ext/pose: {}", present::xr_name(result)));
+        } else {
+            not_reached("bindings");
+        }
+        if (bound) {
+            report_.add({.check = "openxr.eye_gaze.session",
+                         .verdict = Verdict::NotApplicable,
+                         .found = "consent, calibration and sample times show only in a running "
+                                  "session with a wearer"});
+        } else {
+            not_reached("session");
+        }
+    }
+
+    XrResult suggest_gaze() {
+        auto set_info = typed<XrActionSetCreateInfo>(XR_TYPE_ACTION_SET_CREATE_INFO);
+        std::strcpy(set_info.actionSetName, "doctor");
+        std::strcpy(set_info.localizedActionSetName, "Doctor");
+        XrActionSet set = XR_NULL_HANDLE;
+        xr_check(xrCreateActionSet(instance_, &set_info, &set), "xrCreateActionSet");
+        auto action_info = typed<XrActionCreateInfo>(XR_TYPE_ACTION_CREATE_INFO);
+        action_info.actionType = XR_ACTION_TYPE_POSE_INPUT;
+        std::strcpy(action_info.actionName, "gaze");
+        std::strcpy(action_info.localizedActionName, "Gaze");
+        XrActionSuggestedBinding binding{};
+        xr_check(xrCreateAction(set, &action_info, &binding.action), "xrCreateAction");
+        xr_check(xrStringToPath(instance_, "/user/eyes_ext/input/gaze_ext/pose", &binding.binding),
+                 "xrStringToPath");
+        auto suggested = typed<XrInteractionProfileSuggestedBinding>(
+            XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
+        xr_check(xrStringToPath(instance_, "/interaction_profiles/ext/eye_gaze_interaction",
+                                &suggested.interactionProfile),
+                 "xrStringToPath");
+        suggested.countSuggestedBindings = 1;
+        suggested.suggestedBindings = &binding;
+        return xrSuggestInteractionProfileBindings(instance_, &suggested);
+    }
+
+    /// There and back again: what a stamp loses on its way through the runtime's clock.
+    void check_time() {
+        if (!offers(XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME)) {
+            return;  // already a failure
+        }
+        const auto to_xr = present::xr_function<PFN_xrConvertTimespecTimeToTimeKHR>(
+            instance_, "xrConvertTimespecTimeToTimeKHR");
+        const auto from_xr = present::xr_function<PFN_xrConvertTimeToTimespecTimeKHR>(
+            instance_, "xrConvertTimeToTimespecTimeKHR");
+        constexpr int kTrips = 100;
+        constexpr std::int64_t kLargestErrorNs = 1000;
+        std::int64_t worst_ns = 0;
+        for (int i = 0; i < kTrips; ++i) {
+            const std::int64_t now_ns = latency::monotonic_ns();
+            const timespec now{now_ns / 1'000'000'000, now_ns % 1'000'000'000};
+            XrTime there = 0;
+            timespec back{};
+            xr_check(to_xr(instance_, &now, &there), "xrConvertTimespecTimeToTimeKHR");
+            xr_check(from_xr(instance_, there, &back), "xrConvertTimeToTimespecTimeKHR");
+            const std::int64_t back_ns = std::int64_t{back.tv_sec} * 1'000'000'000 + back.tv_nsec;
+            worst_ns = std::max(worst_ns, std::abs(back_ns - now_ns));
+        }
+        const bool good = worst_ns <= kLargestErrorNs;
+        report_.add({.check = "openxr.clock",
+                     .verdict = good ? Verdict::Ok : Verdict::Warning,
+                     .found = fmt::format(
+                         "CLOCK_MONOTONIC to XrTime and back: off by at most {} ns", worst_ns),
+                     .remedy = good ? ""
+                                    : "report it to the runtime's authors: its display times "
+                                      "cannot be trusted to be better than this",
+                     .facts = {{"worst_error_ns", worst_ns}}});
+    }
+
+    const OpenXrChecks& asked_;
+    ProbeReport& report_;
+    std::vector<std::string> extensions_;
+    XrInstance instance_ = XR_NULL_HANDLE;
+    XrSystemId system_ = XR_NULL_SYSTEM_ID;
+};
+
+/// What the loop itself does before its first frame.
+void probe_session(const OpenXrChecks& asked, ProbeReport& report) {
+    report.step("setting up the loop's OpenXR target");
+    const auto target = present::make_openxr_target(
+        {.display = asked.display, .scale = asked.scale, .validation = false});
+    report.step("opening the Vulkan device that the OpenXR runtime wants");
+    const render::VulkanContext context({}, target->vulkan_factory());
+    report.step("starting the OpenXR session");
+    target->start(context);
+    const bool software =
+        context.physical().getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+    const vk::Extent2D extent = target->extents()[0];
+    report.add({.check = "openxr.session",
+                .verdict = software ? Verdict::Warning : Verdict::Ok,
+                .found = fmt::format("{}x{} per eye as {}, on {}{}", extent.width, extent.height,
+                                     vk::to_string(target->format()), context.device_name(),
+                                     software ? ": rendered on the processor, not real time" : ""),
+                .remedy = software ? "use a machine with a GPU, or a small picture (--set "
+                                     "render.scale=0.15)"
+                                   : "",
+                .facts = {{"width_px", extent.width},
+                          {"height_px", extent.height},
+                          {"format", vk::to_string(target->format())},
+                          {"device", context.device_name()}}});
+}
+
+}  // namespace
+
+Findings check_openxr(const OpenXrChecks& asked, const ProbeLimits& limits) {
+    ProbeResult runtime =
+        run_probe([&](ProbeReport& report) { RuntimeProbe(asked, report).run(); }, limits);
+    const bool runtime_works = runtime.broken.empty();
+    Findings findings =
+        std::move(runtime).findings_and_end("openxr.start", kOtherRuntime, asked.is_target);
+    if (runtime_works) {
+        ProbeResult session =
+            run_probe([&](ProbeReport& report) { probe_session(asked, report); }, limits);
+        std::ranges::move(
+            std::move(session).findings_and_end("openxr.session", kOtherRuntime, asked.is_target),
+            std::back_inserter(findings));
+    }
+    return findings;
+}
+
+}  // namespace gazeloop::doctor

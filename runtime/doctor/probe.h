@@ -1,0 +1,56 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/doctor/finding.h"
+
+namespace gazeloop::doctor {
+
+/// What a probe tells while it runs. Each finding is out at once: a crash later does not take it
+/// along.
+class ProbeReport {
+  public:
+    explicit ProbeReport(int pipe) : pipe_(pipe) {}
+
+    /// What is tried next, "loading the runtime".
+    void step(std::string_view what);
+    void add(const Finding& finding);
+    /// Why the probe could not go on.
+    void failed(std::string_view why);
+    void ended();
+
+  private:
+    void send(const nlohmann::json& message) const;
+
+    int pipe_;
+};
+
+struct ProbeResult {
+    std::vector<Finding> findings;
+    std::string step;    ///< the last one begun
+    std::string broken;  ///< empty: it ran to its end; else how it ended, "crashed (SIGSEGV)"
+
+    /// The findings, and if it broke one more, a Failure named `check`, that says how and while
+    /// doing what.
+    [[nodiscard]] std::vector<Finding> findings_and_end(std::string_view check,
+                                                        std::string_view remedy,
+                                                        bool stops_loop) &&;
+};
+
+/// How long a probe may take, and what ends it before.
+struct ProbeLimits {
+    std::chrono::milliseconds patience;
+    std::function<bool()> stop;  ///< asked a few times a second; true ends the probe
+};
+
+/// Runs a probe in a process of its own, since what it loads may crash or hang: drivers, runtimes,
+/// layers. At its limits it is killed. What it prints is kept from the terminal; its last line
+/// becomes part of `broken`. An exception's text becomes `broken`. Precondition: this process has a
+/// single thread.
+ProbeResult run_probe(const std::function<void(ProbeReport&)>& probe, const ProbeLimits& limits);
+
+}  // namespace gazeloop::doctor

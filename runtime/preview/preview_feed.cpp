@@ -1,0 +1,208 @@
+#include "runtime/preview/preview_feed.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace gazeloop::preview {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+using Layout = vk::ImageLayout;
+
+/// As in a marked snapshot, where no disc is shaded.
+constexpr double kRingWithoutDiscPx = 24.0;
+
+std::uint32_t reduction_of(const gaze::PerEye<vk::Extent2D>& extents) {
+    std::uint32_t longest = 1;
+    for (const vk::Extent2D& extent : extents) {
+        longest = std::max({longest, extent.width, extent.height});
+    }
+    return (longest + kMaxSidePx - 1) / kMaxSidePx;
+}
+
+vk::Extent2D reduced(const vk::Extent2D& extent, std::uint32_t reduction) {
+    return {(extent.width + reduction - 1) / reduction,
+            (extent.height + reduction - 1) / reduction};
+}
+
+bool shows(std::uint32_t eyes, std::size_t eye) { return (eyes & (1U << eye)) != 0; }
+
+vk::ArrayWrapper1D<vk::Offset3D, 2> corners(const vk::Extent2D& extent) {
+    return std::array<vk::Offset3D, 2>{vk::Offset3D(0, 0, 0),
+                                       vk::Offset3D(static_cast<std::int32_t>(extent.width),
+                                                    static_cast<std::int32_t>(extent.height), 1)};
+}
+
+}  // namespace
+
+PreviewFeed::PreviewFeed(const render::VulkanContext& context, const Options& options,
+                         PreviewMemory& memory)
+    : context_(&context),
+      options_(options),
+      memory_(&memory),
+      reduction_(reduction_of(options.extents)) {
+    const vk::raii::Device& device = context.device();
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        const vk::Extent2D extent = reduced(options.extents[e], reduction_);
+        eyes_[e].reduced = render::ColorImage(
+            context, extent, options.format,
+            // A view must be of some use; this one is never drawn to.
+            vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc |
+                vk::ImageUsageFlagBits::eColorAttachment);
+        eyes_[e].pixels = render::HostBuffer(
+            context, vk::DeviceSize{extent.width} * extent.height * kBytesPerPixel,
+            vk::BufferUsageFlagBits::eTransferDst);
+    }
+    next_.blue_first =
+        options.format == vk::Format::eB8G8R8A8Srgb || options.format == vk::Format::eB8G8R8A8Unorm;
+    pool_ = vk::raii::CommandPool(
+        device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient,
+                                          context.queue_family()));
+    commands_ = std::move(vk::raii::CommandBuffers(
+        device, vk::CommandBufferAllocateInfo(*pool_, vk::CommandBufferLevel::ePrimary, 1))[0]);
+    const vk::SemaphoreTypeCreateInfo timeline(vk::SemaphoreType::eTimeline, 0);
+    copied_ = vk::raii::Semaphore(device, vk::SemaphoreCreateInfo({}, &timeline));
+    thread_ = std::jthread([this](const std::stop_token& stop) { hand_over(stop); });
+}
+
+PreviewFeed::~PreviewFeed() {
+    thread_.request_stop();
+    submitted_ = std::numeric_limits<std::uint64_t>::max();  // wakes it up
+    submitted_.notify_all();
+    thread_.join();
+    try {
+        // The last copy may still be on the GPU.
+        context_->device().waitIdle();
+    } catch (const vk::SystemError& error) {
+        spdlog::debug("the preview ends on a lost device ({})", error.what());
+    }
+}
+
+void PreviewFeed::on_rendered(const render::FrameRequest& request) {
+    // The window has taken the last picture only when it asks for one more than was given, and
+    // every submitted copy has been given by then.
+    const std::uint64_t given = memory_->given.load(std::memory_order_acquire);
+    if (given != copies_ || memory_->asked.load(std::memory_order_acquire) == given) {
+        ++dropped_;
+        return;
+    }
+    const std::uint32_t eyes = memory_->eyes & kBothEyes;
+    describe(request, eyes);
+    record_copy(request, eyes);
+    submitted_.store(++copies_, std::memory_order_release);
+    submitted_.notify_one();
+}
+
+void PreviewFeed::describe(const render::FrameRequest& request, std::uint32_t eyes) {
+    next_.index = request.index;
+    next_.bars = bars_;
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const std::size_t e = gaze::index(eye);
+        if (!shows(eyes, e)) {
+            next_.pictures[e] = {};
+            continue;
+        }
+        const vk::Extent2D extent = eyes_[e].reduced.extent();
+        const double radius_px = options_.ring_radius_px(eye);
+        const auto in_preview = [this](double px) {
+            return static_cast<float>(px / static_cast<double>(reduction_));
+        };
+        next_.pictures[e] = {
+            .width_px = extent.width,
+            .height_px = extent.height,
+            .fovea_x_px = in_preview(request.foveae[e].x_px),
+            .fovea_y_px = in_preview(request.foveae[e].y_px),
+            .ring_radius_px = in_preview(radius_px > 0.0 ? radius_px : kRingWithoutDiscPx)};
+    }
+}
+
+void PreviewFeed::record_copy(const render::FrameRequest& request, std::uint32_t eyes) {
+    pool_.reset();
+    commands_.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+    const auto barrier = [this](const vk::ImageMemoryBarrier2& one) {
+        commands_.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, one));
+    };
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        if (!shows(eyes, e)) {
+            continue;
+        }
+        const vk::Image from = request.targets[e].image;
+        const vk::Image to = eyes_[e].reduced.image();
+        const vk::Extent2D extent = eyes_[e].reduced.extent();
+        barrier(render::image_barrier(from, Layout::eColorAttachmentOptimal,
+                                      Layout::eTransferSrcOptimal, Stage::eColorAttachmentOutput,
+                                      Access::eColorAttachmentWrite, Stage::eBlit,
+                                      Access::eTransferRead));
+        barrier(render::image_barrier(to, Layout::eUndefined, Layout::eTransferDstOptimal,
+                                      Stage::eCopy, Access::eNone, Stage::eBlit,
+                                      Access::eTransferWrite));
+        const vk::ImageSubresourceLayers layers(vk::ImageAspectFlagBits::eColor, 0, 0, 1);
+        commands_.blitImage(
+            from, Layout::eTransferSrcOptimal, to, Layout::eTransferDstOptimal,
+            vk::ImageBlit(layers, corners(options_.extents[e]), layers, corners(extent)),
+            reduction_ > 1 ? vk::Filter::eLinear : vk::Filter::eNearest);
+        barrier(render::image_barrier(
+            from, Layout::eTransferSrcOptimal, Layout::eColorAttachmentOptimal, Stage::eBlit,
+            Access::eNone, Stage::eColorAttachmentOutput,
+            Access::eColorAttachmentRead | Access::eColorAttachmentWrite));
+        barrier(render::image_barrier(to, Layout::eTransferDstOptimal, Layout::eTransferSrcOptimal,
+                                      Stage::eBlit, Access::eTransferWrite, Stage::eCopy,
+                                      Access::eTransferRead));
+        commands_.copyImageToBuffer(
+            to, Layout::eTransferSrcOptimal, eyes_[e].pixels.buffer(),
+            vk::BufferImageCopy(0, 0, 0, layers, {}, vk::Extent3D(extent, 1)));
+    }
+    const vk::MemoryBarrier2 to_host(Stage::eCopy, Access::eTransferWrite, Stage::eHost,
+                                     Access::eHostRead);
+    commands_.pipelineBarrier2(vk::DependencyInfo({}, to_host));
+    commands_.end();
+    const vk::CommandBufferSubmitInfo info(*commands_);
+    const vk::SemaphoreSubmitInfo done(*copied_, copies_ + 1, Stage::eAllCommands);
+    context_->queue().submit2(vk::SubmitInfo2({}, {}, info, done));
+}
+
+void PreviewFeed::on_frame(const latency::FrameRecord& record) {
+    frames_[record.index % frames_.size()] = record;
+}
+
+void PreviewFeed::on_gpu(const latency::FrameGpuRecord& record) {
+    const latency::FrameRecord& frame = frames_[record.index % frames_.size()];
+    if (frame.index == record.index) {
+        bars_ = stage_bars(frame, record, options_.switching_ns);
+    }
+}
+
+/// On the feed's own thread. It reads `next_` and the buffers only between a submit and `given`,
+/// when the loop's thread leaves them alone.
+void PreviewFeed::hand_over(const std::stop_token& stop) {
+    for (std::uint64_t copy = 1;; ++copy) {
+        submitted_.wait(copy - 1, std::memory_order_acquire);
+        if (stop.stop_requested()) {
+            return;
+        }
+        try {
+            const vk::Result finished =
+                context_->device().waitSemaphores(vk::SemaphoreWaitInfo({}, *copied_, copy),
+                                                  std::numeric_limits<std::uint64_t>::max());
+            if (finished != vk::Result::eSuccess) {
+                return;
+            }
+        } catch (const vk::SystemError&) {
+            return;  // the loop meets the lost device itself, and says so
+        }
+        memory_->frame = next_;
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            if (next_.pictures[e].width_px > 0) {
+                const std::span<const std::byte> pixels = eyes_[e].pixels.mapped();
+                std::memcpy(memory_->pixels[e].data(), pixels.data(), pixels.size());
+            }
+        }
+        memory_->given.store(copy, std::memory_order_release);
+    }
+}
+
+}  // namespace gazeloop::preview

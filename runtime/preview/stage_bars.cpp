@@ -1,0 +1,80 @@
+#include "runtime/preview/stage_bars.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "runtime/latency/gaze_age.h"
+
+namespace gazeloop::preview {
+namespace {
+
+constexpr double kNsPerMs = 1e6;
+
+BarText text(std::string_view from) {
+    BarText to{};
+    from.copy(to.data(), to.size() - 1);
+    return to;
+}
+
+void add(StageBar& bar, std::string_view name, const latency::Span& span) {
+    if (bar.count == kBarSegments) {
+        return;
+    }
+    bar.segments[bar.count++] = {
+        text(name), span.known() ? static_cast<double>(span.ns) / kNsPerMs : 0.0, span.known()};
+}
+
+void set_total(StageBar& bar, const latency::Span& span) {
+    bar.total_known = span.known();
+    bar.total_ms = span.known() ? static_cast<double>(span.ns) / kNsPerMs : 0.0;
+}
+
+}  // namespace
+
+StageBars stage_bars(const latency::FrameRecord& frame, const latency::FrameGpuRecord& gpu,
+                     std::optional<std::int64_t> switching_ns) {
+    static_assert(latency::kStageCount <= kBarSegments);
+    StageBars result{.frame = frame.index,
+                     .any = true,
+                     .budget_ms = static_cast<double>(frame.period_ns) / kNsPerMs,
+                     .bars = {}};
+
+    latency::FrameStamps stamps = frame.stamps;
+    stamps.gpu_begin = gpu.gpu_begin;
+    stamps.gpu_end = gpu.gpu_end;
+    const latency::GazeAge age =
+        latency::gaze_age(latency::older_gaze(frame.fovea), stamps,
+                          latency::shown_frame(stamps, frame.period_ns).at, switching_ns);
+    StageBar& photon = result.bars[0];
+    photon.title = text("eye to photon");
+    for (std::size_t stage = 0; stage < latency::kStageCount; ++stage) {
+        add(photon, latency::kStageNames[stage], age.stages[stage]);
+    }
+    set_total(photon, age.at_display);
+
+    StageBar& passes = result.bars[1];
+    passes.title = text("GPU");
+    for (std::size_t pass = 0; pass < latency::kPassCount; ++pass) {
+        if (gpu.pass_ns[pass] >= 0) {
+            add(passes, latency::kPassNames[pass],
+                {gpu.pass_ns[pass], latency::StampKind::Measured});
+        }
+    }
+    set_total(passes, latency::between(gpu.gpu_begin, gpu.gpu_end));
+    return result;
+}
+
+double bar_scale_ms(const StageBars& bars) {
+    constexpr double kMargin = 1.15;
+    double longest = bars.budget_ms;
+    for (const StageBar& bar : bars.bars) {
+        double sum = 0.0;
+        for (std::uint32_t i = 0; i < bar.count; ++i) {
+            sum += std::max(bar.segments[i].ms, 0.0);
+        }
+        longest = std::max({longest, sum, bar.total_ms});
+    }
+    return std::max(longest * kMargin, 1.0);
+}
+
+}  // namespace gazeloop::preview

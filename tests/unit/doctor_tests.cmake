@@ -1,0 +1,8 @@
+gazeloop_test(unit_doctor
+    SOURCES doctor/hid_checks_test.cpp doctor/host_checks_test.cpp doctor/probe_test.cpp
+    LINK gazeloop::doctor
+    LABELS unit)
+gazeloop_test(unit_preview
+    SOURCES preview/stage_bars_test.cpp
+    LINK gazeloop::preview
+    LABELS unit)
