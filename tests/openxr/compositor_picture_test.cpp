@@ -174,7 +174,9 @@ class CompositorPicture : public testing::Test {
                                  }});
         ASSERT_EQ(result.exit_code, 130) << result.err;
         EXPECT_EQ(result.err.find("Vulkan validation"), std::string::npos) << result.err;
-        ASSERT_TRUE(window_.has_value()) << service_->process().output();
+        ASSERT_TRUE(window_.has_value())
+            << service_->process().output() << "X server: " << screen_->process().output()
+            << " ended: " << screen_->process().wait(std::chrono::seconds(0));
     }
 
     void wait_for_frames() {
@@ -183,12 +185,12 @@ class CompositorPicture : public testing::Test {
         bool shown = false;
         while (std::chrono::steady_clock::now() < deadline) {
             auto now = screen_->capture(2 * kEyeWidth, kHeight);
-            if (shown) {
+            if (shown && now) {
                 window_ = now;  // the compositor has had time for a whole frame
                 return;
             }
-            shown =
-                now && std::set(now->pixels.begin(), now->pixels.end()).size() > kColoursOfAScene;
+            shown = shown || (now && std::set(now->pixels.begin(), now->pixels.end()).size() >
+                                         kColoursOfAScene);
             std::this_thread::sleep_for(std::chrono::milliseconds(shown ? 500 : 50));
         }
     }

@@ -28,6 +28,7 @@ class XScreen {
     explicit XScreen(const ScratchFolder& scratch);
 
     [[nodiscard]] bool ready() const { return ready_; }
+    [[nodiscard]] BackgroundProcess& process() { return process_; }
     /// The value of DISPLAY for programs that are to show themselves there.
     [[nodiscard]] std::string display() const;
     /// The top left corner of what is shown now; nothing where the server does not answer.

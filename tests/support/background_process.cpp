@@ -59,8 +59,11 @@ BackgroundProcess::BackgroundProcess(const Options& options) : output_file_(opti
 
 BackgroundProcess::~BackgroundProcess() {
     if (!ended()) {
-        signal(SIGKILL);
-        waitpid(pid_, nullptr, 0);
+        signal(SIGTERM);  // lets it clean up, where it does
+        if (wait(std::chrono::seconds(5)) < 0) {
+            signal(SIGKILL);
+            waitpid(pid_, nullptr, 0);
+        }
     }
     if (input_ >= 0) {
         close(input_);

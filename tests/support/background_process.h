@@ -9,7 +9,7 @@
 
 namespace gazeloop::tests {
 
-/// A program that runs beside a test, its output in a file; killed when it goes out of scope.
+/// A program that runs beside a test, its output in a file; ended when it goes out of scope.
 class BackgroundProcess {
   public:
     struct Options {
