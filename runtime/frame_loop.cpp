@@ -4,23 +4,30 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 
 namespace gazeloop {
 namespace {
 
+/// A second of a 1000 Hz tracker, so that a late frame makes no room for its samples first.
+constexpr std::size_t kSamplesAtOnce = 1000;
+
 class FrameLoop {
   public:
     FrameLoop(const LoopParts& parts, const LoopOptions& options)
-        : parts_(parts), options_(options) {}
+        : parts_(parts), options_(options) {
+        samples_.reserve(kSamplesAtOnce);
+    }
 
     LoopResult run() {
         try {
             follow_target();
-        } catch (const SetupError&) {
-            finish_frames();  // what was rendered is reported, whatever became of the target
+            parts_.renderer.wait_idle();
+            report_finished_frames();
+        } catch (...) {
+            tell_the_rest();
             throw;
         }
-        finish_frames();
         return result_;
     }
 
@@ -45,15 +52,23 @@ class FrameLoop {
         }
     }
 
-    void finish_frames() {
-        parts_.renderer.wait_idle();
-        report_finished_frames();
+    /// After a failure: what the target had said before, and the frames that the GPU still
+    /// finishes.
+    void tell_the_rest() {
+        try {
+            report_target_events();
+            parts_.renderer.wait_idle();
+            report_finished_frames();
+        } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch)
+            // A second failure of what has failed: the first one is told.
+        }
     }
 
     void begin_time() {
         if (timeline_ == nullptr) {
             timeline_ = parts_.make_timeline();
             start_ns_ = timeline_->now().ns;
+            slept_ns_ = timeline_->slept_ns();
             source_ = parts_.make_source(start_ns_);
             head_fixed_ = source_->fixed_in_head();
             result_.fixed_in_head = head_fixed_;
@@ -76,10 +91,13 @@ class FrameLoop {
         }
     }
 
+    /// Counted to the end of the frame by the clock, not by what a runtime announces.
     [[nodiscard]] bool time_is_up() const {
         return *options_.seconds <= 0.0 ||
-               (timeline_ != nullptr &&
-                static_cast<double>(planned_.display.ns - start_ns_) * 1e-9 >= *options_.seconds);
+               (timeline_ != nullptr && static_cast<double>(timeline_->now().ns) +
+                                                static_cast<double>(planned_.period_ns) -
+                                                static_cast<double>(start_ns_) >=
+                                            *options_.seconds * 1e9);
     }
 
     void end(LoopEnd why) {
@@ -104,6 +122,7 @@ class FrameLoop {
         parts_.target.begin_frame();
         record.stamps.begin = timeline_->now();
         parts_.target.locate(target_frame_);
+        watch_for_sleep(record.stamps.begin);
         timeline_->plan(target_frame_, source_->head_track(), planned_);
         record.stamps.display = planned_.display;
         record.period_ns = planned_.period_ns;
@@ -246,6 +265,20 @@ class FrameLoop {
         }
     }
 
+    /// Stamps do not show it, but every device's clock has run on, and the gaze may be from before.
+    void watch_for_sleep(latency::Stamp now) {
+        constexpr std::int64_t kWorthTelling = 500'000'000;
+        const std::int64_t slept_ns = timeline_->slept_ns();
+        if (slept_ns - slept_ns_ > kWorthTelling) {
+            std::array<char, 96> text{};
+            const auto end = fmt::format_to_n(text.data(), text.size(),
+                                              "the machine slept for {:.1f} s before this",
+                                              static_cast<double>(slept_ns - slept_ns_) * 1e-9);
+            report_event(now, "clock", {text.data(), end.size});
+        }
+        slept_ns_ = std::max(slept_ns_, slept_ns);
+    }
+
     void report_target_events() {
         for (const std::string& text : parts_.target.take_events()) {
             report_event(timeline_ != nullptr ? timeline_->now() : latency::Stamp{}, "session",
@@ -269,6 +302,7 @@ class FrameLoop {
     std::unique_ptr<FrameTimeline> timeline_;
     std::unique_ptr<drivers::GazeSource> source_;
     std::int64_t start_ns_ = 0;
+    std::int64_t slept_ns_ = 0;
     std::int64_t last_gpu_ns_ = 0;
     bool head_fixed_ = false;
     bool ending_ = false;

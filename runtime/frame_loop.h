@@ -52,8 +52,8 @@ struct LoopParts {
 };
 
 /// The gaze-contingent frame loop: wait, begin, locate, wait for the GPU, read the gaze as late as
-/// possible, render for it, end. Throws SetupError (SessionLost) when the target is lost; the
-/// observers then have everything up to that frame.
+/// possible, render for it, end. Throws SetupError (SessionLost) when the target is lost and
+/// vk::SystemError when the device fails; the observers then have everything up to that frame.
 LoopResult run_frame_loop(const LoopParts& parts, const LoopOptions& options);
 
 }  // namespace gazeloop

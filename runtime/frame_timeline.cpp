@@ -23,6 +23,8 @@ gaze::StereoView on_head(const gaze::Pose& head, const gaze::StereoView& views,
 
 latency::Stamp LiveTimeline::now() { return latency::measured_now(); }
 
+std::int64_t LiveTimeline::slept_ns() const { return latency::slept_ns(); }
+
 void LiveTimeline::plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
                         PlannedFrame& frame) {
     frame.display = target.display;

@@ -50,6 +50,10 @@ class FrameTimeline {
     /// Whether a sample without a head pose is to get it from the target.
     [[nodiscard]] virtual bool asks_target_for_head() const { return false; }
 
+    /// For how long the machine has slept, without any time passing here, in all; 0 where nothing
+    /// depends on it.
+    [[nodiscard]] virtual std::int64_t slept_ns() const { return 0; }
+
     /// Whether the frame lies past the end of the recording.
     [[nodiscard]] virtual bool over(std::uint64_t /*frame*/) const { return false; }
 };
@@ -64,6 +68,7 @@ class LiveTimeline final : public FrameTimeline {
     void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
               PlannedFrame& frame) override;
     [[nodiscard]] bool asks_target_for_head() const override { return true; }
+    [[nodiscard]] std::int64_t slept_ns() const override;
 
   private:
     std::int64_t start_ns_;

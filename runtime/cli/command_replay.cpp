@@ -30,6 +30,7 @@ struct ReplayCommand {
 
 ExitCode replay_trace(const ReplayCommand& command, drivers::Trace trace, Settings& settings,
                       FrameRunRequest& request) {
+    value_or_throw(settings.check());
     const TrackerProfile tracker = value_or_throw(load_tracker(settings.values().profile.tracker));
     // A session knows when its samples arrived; other traces get the profile's delay.
     const std::int64_t delay_ns = trace.format == kSessionFormat ? 0 : tracker.delay_ns;

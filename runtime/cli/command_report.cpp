@@ -36,6 +36,9 @@ std::string end_of(const session::SessionFile& session) {
 }
 
 ExitCode report(const ReportCommand& command) {
+    if (!command.json.empty()) {
+        value_or_throw(check_output(command.json));
+    }
     const session::SessionFile session = value_or_throw(session::read_session(command.file));
     const latency::SummaryReport result = summarize(session);
     if (command.json != "-" && !command.log.quiet) {

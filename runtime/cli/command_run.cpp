@@ -24,6 +24,7 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;
     }
+    value_or_throw(settings.check());
     FrameRunRequest request;
     request.settings = &settings;
     request.command_line = command_line;

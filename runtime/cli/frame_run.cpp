@@ -15,6 +15,7 @@
 #include "runtime/cli/output_file.h"
 #include "runtime/cli/profiles.h"
 #include "runtime/cli/replay_check.h"
+#include "runtime/cli/run_observers.h"
 #include "runtime/cli/session_summary.h"
 #include "runtime/cli/version.h"
 #include "runtime/latency/clock.h"
@@ -113,49 +114,6 @@ gaze::StereoView profile_views(const present::DisplayProfile& display,
     return views;
 }
 
-/// Passes on to the session's recorder.
-class Recording final : public FrameObserver {
-  public:
-    explicit Recording(session::SessionRecorder& recorder) : recorder_(recorder) {}
-    void on_sample(const gaze::GazeSample& sample, std::uint64_t frame) override {
-        recorder_.add(sample, frame);
-    }
-    void on_hidden(const gaze::HiddenChange& change) override { recorder_.add(change); }
-    void on_frame(const latency::FrameRecord& record) override { recorder_.add(record); }
-    void on_gpu(const latency::FrameGpuRecord& record) override { recorder_.add(record); }
-    void on_event(latency::Stamp time, std::string_view kind, std::string_view text) override {
-        recorder_.event(time, kind, text);
-    }
-
-  private:
-    session::SessionRecorder& recorder_;
-};
-
-/// Passes on to the summary.
-class Summing final : public FrameObserver {
-  public:
-    explicit Summing(latency::LatencySummary& summary) : summary_(summary) {}
-    void on_sample(const gaze::GazeSample& sample, std::uint64_t) override { summary_.add(sample); }
-    void on_frame(const latency::FrameRecord& record) override {
-        if (record.period_ns > 0) {
-            summary_.set_display_period(record.period_ns);
-        }
-        summary_.add(record);
-    }
-    void on_gpu(const latency::FrameGpuRecord& record) override { summary_.add(record); }
-
-  private:
-    latency::LatencySummary& summary_;
-};
-
-/// Says what happens as it happens.
-class Logging final : public FrameObserver {
-  public:
-    void on_event(latency::Stamp, std::string_view kind, std::string_view text) override {
-        spdlog::debug("{}: {}", kind, text);
-    }
-};
-
 /// First draws compile shaders; in wall-clock runs that is not to look like a slow first frame.
 void warm_up(const render::VulkanContext& context, const render::RendererConfig& config,
              const gaze::StereoView& views) {
@@ -203,6 +161,7 @@ class FrameRun {
                              "vulkan.device: over OpenXR the runtime chooses the device; use it "
                              "with --target headless");
         }
+        check_outputs();
         if (request_.snapshot) {
             value_or_throw(render::make_snapshot_folder(*request_.snapshot));
         }
@@ -240,6 +199,16 @@ class FrameRun {
     }
 
   private:
+    /// Before the set-up, which takes seconds, and before a run that takes longer.
+    void check_outputs() const {
+        if (request_.record) {
+            value_or_throw(session::SessionRecorder::check(*request_.record));
+        }
+        if (request_.json) {
+            value_or_throw(check_output(*request_.json));
+        }
+    }
+
     [[nodiscard]] latency::LoopClock loop_clock() const {
         if (request_.clock == RunClock::Recorded) {
             return summary_config(*request_.session).clock;
@@ -389,9 +358,15 @@ class FrameRun {
             fail(error.code(), error.what());
         } catch (const vk::DeviceLostError& error) {
             fail(ExitCode::SessionLost,
-                 fmt::format("the Vulkan device was lost ({})", error.what()));
+                 fmt::format("the Vulkan device was lost ({}): the kernel's log (dmesg) may say "
+                             "why; start again",
+                             error.what()));
         } catch (const vk::SystemError& error) {
-            fail(ExitCode::SessionLost, fmt::format("Vulkan failed ({})", error.what()));
+            fail(
+                ExitCode::SessionLost,
+                fmt::format("Vulkan failed ({}): use a smaller picture (--set render.scale=0.5) or "
+                            "close what else uses the device",
+                            error.what()));
         }
     }
 

@@ -387,6 +387,24 @@ std::string Settings::text(const Entry& entry) {
     return *std::get<Choice>(entry.slot).value;
 }
 
+std::string Settings::with_origin(std::string_view key) const {
+    const Entry& entry = *std::ranges::find(entries_, key, &Entry::key);
+    return fmt::format("{} = {} ({})", key, text(entry), entry.origin);
+}
+
+Expected<void> Settings::check() const {
+    // Gaze that stops coming counts as lost only when it is stale: past its hold time by then, the
+    // fovea would begin its return in the middle.
+    if (values_.gaze.hold_ms < values_.gaze.stale_ms) {
+        return refuse(
+            with_origin("gaze.hold_ms"),
+            fmt::format("is less than {}: the fovea would jump when gaze stops coming; "
+                        "set gaze.hold_ms to {} or more, or gaze.stale_ms to {} or less",
+                        with_origin("gaze.stale_ms"), values_.gaze.stale_ms, values_.gaze.hold_ms));
+    }
+    return {};
+}
+
 std::vector<session::NamedValue> Settings::list() const {
     std::vector<session::NamedValue> values;
     values.reserve(entries_.size());

@@ -114,6 +114,9 @@ class Settings {
     /// Loads the standard files that are there.
     Expected<void> load_standard_files();
 
+    /// Whether the settings fit together. Errors (Usage): which two do not, and what would.
+    [[nodiscard]] Expected<void> check() const;
+
     /// Key and value of every setting, in the order of the keys.
     [[nodiscard]] std::vector<session::NamedValue> list() const;
 
@@ -150,6 +153,7 @@ class Settings {
     Expected<void> assign(std::string_view key, std::string_view text, Written written,
                           std::string_view origin);
     [[nodiscard]] static std::string text(const Entry& entry);
+    [[nodiscard]] std::string with_origin(std::string_view key) const;
     [[nodiscard]] std::vector<std::string> keys() const;
 
     SettingValues values_;

@@ -15,6 +15,14 @@ namespace gazeloop::latency {
     return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
+/// For how long the machine has slept since it was started: CLOCK_MONOTONIC stands still meanwhile,
+/// CLOCK_BOOTTIME does not. At most too small by what lies between the two readings.
+[[nodiscard]] inline std::int64_t slept_ns() {
+    timespec boot{};
+    clock_gettime(CLOCK_BOOTTIME, &boot);
+    return std::int64_t{boot.tv_sec} * 1'000'000'000 + boot.tv_nsec - monotonic_ns();
+}
+
 [[nodiscard]] inline Stamp measured_now() { return {monotonic_ns(), StampKind::Measured}; }
 
 inline void sleep_until_ns(std::int64_t time_ns) {

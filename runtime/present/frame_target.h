@@ -26,7 +26,7 @@ struct DepthRange {
 /// What the target knows of the frame that is about to begin.
 struct TargetFrame {
     latency::Stamp display;      ///< announced middle of the display's emission, host time
-    std::int64_t period_ns = 0;  ///< of the display
+    std::int64_t period_ns = 0;  ///< of the display; 0: not known
     bool should_render = true;   ///< false: begin and end it, but draw nothing
     gaze::Pose head;             ///< in world, at the display time
     gaze::StereoView views;      ///< in world, at the display time

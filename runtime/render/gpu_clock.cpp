@@ -29,10 +29,18 @@ void GpuClock::calibrate() {
     const std::array<vk::CalibratedTimestampInfoEXT, 2> infos{
         vk::CalibratedTimestampInfoEXT(vk::TimeDomainEXT::eDevice),
         vk::CalibratedTimestampInfoEXT(vk::TimeDomainEXT::eClockMonotonic)};
-    const auto [stamps, deviation] = context_->device().getCalibratedTimestampsEXT(infos);
+    std::array<std::uint64_t, 2> stamps{};
+    std::uint64_t deviation_ns = 0;
+    // This form, because it allocates nothing: it runs between frames.
+    if ((*context_->device())
+            .getCalibratedTimestampsEXT(
+                static_cast<std::uint32_t>(infos.size()), infos.data(), stamps.data(),
+                &deviation_ns, *context_->device().getDispatcher()) != vk::Result::eSuccess) {
+        return;  // the last relation stands
+    }
     gpu_ticks_ = stamps[0];
     host_ns_ = stamps[1];
-    max_deviation_ns_ = deviation;
+    max_deviation_ns_ = deviation_ns;
 }
 
 latency::Stamp GpuClock::host_time(std::uint64_t gpu_ticks) {

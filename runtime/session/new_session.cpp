@@ -124,6 +124,20 @@ int rename_to_new(const char* from, const char* to) {
 
 }  // namespace
 
+std::optional<Error> refuse_session(const std::filesystem::path& file) {
+    if (std::optional<Error> error = refuse_what_is_there(file)) {
+        return error;
+    }
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+        return cannot_be_created(file, errno);
+    }
+    if (!std::filesystem::is_directory(folder)) {
+        return cannot_be_created(file, ENOTDIR);
+    }
+    return std::nullopt;
+}
+
 std::optional<Error> create_session(const std::filesystem::path& file,
                                     const SessionHeader& header) {
     if (std::optional<Error> error = refuse_what_is_there(file)) {

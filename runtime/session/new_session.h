@@ -14,6 +14,9 @@ namespace gazeloop::session {
 /// SessionRecorder::create.
 std::optional<Error> create_session(const std::filesystem::path& file, const SessionHeader& header);
 
+/// What create_session() would refuse at once, without creating anything.
+std::optional<Error> refuse_session(const std::filesystem::path& file);
+
 /// Removes a session that is open nowhere, and what SQLite may have left beside it.
 void remove_session(const std::filesystem::path& file);
 

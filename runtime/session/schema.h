@@ -8,6 +8,9 @@ namespace gazeloop::session {
 /// The number in `meta.schema_version`; a change that an older reader cannot cope with raises it.
 inline constexpr int kSchemaVersion = 1;
 
+/// The oldest version that is still read.
+inline constexpr int kOldestSchemaVersion = 1;
+
 /// Creates the tables in an empty database. SCHEMA.md says what their columns mean.
 extern const char* const kCreateTables;
 

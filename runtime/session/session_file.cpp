@@ -193,6 +193,12 @@ SessionFile read_tables(const Database& database) {
             "has schema version {}, and this program reads up to version {}; use a newer gazeloop",
             version, kSchemaVersion));
     }
+    if (version < kOldestSchemaVersion) {
+        throw FormatError(fmt::format(
+            "has schema version {}, and this program reads versions from {} on; use an older "
+            "gazeloop",
+            version, kOldestSchemaVersion));
+    }
     session.records_dropped = take_number<std::uint64_t>(meta, kMetaRecordsDropped);
     const std::string closed = take(meta, kMetaClosed);
     session.closed_cleanly = closed == kClosed;

@@ -47,8 +47,8 @@ struct SessionFile {
 
 /// Reads a session, also one whose recorder was killed or is still writing: then everything up to
 /// its last commit. Not-a-number comes back as the quiet one. Errors (BadInput, each naming the
-/// file): missing, not a session, of a newer schema (both versions named), damaged (table and row
-/// named).
+/// file): missing, not a session, of a newer or too old schema (both versions named), damaged
+/// (table and row named).
 Expected<SessionFile> read_session(const std::filesystem::path& file);
 
 /// Whether the file begins as SQLite files do; false too if it cannot be read.

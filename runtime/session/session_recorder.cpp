@@ -67,6 +67,12 @@ class SessionRecorder::Impl {
         return {dropped_.load(std::memory_order_relaxed), failure()};
     }
 
+    [[nodiscard]] bool in_trouble() const {
+        return moved_.load(std::memory_order_relaxed) || failed_.load(std::memory_order_acquire);
+    }
+
+    [[nodiscard]] std::string trouble() const { return in_trouble() ? failure() : std::string(); }
+
     void end() {
         if (thread_.joinable()) {
             {
@@ -90,12 +96,18 @@ class SessionRecorder::Impl {
         } catch (const std::exception&) {
             failure_ = std::current_exception();
         }
-        moved_ = writer_->moved();
+        look_for_file();
         if (failure_ && !moved_) {
             mark_failed();
         }
         writer_.reset();
         failed_.store(failure_ || moved_, std::memory_order_release);
+    }
+
+    void look_for_file() {
+        if (writer_->moved()) {
+            moved_.store(true, std::memory_order_relaxed);
+        }
     }
 
     void mark_failed() {
@@ -111,10 +123,11 @@ class SessionRecorder::Impl {
             return fmt::format("{}: recording ended early: {}", file_.string(), reason);
         };
         if (moved_) {
-            return message("was moved or removed while it was written");
+            return message(
+                "was moved or removed while it was written (if it was moved, it is whole there)");
         }
         try {
-            if (failure_) {
+            if (failed_.load(std::memory_order_acquire) && failure_) {
                 std::rethrow_exception(failure_);
             }
             return {};
@@ -139,6 +152,7 @@ class SessionRecorder::Impl {
                 record = queue_.front();
             } while (record != nullptr && std::chrono::steady_clock::now() < commit_at);
             writer_->commit(dropped_.load(std::memory_order_relaxed));
+            look_for_file();
         }
     }
 
@@ -146,8 +160,8 @@ class SessionRecorder::Impl {
     SpscQueue<Record> queue_{kQueueRecords};
     std::atomic<std::uint64_t> dropped_{0};
     std::atomic<bool> failed_{false};
-    std::exception_ptr failure_;  ///< of the thread until it has been joined
-    bool moved_ = false;          ///< as well
+    std::exception_ptr failure_;  ///< of the thread until failed_ is set
+    std::atomic<bool> moved_{false};
     std::optional<SessionWriter> writer_;
     std::mutex mutex_;
     std::condition_variable wake_;
@@ -168,6 +182,13 @@ Expected<std::unique_ptr<SessionRecorder>> SessionRecorder::create(
         return std::unexpected(Error{ExitCode::BadInput, fmt::format("{}: cannot be recorded: {}",
                                                                      file.string(), error.what())});
     }
+}
+
+Expected<void> SessionRecorder::check(const std::filesystem::path& file) {
+    if (std::optional<Error> error = refuse_session(file)) {
+        return std::unexpected(std::move(*error));
+    }
+    return {};
 }
 
 SessionRecorder::SessionRecorder(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -201,6 +222,10 @@ void SessionRecorder::add(const gaze::HiddenChange& change) {
 void SessionRecorder::event(latency::Stamp time, std::string_view kind, std::string_view text) {
     impl_->add(EventRecord{time, FixedText<32>(kind), FixedText<240>(text)});
 }
+
+bool SessionRecorder::in_trouble() const { return impl_->in_trouble(); }
+
+std::string SessionRecorder::trouble() const { return impl_->trouble(); }
 
 RecordingStatus SessionRecorder::close() { return impl_->close(); }
 

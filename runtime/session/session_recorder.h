@@ -47,6 +47,8 @@ class SessionRecorder {
     /// writable; the header has a name twice; the system has no memory or no thread left.
     static Expected<std::unique_ptr<SessionRecorder>> create(const std::filesystem::path& file,
                                                              const SessionHeader& header);
+    /// What create() would refuse at once, without creating anything: to ask before a long set-up.
+    static Expected<void> check(const std::filesystem::path& file);
     SessionRecorder(const SessionRecorder&) = delete;
     SessionRecorder& operator=(const SessionRecorder&) = delete;
     ~SessionRecorder();
@@ -60,6 +62,12 @@ class SessionRecorder {
     /// `kind` is one word of at most 32 bytes, e.g. "session-state", "gaze-lost", "interrupted";
     /// `text` is cut after 240 bytes, between characters.
     void event(latency::Stamp time, std::string_view kind, std::string_view text);
+
+    /// Whether something has gone wrong, which the person who records may want to know at once: the
+    /// writing has ended early, or the file has been moved or removed. Does not block.
+    [[nodiscard]] bool in_trouble() const;
+    /// What that is, empty while there is none.
+    [[nodiscard]] std::string trouble() const;
 
     /// Writes what is queued and closes the file, so that a single file remains (while somebody
     /// reads it, its -wal and -shm stay until they have done). Idempotent; what is added later is

@@ -32,6 +32,10 @@ struct Options {
 /// corner and along a trace.
 std::vector<Figure> kfr_raycast(const Options& options);
 
+/// The frame loop's own work: from gaze to fovea, CPU time outside Vulkan and OpenXR, allocations,
+/// memory over 10,000 frames, and the program's start-up.
+std::vector<Figure> loop(const Options& options);
+
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.
 [[nodiscard]] double median(std::vector<double> values);
 

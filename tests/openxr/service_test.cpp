@@ -33,7 +33,7 @@ class Service : public testing::Test {
                               end_service(service.process());
                           }});
         EXPECT_EQ(result.exit_code, 5) << result.err;
-        EXPECT_NE(result.err.find("the runtime failed, or its service is gone"), std::string::npos)
+        EXPECT_NE(result.err.find("the runtime or its session went away"), std::string::npos)
             << result.err;
         EXPECT_NE(result.out.find("gaze age at display"), std::string::npos) << result.out;
         check_recording();
@@ -70,7 +70,7 @@ class Service : public testing::Test {
         EXPECT_LE(recorded->samples.size(), recorded->frames.size() + 1);
         ASSERT_FALSE(recorded->events.empty());
         EXPECT_EQ(recorded->events.back().kind, "error");
-        EXPECT_NE(recorded->events.back().text.find("service is gone"), std::string::npos);
+        EXPECT_NE(recorded->events.back().text.find("session went away"), std::string::npos);
 
         const std::string frames = "frames   " + std::to_string(recorded->frames.size());
         const ProgramResult report = run_gazeloop({"report", session()});

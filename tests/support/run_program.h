@@ -41,6 +41,7 @@ class ScratchFolder {
     [[nodiscard]] std::string file(const std::string& name) const {
         return (path_ / name).string();
     }
+    [[nodiscard]] bool empty() const { return std::filesystem::is_empty(path_); }
     /// Writes a file and gives its path.
     [[nodiscard]] std::string write(const std::string& name, const std::string& text) const;
 

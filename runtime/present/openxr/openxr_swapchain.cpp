@@ -1,5 +1,7 @@
 #include "runtime/present/openxr/openxr_swapchain.h"
 
+#include <fmt/core.h>
+
 #include <utility>
 
 #include "runtime/error.h"
@@ -22,7 +24,11 @@ OpenXrSwapchain::OpenXrSwapchain(const render::VulkanContext& context, XrSession
     info.faceCount = 1;
     info.arraySize = 1;
     info.mipCount = 1;
-    xr_check(xrCreateSwapchain(session, &info, &swapchain_), "xrCreateSwapchain");
+    xr_check(
+        xrCreateSwapchain(session, &info, &swapchain_),
+        fmt::format("no swapchain of {}x{} px could be made (xrCreateSwapchain); use a smaller "
+                    "picture (--set render.scale=0.5)",
+                    extent.width, extent.height));
     std::uint32_t count = 0;
     xr_check(xrEnumerateSwapchainImages(swapchain_, 0, &count, nullptr),
              "xrEnumerateSwapchainImages");
@@ -55,21 +61,23 @@ OpenXrSwapchain::~OpenXrSwapchain() {
 OpenXrSwapchain::Image OpenXrSwapchain::acquire() {
     std::uint32_t index = 0;
     const auto acquire = typed<XrSwapchainImageAcquireInfo>(XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO);
-    xr_check(xrAcquireSwapchainImage(swapchain_, &acquire, &index), "xrAcquireSwapchainImage");
+    xr_check_session(xrAcquireSwapchainImage(swapchain_, &acquire, &index),
+                     "xrAcquireSwapchainImage");
     auto wait = typed<XrSwapchainImageWaitInfo>(XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
     constexpr XrDuration kPatienceNs = 5'000'000'000;
     wait.timeout = kPatienceNs;
-    if (xr_check(xrWaitSwapchainImage(swapchain_, &wait), "xrWaitSwapchainImage") ==
+    if (xr_check_session(xrWaitSwapchainImage(swapchain_, &wait), "xrWaitSwapchainImage") ==
         XR_TIMEOUT_EXPIRED) {
         throw SetupError(ExitCode::SessionLost,
-                         "OpenXR: the runtime kept a swapchain image for 5 s: it hangs");
+                         "OpenXR: the runtime kept a swapchain image for 5 s "
+                         "(xrWaitSwapchainImage: XR_TIMEOUT_EXPIRED): it hangs; start it again");
     }
     return {images_[index], *views_[index]};
 }
 
 void OpenXrSwapchain::release() {
     const auto release = typed<XrSwapchainImageReleaseInfo>(XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO);
-    xr_check(xrReleaseSwapchainImage(swapchain_, &release), "xrReleaseSwapchainImage");
+    xr_check_session(xrReleaseSwapchainImage(swapchain_, &release), "xrReleaseSwapchainImage");
 }
 
 XrSwapchainSubImage OpenXrSwapchain::sub_image() const {

@@ -8,9 +8,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <thread>
 
 #include "runtime/error.h"
+#include "runtime/latency/clock.h"
 #include "runtime/present/openxr/openxr_swapchain.h"
 #include "runtime/present/openxr/required_extensions.h"
 #include "runtime/present/openxr/runtime_choice.h"
@@ -24,6 +26,9 @@ constexpr XrViewConfigurationType kStereo = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_S
 constexpr const char* kCoreValidationLayer = "XR_APILAYER_LUNARG_core_validation";
 constexpr auto kIdleWait = std::chrono::milliseconds(5);
 constexpr int kPollsBeforeWarning = 1000;  // 5 s
+constexpr auto kPatienceAtExit = std::chrono::seconds(5);
+constexpr std::int64_t kFarFromNowNs = 10'000'000'000;
+constexpr XrDuration kLongestPeriodNs = 1'000'000'000;
 
 std::string_view state_name(XrSessionState state) {
     constexpr std::array<std::string_view, 9> kNames{"UNKNOWN",      "IDLE",         "READY",
@@ -288,7 +293,8 @@ class OpenXrTarget final : public FrameTarget {
 
     TargetState poll() override {
         auto event = typed<XrEventDataBuffer>(XR_TYPE_EVENT_DATA_BUFFER);
-        while (xr_check(xrPollEvent(instance_.handle(), &event), "xrPollEvent") == XR_SUCCESS) {
+        while (xr_check_session(xrPollEvent(instance_.handle(), &event), "xrPollEvent") ==
+               XR_SUCCESS) {
             handle(event);
             event = typed<XrEventDataBuffer>(XR_TYPE_EVENT_DATA_BUFFER);
         }
@@ -307,22 +313,32 @@ class OpenXrTarget final : public FrameTarget {
             return TargetState::Idle;
         }
         idle_polls_ = 0;
+        if (exit_sent_ && std::chrono::steady_clock::now() > exit_deadline_) {
+            events_.emplace_back("the runtime does not end the session: it was left");
+            spdlog::warn("{} does not end the session, which it was asked to: leaving it",
+                         instance_.runtime_name());
+            return TargetState::Ended;
+        }
         return TargetState::Running;
     }
 
     void wait_frame(TargetFrame& frame) override {
         const auto wait = typed<XrFrameWaitInfo>(XR_TYPE_FRAME_WAIT_INFO);
         auto state = typed<XrFrameState>(XR_TYPE_FRAME_STATE);
-        xr_check(xrWaitFrame(session_, &wait, &state), "xrWaitFrame");
+        xr_check_session(xrWaitFrame(session_, &wait, &state), "xrWaitFrame");
         display_time_ = state.predictedDisplayTime;
         frame.display = {to_host_ns(state.predictedDisplayTime), latency::StampKind::Predicted};
-        frame.period_ns = state.predictedDisplayPeriod;
+        // Some runtimes know no period at first; 0 says so.
+        const XrDuration period = state.predictedDisplayPeriod;
+        frame.period_ns = period > 0 && period <= kLongestPeriodNs ? period : 0;
         frame.should_render = state.shouldRender == XR_TRUE;
+        watch_display_time(frame.display.ns);
     }
 
     void begin_frame() override {
         const auto begin = typed<XrFrameBeginInfo>(XR_TYPE_FRAME_BEGIN_INFO);
-        if (xr_check(xrBeginFrame(session_, &begin), "xrBeginFrame") == XR_FRAME_DISCARDED) {
+        if (xr_check_session(xrBeginFrame(session_, &begin), "xrBeginFrame") ==
+            XR_FRAME_DISCARDED) {
             events_.emplace_back("frame discarded by the runtime");
         }
     }
@@ -336,27 +352,29 @@ class OpenXrTarget final : public FrameTarget {
         std::array<XrView, gaze::kEyeCount> views{typed<XrView>(XR_TYPE_VIEW),
                                                   typed<XrView>(XR_TYPE_VIEW)};
         std::uint32_t count = 0;
-        xr_check(xrLocateViews(session_, &info, &state, views.size(), &count, views.data()),
-                 "xrLocateViews");
+        xr_check_session(xrLocateViews(session_, &info, &state, views.size(), &count, views.data()),
+                         "xrLocateViews");
+        bool tracked = true;
+        bool rendered_for = true;
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
             // While tracking is lost the last known pose stands.
-            if ((state.viewStateFlags & XR_VIEW_STATE_ORIENTATION_VALID_BIT) != 0) {
-                views_[e].pose.orientation = from_xr(views[e].pose).orientation;
+            const auto pose = from_xr(views[e].pose);
+            if (pose && (state.viewStateFlags & XR_VIEW_STATE_ORIENTATION_VALID_BIT) != 0) {
+                views_[e].pose.orientation = pose->orientation;
+            } else {
+                tracked = false;
             }
-            if ((state.viewStateFlags & XR_VIEW_STATE_POSITION_VALID_BIT) != 0) {
-                views_[e].pose.position_m = from_xr(views[e].pose).position_m;
+            if (pose && (state.viewStateFlags & XR_VIEW_STATE_POSITION_VALID_BIT) != 0) {
+                views_[e].pose.position_m = pose->position_m;
+            } else {
+                tracked = false;
             }
-            const XrFovf& fov = views[e].fov;
-            views_[e].fov = {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown};
-            views_[e].width_px = extents_[e].width;
-            views_[e].height_px = extents_[e].height;
-            if (!gaze::is_valid(views_[e])) {
-                throw SetupError(ExitCode::NoDevice,
-                                 fmt::format("{} gives the {} eye a field of view that nothing can "
-                                             "be rendered for",
-                                             instance_.runtime_name(), gaze::kEyeNames[e]));
-            }
+            rendered_for = take_field_of_view(e, views[e].fov) && rendered_for;
         }
+        say_change(tracked, tracked_, "the head is tracked",
+                   "the head is not tracked: its last known pose stands");
+        say_change(rendered_for, rendered_for_, "the fields of view can be rendered for",
+                   "a field of view that nothing can be rendered for: the last one stands");
         if (const auto head = locate_head(display_time_)) {
             head_ = *head;
         }
@@ -417,7 +435,7 @@ class OpenXrTarget final : public FrameTarget {
         end.environmentBlendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
         end.layerCount = rendered ? 1 : 0;
         end.layers = rendered ? layers : nullptr;
-        xr_check(xrEndFrame(session_, &end), "xrEndFrame");
+        xr_check_session(xrEndFrame(session_, &end), "xrEndFrame");
     }
 
     std::optional<gaze::Pose> head_at(std::int64_t time_ns) override {
@@ -433,8 +451,9 @@ class OpenXrTarget final : public FrameTarget {
     void request_exit() override {
         exit_requested_ = true;
         if (session_running_ && !exit_sent_) {
-            xr_check(xrRequestExitSession(session_), "xrRequestExitSession");
+            xr_check_session(xrRequestExitSession(session_), "xrRequestExitSession");
             exit_sent_ = true;
+            exit_deadline_ = std::chrono::steady_clock::now() + kPatienceAtExit;
         }
     }
 
@@ -451,6 +470,50 @@ class OpenXrTarget final : public FrameTarget {
     std::vector<std::string> take_events() override { return std::exchange(events_, {}); }
 
   private:
+    /// False if it cannot be rendered for, in which case the last one stands.
+    bool take_field_of_view(std::size_t eye, const XrFovf& fov) {
+        gaze::EyeView view = views_[eye];
+        view.fov = {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown};
+        view.width_px = extents_[eye].width;
+        view.height_px = extents_[eye].height;
+        if (gaze::is_valid(view)) {
+            views_[eye] = view;
+            return true;
+        }
+        if (!gaze::is_valid(views_[eye])) {
+            throw SetupError(ExitCode::NoDevice,
+                             fmt::format("{} gives the {} eye a field of view that nothing can be "
+                                         "rendered for; use another runtime or --target headless",
+                                         instance_.runtime_name(), gaze::kEyeNames[eye]));
+        }
+        return false;
+    }
+
+    void say_change(bool now, bool& before, const char* good, const char* bad) {
+        if (now != before) {
+            events_.emplace_back(now ? good : bad);
+        }
+        before = now;
+    }
+
+    /// Announced times should grow, and lie a few periods ahead. They are used as they are.
+    void watch_display_time(std::int64_t display_ns) {
+        if (display_before_ns_ && display_ns <= *display_before_ns_) {
+            events_.push_back(
+                fmt::format("the announced display time went back by {:.3f} ms",
+                            static_cast<double>(*display_before_ns_ - display_ns) * 1e-6));
+        }
+        display_before_ns_ = display_ns;
+        const std::int64_t ahead_ns = display_ns - latency::monotonic_ns();
+        const bool near = std::abs(ahead_ns) < kFarFromNowNs;
+        if (!near && display_near_) {
+            events_.push_back(fmt::format("the announced display time lies {:.3f} s {}",
+                                          std::abs(static_cast<double>(ahead_ns)) * 1e-9,
+                                          ahead_ns > 0 ? "ahead" : "back"));
+        }
+        display_near_ = near;
+    }
+
     XrSpace make_space(XrReferenceSpaceType type) {
         auto info = typed<XrReferenceSpaceCreateInfo>(XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
         info.referenceSpaceType = type;
@@ -492,7 +555,8 @@ class OpenXrTarget final : public FrameTarget {
     void handle(const XrEventDataBuffer& event) {
         if (event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) {
             throw SetupError(ExitCode::SessionLost,
-                             fmt::format("OpenXR: {} is going away (instance loss pending)",
+                             fmt::format("OpenXR: {} is going away (instance loss pending): start "
+                                         "again when it is back",
                                          instance_.runtime_name()));
         }
         if (event.type == XR_TYPE_EVENT_DATA_EVENTS_LOST) {
@@ -515,20 +579,22 @@ class OpenXrTarget final : public FrameTarget {
                 }
                 auto begin = typed<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
                 begin.primaryViewConfigurationType = kStereo;
-                xr_check(xrBeginSession(session_, &begin), "xrBeginSession");
+                xr_check_session(xrBeginSession(session_, &begin), "xrBeginSession");
                 session_running_ = true;
                 break;
             }
             case XR_SESSION_STATE_STOPPING:
                 session_running_ = false;
-                xr_check(xrEndSession(session_), "xrEndSession");
+                xr_check_session(xrEndSession(session_), "xrEndSession");
                 break;
             case XR_SESSION_STATE_EXITING:
                 ended_ = true;
                 break;
             case XR_SESSION_STATE_LOSS_PENDING:
                 throw SetupError(ExitCode::SessionLost,
-                                 fmt::format("OpenXR: {} ends the session (session loss pending)",
+                                 fmt::format("OpenXR: {} is losing the session (session loss "
+                                             "pending): see that the headset is connected, then "
+                                             "start again",
                                              instance_.runtime_name()));
             default:
                 break;
@@ -537,7 +603,11 @@ class OpenXrTarget final : public FrameTarget {
 
     std::optional<gaze::Pose> locate_head(XrTime time) const {
         auto location = typed<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
-        xr_check(xrLocateSpace(view_space_, local_space_, time, &location), "xrLocateSpace");
+        const XrResult result = xrLocateSpace(view_space_, local_space_, time, &location);
+        if (result == XR_ERROR_TIME_INVALID) {
+            return std::nullopt;  // so long ago that the runtime does not know any more
+        }
+        xr_check_session(result, "xrLocateSpace");
         constexpr XrSpaceLocationFlags kNeeded =
             XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
         if ((location.locationFlags & kNeeded) != kNeeded) {
@@ -548,7 +618,8 @@ class OpenXrTarget final : public FrameTarget {
 
     [[nodiscard]] std::int64_t to_host_ns(XrTime time) const {
         timespec host{};
-        xr_check(to_timespec_(instance_.handle(), time, &host), "xrConvertTimeToTimespecTimeKHR");
+        xr_check_session(to_timespec_(instance_.handle(), time, &host),
+                         "the announced display time is none: xrConvertTimeToTimespecTimeKHR");
         return std::int64_t{host.tv_sec} * 1'000'000'000 + host.tv_nsec;
     }
 
@@ -570,10 +641,15 @@ class OpenXrTarget final : public FrameTarget {
     gaze::StereoView views_;
     std::optional<VisibilityMask> visibility_mask_;
     gaze::HiddenMeshes hidden_;
+    bool tracked_ = true;
+    bool rendered_for_ = true;
+    std::optional<std::int64_t> display_before_ns_;
+    bool display_near_ = true;
     std::vector<std::string> events_;
     bool session_running_ = false;
     bool exit_requested_ = false;
     bool exit_sent_ = false;
+    std::chrono::steady_clock::time_point exit_deadline_;
     int idle_polls_ = 0;
     bool ended_ = false;
 };

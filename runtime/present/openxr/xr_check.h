@@ -8,16 +8,20 @@
 #include <openxr/openxr.h>
 #include <openxr/openxr_platform.h>
 
+#include <optional>
 #include <string_view>
 
 #include "runtime/gaze/pose.h"
 
 namespace gazeloop::present {
 
-/// Throws SetupError for a failed call: SessionLost when instance, session or runtime went away,
-/// NoDevice otherwise. `what` names the call and, where there is one, the remedy. Success codes
-/// (also XR_SESSION_LOSS_PENDING, XR_FRAME_DISCARDED) pass and are returned.
+/// Throws SetupError for a failed call of the set-up: SessionLost when instance, session or runtime
+/// went away, NoDevice otherwise. `what` names the call and, where there is one, the remedy.
+/// Success codes (also XR_SESSION_LOSS_PENDING, XR_FRAME_DISCARDED) pass and are returned.
 XrResult xr_check(XrResult result, std::string_view what);
+
+/// The same for a call of a session that lives, which no failure lets go on: always SessionLost.
+XrResult xr_check_session(XrResult result, std::string_view call);
 
 /// The name of a result, "XR_ERROR_..." .
 std::string_view xr_name(XrResult result);
@@ -30,7 +34,8 @@ Structure typed(XrStructureType type) {
     return structure;
 }
 
-gaze::Pose from_xr(const XrPosef& pose);
+/// Nothing for a pose that is not finite or whose quaternion turns nothing.
+std::optional<gaze::Pose> from_xr(const XrPosef& pose);
 XrPosef to_xr(const gaze::Pose& pose);
 
 /// An extension's function. Throws SetupError (NoDevice) if the runtime has none by that name.

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <spdlog/spdlog.h>
+
+#include "runtime/frame_observer.h"
+#include "runtime/latency/latency_summary.h"
+#include "runtime/session/session_recorder.h"
+
+namespace gazeloop::cli {
+
+/// Passes on to the session's recorder, and says at once when it stops recording.
+class Recording final : public FrameObserver {
+  public:
+    explicit Recording(session::SessionRecorder& recorder) : recorder_(recorder) {}
+    void on_sample(const gaze::GazeSample& sample, std::uint64_t frame) override {
+        recorder_.add(sample, frame);
+    }
+    void on_hidden(const gaze::HiddenChange& change) override { recorder_.add(change); }
+    void on_frame(const latency::FrameRecord& record) override {
+        recorder_.add(record);
+        if (!trouble_said_ && recorder_.in_trouble()) {
+            trouble_said_ = true;
+            spdlog::warn("{}; the run goes on", recorder_.trouble());
+        }
+    }
+    void on_gpu(const latency::FrameGpuRecord& record) override { recorder_.add(record); }
+    void on_event(latency::Stamp time, std::string_view kind, std::string_view text) override {
+        recorder_.event(time, kind, text);
+    }
+
+  private:
+    session::SessionRecorder& recorder_;
+    bool trouble_said_ = false;
+};
+
+/// Passes on to the summary.
+class Summing final : public FrameObserver {
+  public:
+    explicit Summing(latency::LatencySummary& summary) : summary_(summary) {}
+    void on_sample(const gaze::GazeSample& sample, std::uint64_t) override { summary_.add(sample); }
+    void on_frame(const latency::FrameRecord& record) override {
+        if (record.period_ns > 0) {
+            summary_.set_display_period(record.period_ns);
+        }
+        summary_.add(record);
+    }
+    void on_gpu(const latency::FrameGpuRecord& record) override { summary_.add(record); }
+
+  private:
+    latency::LatencySummary& summary_;
+};
+
+/// Says what happens as it happens.
+class Logging final : public FrameObserver {
+  public:
+    void on_event(latency::Stamp, std::string_view kind, std::string_view text) override {
+        spdlog::debug("{}: {}", kind, text);
+    }
+};
+
+}  // namespace gazeloop::cli

@@ -1,0 +1,63 @@
+// Any words as the options of `run`, one a line: settings in range, or a refusal.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "drivers/fixed/fixed_source.h"
+#include "runtime/cli/run_options.h"
+
+namespace {
+
+void require(bool held) {
+    if (!held) {
+        std::abort();
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace gazeloop;
+    std::vector<std::string> words;
+    const std::string text(data, data + size);
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        // Files are another target's business; here a name might be one of this machine's.
+        if (!text.substr(begin, end - begin).starts_with("--config")) {
+            words.push_back(text.substr(begin, end - begin));
+        }
+        begin = end + 1;
+    }
+    std::ranges::reverse(words);  // as CLI11 takes them
+
+    CLI::App app;
+    cli::RunOptions options;
+    std::string gaze;
+    options.add_to(app);
+    app.add_option("--gaze", gaze);
+    try {
+        app.parse(words);
+    } catch (const CLI::ParseError&) {
+        return 0;
+    }
+    require(options.frames.value_or(0) >= 0);
+    require(options.seconds.value_or(0.0) >= 0.0 && std::isfinite(options.seconds.value_or(0.0)));
+    if (const auto fixed = drivers::parse_fixed_gaze(gaze); !fixed) {
+        require(fixed.error().code == ExitCode::Usage && !fixed.error().message.empty());
+    }
+    cli::Settings settings;
+    if (const auto applied = options.apply_to(settings, false)) {
+        const cli::SettingValues& values = settings.values();
+        require(values.kfr.sigma >= 0.5 && values.kfr.sigma <= 32.0);
+        require(values.render.spp >= 1 && values.render.spp <= 16);
+        require(std::isfinite(values.gaze.hold_ms) && values.gaze.hold_ms >= 0.0);
+        (void)settings.check();
+    } else {
+        require(applied.error().code == ExitCode::Usage && !applied.error().message.empty());
+    }
+    return 0;
+}

@@ -1,0 +1,155 @@
+#include "tests/support/watch/watched_loop.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "drivers/trace/trace_source.h"
+#include "runtime/cli/profiles.h"
+#include "runtime/cli/run_observers.h"
+#include "runtime/frame_loop.h"
+#include "runtime/latency/clock.h"
+#include "runtime/present/headless_target.h"
+#include "runtime/present/openxr/openxr_target.h"
+#include "sim/gaze_generator.h"
+#include "tests/support/watch/watched_call.h"
+#include "tests/support/watch/watched_vulkan.h"
+
+namespace gazeloop::tests {
+namespace {
+
+std::size_t resident_bytes() {
+    std::FILE* const file = std::fopen("/proc/self/statm", "r");
+    unsigned long size = 0;
+    unsigned long resident = 0;
+    if (file == nullptr || std::fscanf(file, "%lu %lu", &size, &resident) != 2) {
+        throw SetupError(ExitCode::NoDevice, "/proc/self/statm cannot be read");
+    }
+    std::fclose(file);
+    return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// Notes when the loop looks for gaze.
+class MarkingSource final : public drivers::GazeSource {
+  public:
+    explicit MarkingSource(std::unique_ptr<drivers::GazeSource> source)
+        : source_(std::move(source)) {}
+    void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override {
+        mark_gaze();
+        source_->poll(now_ns, samples);
+    }
+    [[nodiscard]] const gaze::HeadMotion* head_track() const override {
+        return source_->head_track();
+    }
+    [[nodiscard]] std::string description() const override { return source_->description(); }
+
+  private:
+    std::unique_ptr<drivers::GazeSource> source_;
+};
+
+/// Comes last among the observers and draws the line between frames.
+class FrameWatch final : public FrameObserver {
+  public:
+    /// Its own memory is there, page by page, from the start.
+    explicit FrameWatch(const WatchedLoop& options)
+        : every_(options.resident_every), frames_(options.frames) {}
+    void on_frame(const latency::FrameRecord& record) override {
+        const Spent now = spent_outside_calls();
+        const Spent spent = now - before_;
+        WatchedFrame frame{.cpu_ns = spent.cpu_ns,
+                           .gaze_ns = record.should_render ? last_gaze_ns() : -1,
+                           .allocations = spent.allocations,
+                           .calls = spent.calls};
+        if (every_ > 0 && record.index % every_ == 0) {
+            frame.resident_bytes = resident_bytes();
+        }
+        frames_[seen_++] = frame;
+        before_ = spent_outside_calls();
+    }
+    [[nodiscard]] std::vector<WatchedFrame> take() {
+        frames_.resize(seen_);
+        return std::move(frames_);
+    }
+
+  private:
+    std::size_t every_;
+    Spent before_ = spent_outside_calls();
+    std::vector<WatchedFrame> frames_;
+    std::size_t seen_ = 0;
+};
+
+std::unique_ptr<present::FrameTarget> make_target(const WatchedLoop& options,
+                                                  const present::DisplayProfile& display) {
+    if (options.openxr) {
+        return present::make_openxr_target({.display = display, .scale = options.scale});
+    }
+    const auto scaled = [&](std::uint32_t side) {
+        return std::max(2U, static_cast<std::uint32_t>(std::lround(side * options.scale)));
+    };
+    const vk::Extent2D extent(scaled(display.width_px), scaled(display.height_px));
+    return std::make_unique<present::HeadlessTarget>(present::HeadlessTarget::Options{
+        .display = display, .extents = {extent, extent}, .paced = options.paced});
+}
+
+}  // namespace
+
+std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
+    const present::DisplayProfile display = value_or_throw(cli::load_display("fove0"));
+    // In this order, because the context is the last to go but for the runtime's instance.
+    std::unique_ptr<render::VulkanContext> context;
+    const std::unique_ptr<present::FrameTarget> target = make_target(options, display);
+    context =
+        std::make_unique<render::VulkanContext>(render::VulkanOptions{}, target->vulkan_factory());
+    watch_vulkan(*context);
+    target->start(*context);
+    render::RendererConfig config;
+    config.method = options.method == "full" ? render::Method::Full : render::Method::Kfr;
+    config.extents = target->extents();
+    config.format = target->format();
+    config.hash = options.hash;
+    render::FrameRenderer renderer(*context, config);
+    gaze::GazeToFovea gaze{gaze::FoveaPolicy{}};
+
+    latency::LatencySummary summary(
+        {.clock = latency::LoopClock::Wall, .period_ns = display.period_ns()});
+    cli::Summing summing(summary);
+    cli::Logging logging;
+    FrameWatch watch(options);
+    std::unique_ptr<session::SessionRecorder> recorder;
+    std::optional<cli::Recording> recording;
+    LoopParts parts{
+        .target = *target,
+        .renderer = renderer,
+        .gaze = gaze,
+        .make_timeline = [] { return std::make_unique<LiveTimeline>(latency::measured_now().ns); },
+        .make_source =
+            [](std::int64_t start_ns) {
+                return std::make_unique<MarkingSource>(std::make_unique<drivers::TraceSource>(
+                    sim::generate_gaze({}, 300.0), start_ns, 10'000'000));
+            },
+        .observers = {&summing, &logging}};
+    if (!options.record.empty()) {
+        recorder = value_or_throw(session::SessionRecorder::create(options.record, {}));
+        recording.emplace(*recorder);
+        parts.observers.push_back(&*recording);
+    }
+    parts.observers.push_back(&watch);
+    LoopOptions loop;
+    loop.frames = options.frames;
+    run_frame_loop(parts, loop);
+    if (recorder != nullptr && !recorder->close().complete()) {
+        throw SetupError(ExitCode::RecordingIncomplete, recorder->close().failure +
+                                                            ": the watched loop's recording is "
+                                                            "not complete");
+    }
+    return watch.take();
+}
+
+}  // namespace gazeloop::tests

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gazeloop::tests {
+
+/// What the loop's own code did in one frame, from the end of the one before to its end, outside
+/// calls of Vulkan and OpenXR.
+struct WatchedFrame {
+    std::int64_t cpu_ns = 0;    ///< with cpu_ns_of_watching_a_call() for every call
+    std::int64_t gaze_ns = -1;  ///< CPU time from looking for gaze to the first Vulkan call after
+                                ///< the foveae are known; -1: nothing was drawn
+    std::size_t allocations = 0;
+    std::uint64_t calls = 0;
+    std::size_t resident_bytes = 0;  ///< of the process; only where asked for
+};
+
+struct WatchedLoop {
+    bool openxr = false;  ///< else headless
+    bool paced = true;    ///< headless: at the display's rate
+    bool hash = false;
+    double scale = 0.05;  ///< of the display's size
+    std::size_t frames = 200;
+    std::size_t resident_every = 0;  ///< frames between readings of resident_bytes; 0: none
+    std::string method = "kfr";
+    std::filesystem::path record{};  ///< empty: no recording
+};
+
+/// Runs the frame loop as `gazeloop run` puts it together, on simulated gaze with blinks, and
+/// watches its thread. Throws SetupError.
+std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options);
+
+}  // namespace gazeloop::tests

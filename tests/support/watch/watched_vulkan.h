@@ -1,0 +1,11 @@
+#pragma once
+
+#include "runtime/render/vulkan_context.h"
+
+namespace gazeloop::tests {
+
+/// From now on the calls that a frame makes on the context's device are WatchedCalls. Functions
+/// that are not listed in watched_vulkan.cpp count as the caller's own work: figures err upwards.
+void watch_vulkan(const render::VulkanContext& context);
+
+}  // namespace gazeloop::tests
