@@ -215,7 +215,9 @@ class FrameLoop {
         request.scene_time_s = planned_.scene_time_s;
         request.views = planned_.views;
         for (const gaze::Eye eye : gaze::kEyes) {
-            request.foveae[gaze::index(eye)] = record.fovea.eyes[gaze::index(eye)].position;
+            const gaze::FoveaPoint& fovea = record.fovea.eyes[gaze::index(eye)];
+            request.foveae[gaze::index(eye)] = fovea.position;
+            request.gaze_directions[gaze::index(eye)] = fovea.direction;
         }
         request.targets = images;
         request.hidden = hidden_areas_;

@@ -175,7 +175,7 @@ void add_plan_command(CLI::App& program, Action& action) {
     };
     options.log.add_to(*app);
     options.add_settings_to(*app);
-    app->add_option("--method", command->method, "full, kfr, layers, rings, sparse or all");
+    app->add_option("--method", command->method, "full, kfr, acuity, layers, rings, sparse or all");
     app->add_option("--model", command->model, "guenter, geisler-perry, stelacsf or all");
     app->add_option("--gaze", command->gaze, "direction of gaze, degrees to the right and up")
         ->type_name("AZ,EL");

@@ -14,6 +14,7 @@ using Action = std::function<ExitCode()>;
 /// Each adds its command to the program and returns, through `action`, what to do if it is chosen.
 void add_run_command(CLI::App& program, const std::string& command_line, Action& action);
 void add_replay_command(CLI::App& program, const std::string& command_line, Action& action);
+void add_numerics_command(CLI::App& program, Action& action);
 void add_report_command(CLI::App& program, Action& action);
 void add_plan_command(CLI::App& program, Action& action);
 void add_simulate_command(CLI::App& program, Action& action);

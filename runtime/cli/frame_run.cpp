@@ -11,7 +11,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "runtime/cli/acuity_settings.h"
 #include "runtime/cli/interrupt.h"
+#include "runtime/cli/kfr_settings.h"
 #include "runtime/cli/output_file.h"
 #include "runtime/cli/profiles.h"
 #include "runtime/cli/replay_check.h"
@@ -128,6 +130,7 @@ void warm_up(const render::VulkanContext& context, const render::RendererConfig&
             vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
         request.targets[e] = {images[e].image(), images[e].view()};
         request.foveae[e] = {views[e].width_px / 2.0, views[e].height_px / 2.0};
+        request.gaze_directions[e] = {0.0, 0.0, -1.0};
     }
     renderer.wait_for_slot();
     renderer.render(request);
@@ -241,10 +244,8 @@ class FrameRun {
         return {.method = method_named(values_.render.method),
                 .scene = values_.render.scene,
                 .samples = static_cast<std::uint32_t>(values_.render.spp),
-                .kfr = {.sigma = values_.kfr.sigma,
-                        .kernel = {values_.kfr.alpha},
-                        .disc = values_.kfr.disc,
-                        .border_px = values_.kfr.border_px},
+                .kfr = value_or_throw(kfr_parameters(values_)),
+                .acuity = acuity_parameters(values_),
                 .extents = target_->extents(),
                 .format = target_->format(),
                 .profile = values_.render.profile,

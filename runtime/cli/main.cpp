@@ -68,6 +68,7 @@ int gazeloop_main(int count, char** arguments) {
     const std::string command_line = joined(count, arguments);
     gazeloop::cli::add_run_command(program, command_line, action);
     gazeloop::cli::add_replay_command(program, command_line, action);
+    gazeloop::cli::add_numerics_command(program, action);
     gazeloop::cli::add_report_command(program, action);
     gazeloop::cli::add_plan_command(program, action);
     gazeloop::cli::add_simulate_command(program, action);

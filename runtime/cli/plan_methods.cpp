@@ -3,8 +3,14 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <cmath>
+#include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "runtime/cli/acuity_settings.h"
+#include "runtime/cli/kfr_settings.h"
+#include "runtime/foveation/acuity_density.h"
+#include "runtime/foveation/acuity_plan.h"
 #include "runtime/foveation/guenter_acuity.h"
 #include "runtime/foveation/kfr_density.h"
 #include "runtime/foveation/layer_plan.h"
@@ -30,8 +36,11 @@ Expected<PlannedMethod> plan_full(const PlanSubject& subject) {
 
 Expected<PlannedMethod> plan_kfr(const PlanSubject& subject) {
     const auto& set = subject.settings.kfr;
-    const foveation::KfrParameters parameters{
-        .sigma = set.sigma, .kernel = {set.alpha}, .disc = set.disc, .border_px = set.border_px};
+    const auto stated = kfr_parameters(subject.settings);
+    if (!stated) {
+        return std::unexpected(stated.error());
+    }
+    const foveation::KfrParameters& parameters = *stated;
     const ImageSize image = image_size(subject);
     const auto lp = foveation::lp_buffer_size(parameters, image);
     if (!lp) {
@@ -41,8 +50,10 @@ Expected<PlannedMethod> plan_kfr(const PlanSubject& subject) {
     const gaze::PixelPosition fovea = subject.field.fovea();
     foveation::plan_kfr(parameters, *lp, image, fovea, plan);
     return PlannedMethod{
-        .parameters = fmt::format("sigma {}, alpha {}, {}", set.sigma, set.alpha,
-                                  set.disc ? "disc" : "no disc"),
+        .parameters = fmt::format(
+            "sigma {}, {}, {}", set.sigma,
+            set.kernel == "power" ? fmt::format("alpha {}", set.alpha) : "kernel " + set.kernel,
+            set.disc ? "disc" : "no disc"),
         .samples = plan.texels_shaded + plan.pixels_direct,
         .density = std::make_unique<foveation::KfrDensity>(
             foveation::LogPolarMap(parameters.kernel, image, fovea), *lp, fovea,
@@ -54,6 +65,32 @@ Expected<PlannedMethod> plan_kfr(const PlanSubject& subject) {
                     {"texels_under_disc", static_cast<double>(plan.texels_under_disc)},
                     {"disc_pixels", static_cast<double>(plan.pixels_direct)},
                     {"disc_radius_px", plan.disc_radius_px}}};
+}
+
+Expected<PlannedMethod> plan_acuity(const PlanSubject& subject) {
+    const foveation::AcuityParameters parameters = acuity_parameters(subject.settings);
+    const gaze::EyeView& view = subject.field.view();
+    const auto profile = foveation::AcuityProfile::create(parameters, view);
+    if (!profile) {
+        return std::unexpected(profile.error());
+    }
+    const glm::dvec3 gaze = gaze::unproject(subject.field.fovea(), view);
+    foveation::SamplingPlan plan;
+    foveation::plan_acuity(parameters, *profile, view, gaze, plan);
+    const double core = plan.in_gaze_frame->disc_half_sine - plan.in_gaze_frame->border_half_sine;
+    return PlannedMethod{
+        .parameters =
+            fmt::format("m {}, {}", parameters.mar.slope, parameters.disc ? "disc" : "no disc"),
+        .samples = plan.texels_shaded + plan.pixels_direct,
+        .density = std::make_unique<foveation::AcuityDensity>(
+            foveation::AcuityMap(*profile, foveation::GazeFrame(view, gaze)),
+            glm::degrees(2.0 * std::asin(core))),
+        .figures = {{"lp_width", static_cast<double>(plan.lp.width)},
+                    {"lp_height", static_cast<double>(plan.lp.height)},
+                    {"texels_shaded", static_cast<double>(plan.texels_shaded)},
+                    {"texels_off_screen", static_cast<double>(plan.texels_off_screen)},
+                    {"texels_under_disc", static_cast<double>(plan.texels_under_disc)},
+                    {"disc_pixels", static_cast<double>(plan.pixels_direct)}}};
 }
 
 Expected<PlannedMethod> plan_layers(const PlanSubject& subject) {
@@ -139,9 +176,9 @@ Expected<PlannedMethod> plan_sparse(const PlanSubject& subject) {
                     {"disc_radius_px", pattern->profile.disc_radius_px}}};
 }
 
-constexpr std::array kMethods{PlanMethod{"full", plan_full}, PlanMethod{"kfr", plan_kfr},
-                              PlanMethod{"layers", plan_layers}, PlanMethod{"rings", plan_rings},
-                              PlanMethod{"sparse", plan_sparse}};
+constexpr std::array kMethods{PlanMethod{"full", plan_full},     PlanMethod{"kfr", plan_kfr},
+                              PlanMethod{"acuity", plan_acuity}, PlanMethod{"layers", plan_layers},
+                              PlanMethod{"rings", plan_rings},   PlanMethod{"sparse", plan_sparse}};
 
 }  // namespace
 

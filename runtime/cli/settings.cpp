@@ -18,7 +18,7 @@
 
 #include "runtime/cli/nearest_name.h"
 #include "runtime/cli/profiles.h"
-#include "runtime/foveation/guenter_acuity.h"
+#include "runtime/foveation/acuity_profile.h"
 #include "runtime/foveation/log_polar_map.h"
 #include "runtime/foveation/shading_rings.h"
 #include "runtime/foveation/sparse_pattern.h"
@@ -80,6 +80,17 @@ std::optional<Assignment> assignment(std::string key, const toml::node& node) {
     if (const auto flag = node.value_exact<bool>()) {
         return Assignment{std::move(key), *flag ? "true" : "false", Written::Flag, line};
     }
+    if (const toml::array* const list = node.as_array(); list && key == "kfr.polynomial") {
+        std::string text;
+        for (const toml::node& each : *list) {
+            const auto number = each.value<double>();
+            if (!number) {
+                return std::nullopt;
+            }
+            text += fmt::format("{}{}", text.empty() ? "" : ",", *number);
+        }
+        return Assignment{std::move(key), text, Written::Text, line};
+    }
     return std::nullopt;
 }
 
@@ -117,19 +128,29 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 Settings::Settings() {
+    using foveation::AcuityParameters;
     using foveation::KfrParameters;
     using foveation::PowerKernel;
+    using foveation::SparseParameters;
     SettingValues& v = values_;
     const double forever_ms = 1e7;
-    using foveation::SparseParameters;
     entries_ = {
+        {"acuity.border_px", "width of the blend between disc and LP-buffer, at the gaze",
+         Number{&v.acuity.border_px, 0.0, 64.0}},
+        {"acuity.disc", "shade pixels directly where the display is the limit", &v.acuity.disc},
+        {"acuity.lp_height", "rows of the LP-buffer; 0: as many as the eye asks for",
+         Whole{&v.acuity.lp_height, 0, foveation::LpSize::kMaxSide}},
+        {"acuity.lp_width", "columns of the LP-buffer; 0: as many as the eye asks for",
+         Whole{&v.acuity.lp_width, 0, foveation::LpSize::kMaxSide}},
         {"acuity.luminance_cd_m2", "what stelaCSF takes the picture's luminance to be",
          Number{&v.acuity.luminance_cd_m2, foveation::StelaConditions::kMinLuminance,
                 foveation::StelaConditions::kMaxLuminance}},
         {"acuity.mar", "slope m of the line of the least resolvable angle, m e + 1/48",
-         Number{&v.acuity.mar, foveation::kMinMarSlope, foveation::kMaxMarSlope}},
+         Number{&v.acuity.mar, AcuityParameters::kMinSlope, AcuityParameters::kMaxSlope}},
         {"acuity.nasal", "stelaCSF: sharper towards the nose; else the other side all around",
          &v.acuity.nasal},
+        {"acuity.pixels_per_degree", "what the map takes the display for; 0: the most in view",
+         Number{&v.acuity.pixels_per_degree, 0.0, AcuityParameters::kMaxPixelsPerDegree}},
         {"gaze.fixation_distance_m", "distance at which gaze is held in world, m",
          Number{&v.gaze.fixation_distance_m, 0.1, 1000.0}},
         {"gaze.hold_ms", "lost gaze: hold the last point for this long",
@@ -140,11 +161,23 @@ Settings::Settings() {
          Number{&v.gaze.return_ms, 0.0, forever_ms}},
         {"gaze.stale_ms", "samples older than this at the latch count as lost",
          Number{&v.gaze.stale_ms, 0.0, forever_ms}},
-        {"kfr.alpha", "kernel K(x) = x^alpha",
+        {"kfr.alpha", "of the kernels power, x^alpha, and power-as-printed",
          Number{&v.kfr.alpha, PowerKernel::kMinAlpha, PowerKernel::kMaxAlpha}},
         {"kfr.border_px", "width of the blend between disc and LP-buffer",
          Number{&v.kfr.border_px, 0.0, 64.0}},
+        {"kfr.close_hole", "without the disc: still shade the kernel's hole directly",
+         &v.kfr.close_hole},
         {"kfr.disc", "shade pixels directly where a texel a pixel is offered", &v.kfr.disc},
+        {"kfr.kernel", "how columns spread from the fovea",
+         Choice{&v.kfr.kernel, names(foveation::kKernelNames)}},
+        {"kfr.kernel_table", "of the kernel table: a .csv or .toml file",
+         Choice{&v.kfr.kernel_table, {}}},
+        {"kfr.lp_height", "rows of the LP-buffer; 0: the picture's over sigma",
+         Whole{&v.kfr.lp_height, 0, foveation::LpSize::kMaxSide}},
+        {"kfr.lp_width", "columns of the LP-buffer; 0: the picture's over sigma",
+         Whole{&v.kfr.lp_width, 0, foveation::LpSize::kMaxSide}},
+        {"kfr.polynomial", "of the kernel polynomial: coefficients of x, x^2, ...; sum 1",
+         Choice{&v.kfr.polynomial, {}}},
         {"kfr.sigma", "picture width over LP-buffer width",
          Number{&v.kfr.sigma, KfrParameters::kMinSigma, KfrParameters::kMaxSigma}},
         {"layers.n", "eccentricity layers, at most", Whole{&v.layers.n, 2, 4}},

@@ -17,6 +17,16 @@ namespace gazeloop::cli {
 /// group: kfr.sigma, gaze.hold_ms ...
 struct SettingValues {
     struct {
+        double mar = 0.022;
+        double pixels_per_degree = 0.0;
+        std::int64_t lp_width = 0;
+        std::int64_t lp_height = 0;
+        bool disc = true;
+        double border_px = 6.0;
+        double luminance_cd_m2 = 100.0;
+        bool nasal = false;
+    } acuity;
+    struct {
         double stale_ms = 100.0;
         double hold_ms = 300.0;
         double return_ms = 150.0;
@@ -25,15 +35,16 @@ struct SettingValues {
     } gaze;
     struct {
         double sigma = 1.8;
+        std::string kernel = "power";
         double alpha = 4.0;
+        std::string polynomial = "1";
+        std::string kernel_table;
+        std::int64_t lp_width = 0;
+        std::int64_t lp_height = 0;
         bool disc = true;
+        bool close_hole = false;
         double border_px = 6.0;
     } kfr;
-    struct {
-        double mar = 0.022;
-        double luminance_cd_m2 = 100.0;
-        bool nasal = false;
-    } acuity;
     struct {
         std::int64_t n = 3;
         bool s2_fixed = false;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "runtime/foveation/band_tiles.h"
 #include "runtime/foveation/hidden_area.h"
 #include "runtime/foveation/log_polar_map.h"
+#include "runtime/foveation/map_uniforms.h"
 #include "runtime/foveation/tile.h"
 #include "runtime/gaze/view.h"
 
@@ -16,8 +18,15 @@ struct SamplingPlan {
     LpSize lp;
     gaze::PixelPosition fovea;
     double log2_max_radius = 0.0;
-    double disc_radius_px = 0.0;      ///< 0: no disc
-    double disc_border_px = 0.0;      ///< the blend lies inside the radius
+    double disc_radius_px = 0.0;  ///< 0: no disc
+    double disc_border_px = 0.0;  ///< the blend lies inside the radius
+    /// Plans in the gaze frame alone (plan_acuity); the four members above are then 0.
+    struct InGazeFrame {
+        GazeFrameUniforms uniforms;
+        double disc_half_sine = 0.0;    ///< sin(e / 2) of the disc's eccentricity; 0: no disc
+        double border_half_sine = 0.0;  ///< the blend lies inside
+    };
+    std::optional<InGazeFrame> in_gaze_frame;
     std::vector<Columns> lp_bands;    ///< texels that some pixel reads
     std::vector<Columns> disc_bands;  ///< pixels that are shaded directly; none without a disc
     std::vector<Tile> lp_tiles;       ///< what is drawn for lp_bands; empty: the disc covers all
@@ -37,5 +46,11 @@ struct SamplingPlan {
 void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
               const gaze::PixelPosition& fovea, SamplingPlan& plan,
               const HiddenArea* hidden = nullptr);
+
+/// The LP part of every plan: fills lp_tiles and the texel counts with what the bilinear reads of
+/// pixel centres at columns beyond `core_u` touch (a negative one: of all pixel centres), and of
+/// visible ones where an area is hidden. Precondition: plan.lp.
+void plan_lp_tiles(const RadialMap& map, double core_u, const HiddenArea* hidden,
+                   SamplingPlan& plan);
 
 }  // namespace gazeloop::foveation

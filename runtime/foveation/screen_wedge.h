@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "runtime/foveation/log_polar_map.h"
+#include "runtime/foveation/lp_size.h"
 #include "runtime/gaze/view.h"
 
 namespace gazeloop::foveation {

@@ -49,11 +49,18 @@ EyeUniforms eye_uniforms(const gaze::EyeView& view, double scene_time_s, std::ui
     double row_angle = 0.0;
     if (plan != nullptr) {
         row_angle = 2.0 * std::numbers::pi / plan->lp.height;
-        uniforms.fovea_and_log2 =
-            glm::vec4(glm::dvec4(plan->fovea.x_px, plan->fovea.y_px, plan->log2_max_radius,
-                                 0.5 / plan->log2_max_radius));
-        uniforms.lp_and_disc = glm::vec4(glm::dvec4(plan->lp.width, plan->lp.height,
-                                                    plan->disc_radius_px, plan->disc_border_px));
+        if (plan->in_gaze_frame) {
+            uniforms.gaze_frame = plan->in_gaze_frame->uniforms;
+        } else {
+            const auto in_picture =
+                foveation::picture_frame_uniforms(plan->fovea, plan->log2_max_radius);
+            uniforms.fovea_and_log2 = in_picture.fovea_and_log2;
+            uniforms.radius = in_picture.radius;
+        }
+        uniforms.lp_and_disc = glm::vec4(glm::dvec4(
+            plan->lp.width, plan->lp.height,
+            plan->in_gaze_frame ? plan->in_gaze_frame->disc_half_sine : plan->disc_radius_px,
+            plan->in_gaze_frame ? plan->in_gaze_frame->border_half_sine : plan->disc_border_px));
     }
     for (std::size_t s = 0; s < samples; ++s) {
         const double angle = offsets[s].y * row_angle;

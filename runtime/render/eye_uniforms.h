@@ -19,9 +19,11 @@ struct EyeUniforms {
     glm::vec4 image_and_bands{0.0F};
     glm::vec4 fovea_and_log2{0.0F};
     glm::vec4 lp_and_disc{0.0F};
+    glm::vec4 radius{0.0F};
+    foveation::GazeFrameUniforms gaze_frame{};
     std::array<glm::vec4, kMaxSamples> offsets{};
 };
-static_assert(sizeof(EyeUniforms) == 16 * std::size_t{8 + kMaxSamples});
+static_assert(sizeof(EyeUniforms) == 16 * std::size_t{15 + kMaxSamples});
 
 /// Sample positions in a cell, in (-.5, .5), mean 0: the centre for one sample, else the Hammersley
 /// set. `samples` in [1, kMaxSamples].

@@ -42,6 +42,12 @@ void discard_and_attach(const vk::raii::CommandBuffer& commands, vk::Image image
                                     Access::eColorAttachmentWrite));
 }
 
+void write_buffer(const vk::raii::Device& device, vk::DescriptorSet set, std::uint32_t binding,
+                  vk::DescriptorType type, vk::Buffer buffer) {
+    const vk::DescriptorBufferInfo info(buffer, 0, VK_WHOLE_SIZE);
+    device.updateDescriptorSets(vk::WriteDescriptorSet(set, binding, 0, type, {}, info), {});
+}
+
 void begin_rendering(const vk::raii::CommandBuffer& commands, vk::ImageView view,
                      vk::Extent2D extent, vk::AttachmentLoadOp load,
                      const std::array<float, 4>& background = {}) {
@@ -53,6 +59,26 @@ void begin_rendering(const vk::raii::CommandBuffer& commands, vk::ImageView view
     commands.setViewport(0, vk::Viewport(0.0F, 0.0F, static_cast<float>(extent.width),
                                          static_cast<float>(extent.height), 0.0F, 1.0F));
     commands.setScissor(0, area);
+}
+
+/// One large triangle for each tile, which the scissor cuts.
+void draw_tiles(const vk::raii::CommandBuffer& commands, std::span<const foveation::Tile> tiles,
+                std::uint32_t instance) {
+    for (const foveation::Tile& tile : tiles) {
+        commands.setScissor(
+            0, vk::Rect2D({static_cast<std::int32_t>(tile.x0), static_cast<std::int32_t>(tile.y0)},
+                          {tile.x1 - tile.x0, tile.y1 - tile.y0}));
+        commands.draw(3, 1, 0, instance);
+    }
+}
+
+/// The whole picture, or what of it is visible.
+void draw_visible(const vk::raii::CommandBuffer& commands, const foveation::HiddenArea* hidden) {
+    if (hidden != nullptr) {
+        draw_tiles(commands, hidden->visible_tiles(), 0);
+    } else {
+        commands.draw(3, 1, 0, 0);
+    }
 }
 
 }  // namespace
@@ -86,24 +112,29 @@ FrameRenderer::FrameRenderer(const VulkanContext& context, const RendererConfig&
                                                       config.samples, kMaxSamples));
     }
     const vk::raii::Device& device = context.device();
-    const bool kfr = config.method == Method::Kfr;
-    set_layout_ = make_set_layout(device, kfr ? Inputs::UniformsAndLpMap : Inputs::Uniforms);
+    const bool log_polar = config.method != Method::Full;
+    set_layout_ = make_set_layout(device, log_polar ? Inputs::UniformsAndLpMap : Inputs::Uniforms);
     layout_ = make_pipeline_layout(device, set_layout_);
     const bool encode = !encodes_srgb(config.format);
     const auto scene_shader = [&](std::string_view pass) {
         return fmt::format("{}.{}.frag", config.scene, pass);
     };
-    if (kfr) {
+    const bool in_gaze_frame = config.method == Method::Acuity;
+    if (log_polar) {
         pass_i_ = make_pipeline(device, layout_,
                                 {.vertex = "tiles.vert",
-                                 .fragment = scene_shader("kfr_pass_i"),
+                                 .fragment = scene_shader("log_polar"),
                                  .format = kLpFormat,
+                                 .in_gaze_frame = in_gaze_frame,
                                  .samples = config.samples});
-        resolve_ = make_pipeline(device, layout_,
-                                 {.vertex = "full_screen.vert",
-                                  .fragment = "log_polar.frag",
-                                  .format = config.format,
-                                  .encode_srgb = encode});
+        PipelineSource resolve{.vertex = "full_screen.vert",
+                               .fragment = "log_polar.frag",
+                               .format = config.format,
+                               .in_gaze_frame = in_gaze_frame,
+                               .encode_srgb = encode};
+        resolve_ = make_pipeline(device, layout_, resolve);
+        resolve.disc = true;
+        resolve_disc_ = make_pipeline(device, layout_, resolve);
         using Mode = vk::SamplerAddressMode;
         sampler_ = vk::raii::Sampler(
             device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear,
@@ -130,18 +161,24 @@ FrameRenderer::FrameRenderer(const VulkanContext& context, const RendererConfig&
     const vk::SemaphoreTypeCreateInfo timeline(vk::SemaphoreType::eTimeline, 0);
     timeline_ = vk::raii::Semaphore(device, vk::SemaphoreCreateInfo({}, &timeline));
 
-    if (kfr) {
-        for (const gaze::Eye eye : gaze::kEyes) {
-            const vk::Extent2D extent = config.extents[gaze::index(eye)];
-            eyes_[gaze::index(eye)] = std::make_unique<KfrEye>(
-                context, config.kfr, foveation::ImageSize{extent.width, extent.height});
+    make_slots();
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        if (config.method == Method::Kfr) {
+            put_eye(e,
+                    std::make_unique<LogPolarEye>(
+                        context, config.kfr,
+                        foveation::ImageSize{config.extents[e].width, config.extents[e].height}));
         }
     }
-    for (std::uint32_t i = 0; i < config.frames_in_flight; ++i) {
+}
+
+void FrameRenderer::make_slots() {
+    const vk::raii::Device& device = context_->device();
+    for (std::uint32_t i = 0; i < config_.frames_in_flight; ++i) {
         auto slot = std::make_unique<Slot>();
         slot->pool = vk::raii::CommandPool(
             device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient,
-                                              context.queue_family()));
+                                              context_->queue_family()));
         slot->buffers = vk::raii::CommandBuffers(
             device, vk::CommandBufferAllocateInfo(*slot->pool, vk::CommandBufferLevel::ePrimary,
                                                   kMaxSegments));
@@ -150,46 +187,60 @@ FrameRenderer::FrameRenderer(const VulkanContext& context, const RendererConfig&
         for (const gaze::Eye eye : gaze::kEyes) {
             EyeSlot& at = slot->eyes[gaze::index(eye)];
             at.uniforms =
-                HostBuffer(context, sizeof(EyeUniforms), vk::BufferUsageFlagBits::eUniformBuffer);
+                HostBuffer(*context_, sizeof(EyeUniforms), vk::BufferUsageFlagBits::eUniformBuffer);
             at.set = std::move(vk::raii::DescriptorSets(
                 device, vk::DescriptorSetAllocateInfo(*pool_, *set_layout_))[0]);
-            const auto write_buffer = [&](std::uint32_t binding, vk::DescriptorType type,
-                                          vk::Buffer buffer) {
-                const vk::DescriptorBufferInfo info(buffer, 0, VK_WHOLE_SIZE);
-                device.updateDescriptorSets(
-                    vk::WriteDescriptorSet(*at.set, binding, 0, type, {}, info), {});
-            };
-            write_buffer(kEyeUniformsBinding, vk::DescriptorType::eUniformBuffer,
+            write_buffer(device, *at.set, kEyeUniformsBinding, vk::DescriptorType::eUniformBuffer,
                          at.uniforms.buffer());
-            if (const KfrEye* const kfr_eye = eyes_[gaze::index(eye)].get()) {
-                at.bands = HostBuffer(context, kfr_eye->max_bands() * sizeof(foveation::Columns),
-                                      vk::BufferUsageFlagBits::eStorageBuffer);
-                write_buffer(kMapTablesBinding, vk::DescriptorType::eUniformBuffer,
-                             kfr_eye->map_tables());
-                write_buffer(kColumnTableBinding, vk::DescriptorType::eStorageBuffer,
-                             kfr_eye->column_table());
-                write_buffer(kRowTableBinding, vk::DescriptorType::eStorageBuffer,
-                             kfr_eye->row_table());
-                write_buffer(kBandsBinding, vk::DescriptorType::eStorageBuffer, at.bands.buffer());
-                const auto write_image = [&](std::uint32_t binding, const ColorImage& image) {
-                    const vk::DescriptorImageInfo info(*sampler_, image.view(),
-                                                       Layout::eShaderReadOnlyOptimal);
-                    device.updateDescriptorSets(
-                        vk::WriteDescriptorSet(*at.set, binding, 0,
-                                               vk::DescriptorType::eCombinedImageSampler, info),
-                        {});
-                };
-                write_image(kLpBufferBinding, kfr_eye->lp_buffer());
-                write_image(kDirectBufferBinding, kfr_eye->direct_buffer());
-            }
-            if (config.hash) {
-                const vk::Extent2D extent = config.extents[gaze::index(eye)];
+            if (config_.hash) {
+                const vk::Extent2D extent = config_.extents[gaze::index(eye)];
                 at.pixels = HostBuffer(
-                    context, vk::DeviceSize{extent.width} * extent.height * kBytesPerPixel,
+                    *context_, vk::DeviceSize{extent.width} * extent.height * kBytesPerPixel,
                     vk::BufferUsageFlagBits::eTransferDst);
             }
         }
         slots_.push_back(std::move(slot));
+    }
+}
+
+/// Precondition: no frame is unfinished on the GPU.
+void FrameRenderer::put_eye(std::size_t eye, std::unique_ptr<LogPolarEye> made) {
+    const vk::raii::Device& device = context_->device();
+    eyes_[eye] = std::move(made);
+    const LogPolarEye& put = *eyes_[eye];
+    for (const auto& slot : slots_) {
+        EyeSlot& at = slot->eyes[eye];
+        at.bands = HostBuffer(*context_, put.max_bands() * sizeof(foveation::Columns),
+                              vk::BufferUsageFlagBits::eStorageBuffer);
+        write_buffer(device, *at.set, kMapTablesBinding, vk::DescriptorType::eUniformBuffer,
+                     put.map_buffers().map_tables());
+        for (const auto& [binding, buffer] :
+             {std::pair{kColumnTableBinding, put.map_buffers().column_table()},
+              {kRowTableBinding, put.map_buffers().row_table()},
+              {kBandsBinding, at.bands.buffer()}}) {
+            write_buffer(device, *at.set, binding, vk::DescriptorType::eStorageBuffer, buffer);
+        }
+        for (const auto& [binding, image] : {std::pair{kLpBufferBinding, &put.lp_buffer()},
+                                             {kDirectBufferBinding, &put.direct_buffer()}}) {
+            const vk::DescriptorImageInfo info(*sampler_, image->view(),
+                                               Layout::eShaderReadOnlyOptimal);
+            device.updateDescriptorSets(
+                vk::WriteDescriptorSet(*at.set, binding, 0,
+                                       vk::DescriptorType::eCombinedImageSampler, info),
+                {});
+        }
+    }
+}
+
+/// The acuity-derived map needs the fields of view, which a runtime states with the first frame and
+/// may change.
+void FrameRenderer::fit_eyes(const gaze::StereoView& views) {
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        if (config_.method == Method::Acuity &&
+            (eyes_[e] == nullptr || !eyes_[e]->fits(views[e]))) {
+            wait_idle();
+            put_eye(e, std::make_unique<LogPolarEye>(*context_, config_.acuity, views[e]));
+        }
     }
 }
 
@@ -202,7 +253,9 @@ FrameRenderer::~FrameRenderer() {
     }
 }
 
-const KfrEye* FrameRenderer::kfr_eye(gaze::Eye eye) const { return eyes_[gaze::index(eye)].get(); }
+const LogPolarEye* FrameRenderer::log_polar_eye(gaze::Eye eye) const {
+    return eyes_[gaze::index(eye)].get();
+}
 
 const foveation::SamplingPlan& FrameRenderer::last_plan(gaze::Eye eye) const {
     return plans_[gaze::index(eye)];
@@ -224,6 +277,7 @@ void FrameRenderer::wait_for_slot(std::uint32_t in_flight) {
 }
 
 latency::SampleCounts FrameRenderer::render(const FrameRequest& request) {
+    fit_eyes(request.views);
     Slot& slot = *slots_[submitted_ % slots_.size()];
     slot.pool.reset();
     slot.segments = 0;
@@ -241,10 +295,10 @@ latency::SampleCounts FrameRenderer::render(const FrameRequest& request) {
         counts.pixels_hidden += hidden;
         EyeSlot& at = slot.eyes[e];
         foveation::SamplingPlan* plan = nullptr;
-        if (const KfrEye* const kfr = eyes_[e].get()) {
+        if (const LogPolarEye* const log_polar = eyes_[e].get()) {
             plan = &plans_[e];
-            foveation::plan_kfr(kfr->parameters(), kfr->lp(), kfr->image(), request.foveae[e],
-                                *plan, request.hidden[e].get());
+            log_polar->plan(view, request.foveae[e], request.gaze_directions[e],
+                            request.hidden[e].get(), *plan);
             at.bands.write(std::span<const foveation::Columns>(plan->lp_bands));
             at.bands.write(std::span<const foveation::Columns>(plan->disc_bands),
                            plan->lp_bands.size() * sizeof(foveation::Columns));
@@ -259,10 +313,10 @@ latency::SampleCounts FrameRenderer::render(const FrameRequest& request) {
         }
         at.uniforms.write(eye_uniforms(view, request.scene_time_s, config_.samples, plan));
     }
-    if (config_.method == Method::Kfr) {
-        record_kfr(slot, request);
-    } else {
+    if (config_.method == Method::Full) {
         record_full(slot, request);
+    } else {
+        record_log_polar(slot, request);
     }
     slot.timed_segments = slot.segments;
     if (config_.hash) {
@@ -309,12 +363,7 @@ void FrameRenderer::shade_tiles(Slot& slot, std::size_t eye, const ColorImage& t
         begin_rendering(commands, target.view(), target.extent(),
                         clear ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare,
                         config_.lp_background.value_or(std::array<float, 4>{}));
-        for (const foveation::Tile& tile : tiles) {
-            commands.setScissor(0, vk::Rect2D({static_cast<std::int32_t>(tile.x0),
-                                               static_cast<std::int32_t>(tile.y0)},
-                                              {tile.x1 - tile.x0, tile.y1 - tile.y0}));
-            commands.draw(3, 1, 0, direct ? 1 : 0);
-        }
+        draw_tiles(commands, tiles, direct ? 1 : 0);
         commands.endRendering();
     }
     barrier(commands, image_barrier(target.image(), Layout::eColorAttachmentOptimal,
@@ -324,10 +373,10 @@ void FrameRenderer::shade_tiles(Slot& slot, std::size_t eye, const ColorImage& t
 }
 
 /// Draws both eyes' pictures, less what no eye sees of them.
+template <typename DrawEye>
 void FrameRenderer::draw_pictures(const Slot& slot, const FrameRequest& request,
-                                  const vk::raii::Pipeline& pipeline) {
+                                  const DrawEye& draw_eye) {
     const vk::raii::CommandBuffer& commands = slot.commands();
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
         discard_and_attach(commands, request.targets[e].image);
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0,
@@ -336,26 +385,21 @@ void FrameRenderer::draw_pictures(const Slot& slot, const FrameRequest& request,
         begin_rendering(
             commands, request.targets[e].view, config_.extents[e],
             hidden != nullptr ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare);
-        if (hidden != nullptr) {
-            for (const foveation::Tile& tile : hidden->visible_tiles()) {
-                commands.setScissor(0, vk::Rect2D({static_cast<std::int32_t>(tile.x0),
-                                                   static_cast<std::int32_t>(tile.y0)},
-                                                  {tile.x1 - tile.x0, tile.y1 - tile.y0}));
-                commands.draw(3, 1, 0, 0);
-            }
-        } else {
-            commands.draw(3, 1, 0, 0);
-        }
+        draw_eye(e);
         commands.endRendering();
     }
 }
 
 void FrameRenderer::record_full(Slot& slot, const FrameRequest& request) {
     begin_segment(slot, Pass::Full);
-    draw_pictures(slot, request, full_);
+    const vk::raii::CommandBuffer& commands = slot.commands();
+    draw_pictures(slot, request, [&](std::size_t e) {
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *full_);
+        draw_visible(commands, request.hidden[e].get());
+    });
 }
 
-void FrameRenderer::record_kfr(Slot& slot, const FrameRequest& request) {
+void FrameRenderer::record_log_polar(Slot& slot, const FrameRequest& request) {
     const bool any_lp = !plans_[0].lp_tiles.empty() || !plans_[1].lp_tiles.empty();
     const bool any_disc = !plans_[0].disc_tiles.empty() || !plans_[1].disc_tiles.empty();
     // A pass without any tile is not submitted for itself; what it has to prepare goes along with
@@ -385,7 +429,20 @@ void FrameRenderer::record_kfr(Slot& slot, const FrameRequest& request) {
     if (!any_disc) {
         disc_pass();
     }
-    draw_pictures(slot, request, resolve_);
+    draw_pictures(slot, request,
+                  [&](std::size_t e) { draw_resolve(slot, plans_[e], request.hidden[e].get()); });
+}
+
+/// The whole picture from the LP-buffer, then the disc over it.
+void FrameRenderer::draw_resolve(const Slot& slot, const foveation::SamplingPlan& plan,
+                                 const foveation::HiddenArea* hidden) {
+    const vk::raii::CommandBuffer& commands = slot.commands();
+    if (!plan.lp_tiles.empty()) {
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_);
+        draw_visible(commands, hidden);
+    }
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_disc_);
+    draw_tiles(commands, plan.disc_tiles, 0);
 }
 
 void FrameRenderer::record_copies(Slot& slot, const FrameRequest& request) {

@@ -14,7 +14,7 @@
 #include "runtime/latency/frame_record.h"
 #include "runtime/render/gpu_clock.h"
 #include "runtime/render/gpu_memory.h"
-#include "runtime/render/kfr_eye.h"
+#include "runtime/render/log_polar_eye.h"
 #include "runtime/render/method.h"
 
 namespace gazeloop::render {
@@ -24,6 +24,7 @@ struct RendererConfig {
     std::string scene = "raymarch";
     std::uint32_t samples = 1;  ///< a texel or pixel, [1, kMaxSamples]
     foveation::KfrParameters kfr;
+    foveation::AcuityParameters acuity;
     gaze::PerEye<vk::Extent2D> extents;
     vk::Format format = vk::Format::eR8G8B8A8Srgb;
     bool profile = true;                 ///< a submit and a pair of timestamps for each pass
@@ -48,6 +49,8 @@ struct FrameRequest {
     double scene_time_s = 0.0;
     gaze::StereoView views;
     gaze::PerEye<gaze::PixelPosition> foveae;
+    /// Unit vectors in the views' frames: the foveae as angles, for methods in the gaze's frame.
+    gaze::PerEye<glm::dvec3> gaze_directions{};
     gaze::PerEye<EyeTarget> targets;  ///< any layout before, COLOR_ATTACHMENT_OPTIMAL after
     foveation::HiddenAreas hidden{};  ///< of these views; what they hide is black
 };
@@ -82,8 +85,9 @@ class FrameRenderer {
 
     [[nodiscard]] const RendererConfig& config() const { return config_; }
     /// The LP-buffer as the last frame left it (SHADER_READ_ONLY_OPTIMAL); null for Method::Full,
-    /// and texels that the plan left out hold anything.
-    [[nodiscard]] const KfrEye* kfr_eye(gaze::Eye eye) const;
+    /// and for Method::Acuity before the first frame, and texels that the plan left out hold
+    /// anything.
+    [[nodiscard]] const LogPolarEye* log_polar_eye(gaze::Eye eye) const;
     [[nodiscard]] const foveation::SamplingPlan& last_plan(gaze::Eye eye) const;
     [[nodiscard]] std::uint64_t clock_deviation_ns() const { return clock_.max_deviation_ns(); }
 
@@ -91,14 +95,19 @@ class FrameRenderer {
     struct EyeSlot;
     struct Slot;
 
+    void make_slots();
+    void put_eye(std::size_t eye, std::unique_ptr<LogPolarEye> made);
+    void fit_eyes(const gaze::StereoView& views);
     void begin_segment(Slot& slot, std::optional<latency::Pass> pass);
     void end_segments(Slot& slot);
     void shade_tiles(Slot& slot, std::size_t eye, const ColorImage& target,
                      std::span<const foveation::Tile> tiles, bool direct);
-    void draw_pictures(const Slot& slot, const FrameRequest& request,
-                       const vk::raii::Pipeline& pipeline);
+    template <typename DrawEye>  // no std::function: no allocation a frame
+    void draw_pictures(const Slot& slot, const FrameRequest& request, const DrawEye& draw_eye);
+    void draw_resolve(const Slot& slot, const foveation::SamplingPlan& plan,
+                      const foveation::HiddenArea* hidden);
     void record_full(Slot& slot, const FrameRequest& request);
-    void record_kfr(Slot& slot, const FrameRequest& request);
+    void record_log_polar(Slot& slot, const FrameRequest& request);
     void record_copies(Slot& slot, const FrameRequest& request);
     void submit(Slot& slot);
     [[nodiscard]] latency::FrameGpuRecord collect(Slot& slot);
@@ -111,12 +120,13 @@ class FrameRenderer {
     vk::raii::Pipeline full_{nullptr};
     vk::raii::Pipeline pass_i_{nullptr};
     vk::raii::Pipeline resolve_{nullptr};
+    vk::raii::Pipeline resolve_disc_{nullptr};
     vk::raii::Sampler sampler_{nullptr};
     vk::raii::DescriptorPool pool_{nullptr};
     vk::raii::Semaphore timeline_{nullptr};
     std::uint64_t submitted_ = 0;  ///< frames; the timeline's value
     std::uint64_t collected_ = 0;
-    gaze::PerEye<std::unique_ptr<KfrEye>> eyes_;
+    gaze::PerEye<std::unique_ptr<LogPolarEye>> eyes_;
     gaze::PerEye<foveation::SamplingPlan> plans_;
     std::vector<std::unique_ptr<Slot>> slots_;
 };

@@ -41,11 +41,15 @@ vk::raii::Pipeline make_pipeline(const vk::raii::Device& device,
                                  const PipelineSource& source) {
     const vk::raii::ShaderModule vertex = load(device, source.vertex);
     const vk::raii::ShaderModule fragment = load(device, source.fragment);
-    // constant_id 0: kEncodeSrgb, 1: kSamples.
-    const std::array<std::uint32_t, 2> constants{source.encode_srgb ? 1U : 0U, source.samples};
+    // constant_id 0: kEncodeSrgb, 1: kSamples, 2: kInGazeFrame, 3: kDisc.
+    const std::array<std::uint32_t, 4> constants{source.encode_srgb ? 1U : 0U, source.samples,
+                                                 source.in_gaze_frame ? 1U : 0U,
+                                                 source.disc ? 1U : 0U};
     const std::array entries{
         vk::SpecializationMapEntry(0, 0, sizeof(std::uint32_t)),
-        vk::SpecializationMapEntry(1, sizeof(std::uint32_t), sizeof(std::uint32_t))};
+        vk::SpecializationMapEntry(1, sizeof(std::uint32_t), sizeof(std::uint32_t)),
+        vk::SpecializationMapEntry(2, 2 * sizeof(std::uint32_t), sizeof(std::uint32_t)),
+        vk::SpecializationMapEntry(3, 3 * sizeof(std::uint32_t), sizeof(std::uint32_t))};
     const vk::SpecializationInfo specialization(entries.size(), entries.data(), sizeof constants,
                                                 constants.data());
     const std::array stages{

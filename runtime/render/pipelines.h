@@ -34,8 +34,10 @@ struct PipelineSource {
     std::string_view vertex;  ///< names as shaders::spirv takes them
     std::string_view fragment;
     vk::Format format;
-    bool encode_srgb = false;   ///< the target's format does not encode by itself
-    std::uint32_t samples = 1;  ///< a texel or pixel
+    bool disc = false;           ///< of a resolve: with the direct disc
+    bool in_gaze_frame = false;  ///< of a log-polar map
+    bool encode_srgb = false;    ///< the target's format does not encode by itself
+    std::uint32_t samples = 1;   ///< a texel or pixel
 };
 
 /// A pipeline for dynamic rendering into one colour attachment, viewport and scissor dynamic.

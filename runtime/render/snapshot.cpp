@@ -38,9 +38,9 @@ Rendered render_off_screen(const VulkanContext& context, RendererConfig config,
         const std::size_t e = gaze::index(eye);
         rendered.result[e] = read_back(context, images[e].image(), config.extents[e], config.format,
                                        vk::ImageLayout::eColorAttachmentOptimal);
-        const KfrEye* const kfr = renderer.kfr_eye(eye);
-        if (kfr != nullptr && !renderer.last_plan(eye).lp_tiles.empty()) {
-            const ColorImage& lp = kfr->lp_buffer();
+        const LogPolarEye* const log_polar = renderer.log_polar_eye(eye);
+        if (log_polar != nullptr && !renderer.last_plan(eye).lp_tiles.empty()) {
+            const ColorImage& lp = log_polar->lp_buffer();
             rendered.lp[e] = read_back(context, lp.image(), lp.extent(), lp.format(),
                                        vk::ImageLayout::eShaderReadOnlyOptimal);
             rendered.disc_radius_px[e] = renderer.last_plan(eye).disc_radius_px;

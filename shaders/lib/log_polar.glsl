@@ -1,13 +1,14 @@
-// The kernel log-polar map by tables: no transcendental function of the driver is called, so that
-// the error is the tables' and the same everywhere (runtime/foveation/map_tables.h derives it).
+// Log-polar maps by tables: no transcendental function of the driver is called, so that the error is
+// the tables' and the same everywhere (runtime/foveation/map_error.cpp derives it, float_map.cpp
+// mirrors this arithmetic). Here, the map in the picture's frame; gaze_frame.glsl has the other.
 const int kMantissaSteps = 512;
-const int kKernelSteps = 4096;
+const int kForwardSteps = 4096;
 
 // Entry i lies in component i % 4 of element i / 4.
 layout(std140, set = 0, binding = 1) uniform MapTables {
     vec4 log2_mantissa[kMantissaSteps / 4 + 1];
     vec4 exp2_fraction[kMantissaSteps / 4 + 1];
-    vec4 kernel[kKernelSteps / 4 + 1];
+    vec4 forward[kForwardSteps / 4 + 1];
 } tables;
 layout(std430, set = 0, binding = 2) readonly buffer ColumnTable { float column_table[]; };
 layout(std430, set = 0, binding = 3) readonly buffer RowTable { vec2 row_table[]; };
@@ -21,17 +22,46 @@ float log2_by_table(float y) {
     float t = float(bits & 16383u) / 16384.0;
     float low = tables.log2_mantissa[i >> 2][i & 3];
     float high = tables.log2_mantissa[(i + 1) >> 2][(i + 1) & 3];
-    return float(int(bits >> 23) - 127) + mix(low, high, t);
+    return float(int(bits >> 23) - 127) + (low + t * (high - low));
 }
 
-// 2^x for x in [0, 126].
+// 2^x for x in [-126, 126].
 float exp2_by_table(float x) {
     float whole = floor(x);
     float scaled = (x - whole) * float(kMantissaSteps);
     int i = min(int(scaled), kMantissaSteps - 1);
     float low = tables.exp2_fraction[i >> 2][i & 3];
     float high = tables.exp2_fraction[(i + 1) >> 2][(i + 1) & 3];
-    return uintBitsToFloat(uint(int(whole) + 127) << 23) * mix(low, high, scaled - float(i));
+    return uintBitsToFloat(uint(int(whole) + 127) << 23) *
+           (low + (scaled - float(i)) * (high - low));
+}
+
+// The column, as a share of the width, of q: the square of a radius over the greatest radius's. The
+// table's steps are finest at its far end, where an error moves a pixel the most.
+float column_share(float q, float scale) {
+    float s = clamp(-log2_by_table(max(q, 1e-30)) * scale, 0.0, 1.0);
+    float scaled = sqrt(s) * float(kForwardSteps);
+    int i = min(int(scaled), kForwardSteps - 1);
+    float low = tables.forward[i >> 2][i & 3];
+    float high = tables.forward[(i + 1) >> 2][(i + 1) & 3];
+    return low + (scaled - float(i)) * (high - low);
+}
+
+// The column table's values at a column's inner edge, centre and outer edge.
+vec3 column_values(int column) {
+    return vec3(column_table[2 * column], column_table[2 * column + 1],
+                column_table[2 * column + 2]);
+}
+
+// A sample's radius: on the parabola through those of its column.
+float radius_at(vec3 radii, float offset) {
+    float bend = 2.0 * (radii.x + radii.z - 2.0 * radii.y);
+    return radii.y + offset * (radii.z - radii.x + offset * bend);
+}
+
+// A sample's direction from that of its row's centre; offset as EyeUniforms has it.
+vec2 direction_at(vec2 row, vec4 offset) {
+    return vec2(row.x * offset.z - row.y * offset.w, row.y * offset.z + row.x * offset.w);
 }
 
 // The angle of a direction in turns, [0, 1]; 0 for the null vector. Odd polynomial in the smaller
@@ -56,31 +86,20 @@ float turns(vec2 d) {
     return d.y < 0.0 ? 1.0 - p : p;
 }
 
-// Where the LP-buffer holds a position of the picture: columns [0, w], rows [0, h]; row h is row 0.
-vec2 lp_position(vec2 position_px) {
+// Where the LP-buffer holds a position of the picture, as shares of its width and height; row 1 is
+// row 0.
+vec2 lp_share(vec2 position_px) {
     vec2 d = position_px - eye.fovea_and_log2.xy;
-    float r2 = dot(d, d);
-    float x = clamp(log2_by_table(max(r2, 1.0)) * eye.fovea_and_log2.w, 0.0, 1.0);
-    float scaled = x * float(kKernelSteps);
-    int i = min(int(scaled), kKernelSteps - 1);
-    float low = tables.kernel[i >> 2][i & 3];
-    float high = tables.kernel[(i + 1) >> 2][(i + 1) & 3];
-    return vec2(mix(low, high, scaled - float(i)), turns(d)) * lp_size();
+    return vec2(column_share(dot(d, d) * eye.radius.y, eye.fovea_and_log2.w), turns(d));
 }
 
-// The radii of a column's inner edge, centre and outer edge.
+// The radii of a column's inner edge, centre and outer edge, px.
 vec3 column_radii(int column) {
-    vec3 x = vec3(column_table[2 * column], column_table[2 * column + 1],
-                  column_table[2 * column + 2]) * eye.fovea_and_log2.z;
-    return vec3(exp2_by_table(x.x), exp2_by_table(x.y), exp2_by_table(x.z));
+    vec3 x = -column_values(column) * eye.fovea_and_log2.z;
+    return eye.radius.x * vec3(exp2_by_table(x.x), exp2_by_table(x.y), exp2_by_table(x.z));
 }
 
-// The position of a sample in an LP texel, from its column's radii (the parabola through them) and
-// its row's direction; offset as EyeUniforms has it.
-vec2 picture_position(vec3 radii, vec2 row_direction, vec4 offset) {
-    float bend = 2.0 * (radii.x + radii.z - 2.0 * radii.y);
-    float r = radii.y + offset.x * (radii.z - radii.x + offset.x * bend);
-    vec2 direction = vec2(row_direction.x * offset.z - row_direction.y * offset.w,
-                          row_direction.y * offset.z + row_direction.x * offset.w);
-    return eye.fovea_and_log2.xy + r * direction;
+// The position in the picture of a sample at this radius, px, and in this direction.
+vec2 picture_position(float radius, vec2 direction) {
+    return eye.fovea_and_log2.xy + radius * direction;
 }

@@ -1,12 +1,13 @@
 // The ray-marched scene: an open-air gallery of signed distances in the sun.
 //
-//   vec3 scene_radiance(vec3 origin_m, vec3 direction, float time_s)
+//   vec4 scene_radiance(vec3 origin_m, vec3 direction, float time_s)
 //
 // origin_m   metres, OpenXR axes (+X right, +Y up, -Z forward). Made to be seen from within half a
 //            metre of the world's origin, which is 1.4 m above the floor; finite from anywhere.
 // direction  unit vector, any.
 // time_s     seconds. The scene repeats exactly every 64 s.
-// returns    linear radiance, Rec.709 primaries, 0 to 4; a white wall that faces the sun has 1.3.
+// returns    linear radiance, Rec.709 primaries, 0 to 4 (a white wall that faces the sun has 1.3);
+//            and 1 / distance of what is seen first, 1/m, 0 for the sky.
 //
 // Needs GL_GOOGLE_include_directive; uses no binding. Every other name that it brings starts with
 // scene_, Scene, SCENE_, material_ or distance_to_, or ends in _stage.
@@ -30,11 +31,12 @@ vec3 scene_shade(SceneRay ray, SceneHit hit, vec3 normal, vec3 albedo, SceneLigh
     return albedo * (irradiance + from_around * light.sky) + gleam * irradiance;
 }
 
-vec3 scene_radiance(vec3 origin_m, vec3 direction, float time_s) {
+vec4 scene_radiance(vec3 origin_m, vec3 direction, float time_s) {
     SceneClock clock = scene_clock(time_s);
     SceneRay ray = scene_ray(origin_m, direction);
     vec3 radiance = vec3(0.0);
     vec3 carried = vec3(1.0);
+    float nearness = 0.0;
 
     // Twice round only where the first surface mirrors; elsewhere the work ends with the loop.
     for (int bounce = 0; bounce < 2; ++bounce) {
@@ -59,13 +61,15 @@ vec3 scene_radiance(vec3 origin_m, vec3 direction, float time_s) {
         vec3 shaded = mix(scene_shade(ray, hit, normal, albedo, light), sky, haze * haze);
         radiance += carried * (hit.is_surface ? (1.0 - mirrored) * shaded : sky);
 
+        nearness = bounce == 0 && hit.is_surface ? 1.0 / hit.t_m : nearness;
+
         if (mirrored == 0.0) {
             break;
         }
         carried = mirrored * albedo;
         ray = scene_ray(above_m, reflect(ray.direction, normal));
     }
-    return radiance;
+    return vec4(radiance, nearness);
 }
 
 #endif

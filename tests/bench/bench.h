@@ -36,6 +36,9 @@ std::vector<Figure> kfr_raycast(const Options& options);
 /// memory over 10,000 frames, and the program's start-up.
 std::vector<Figure> loop(const Options& options);
 
+/// Speed of the acuity-derived map over full resolution and over KFR, gaze in the middle.
+std::vector<Figure> acuity(const Options& options);
+
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.
 [[nodiscard]] double median(std::vector<double> values);
 

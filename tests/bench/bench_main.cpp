@@ -17,7 +17,8 @@ struct Named {
     std::string_view name;
     std::vector<Figure> (*run)(const Options&);
 };
-constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast}, Named{"loop", loop}};
+constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast}, Named{"acuity", acuity},
+                              Named{"loop", loop}};
 
 void print(const std::vector<Figure>& figures) {
     fmt::print("{:12} {:18} {:28} {:>10} {:5} {:>8} {:>8}\n", "bench", "case", "metric", "value",

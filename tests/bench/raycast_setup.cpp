@@ -1,11 +1,11 @@
 #include "tests/bench/raycast_setup.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
-
-#include "tests/bench/bench.h"
 
 namespace gazeloop::bench {
 namespace {
@@ -30,6 +30,17 @@ gaze::PixelPosition RaycastSetup::centre() const {
     return {extent().width / 2.0, extent().height / 2.0};
 }
 
+std::string RaycastSetup::name() const {
+    return fmt::format("{}x{}", extent().width, extent().height);
+}
+
+render::RendererConfig RaycastSetup::config(const Options& options) const {
+    render::RendererConfig config;
+    config.samples = options.samples.value_or(16);
+    config.extents = extents_;
+    return config;
+}
+
 render::FrameRequest RaycastSetup::frame(double yaw_deg, const gaze::PixelPosition& fovea) const {
     render::FrameRequest request;
     request.scene_time_s = kSceneTime_s;
@@ -43,6 +54,9 @@ render::FrameRequest RaycastSetup::frame(double yaw_deg, const gaze::PixelPositi
             .width_px = extents_[e].width,
             .height_px = extents_[e].height};
         request.targets[e] = {images_[e].image(), images_[e].view()};
+    }
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        request.gaze_directions[e] = gaze::unproject(fovea, request.views[0]);
     }
     request.foveae = {fovea, gaze::PixelPosition{kOtherEye.width / 2.0, kOtherEye.height / 2.0}};
     return request;
@@ -136,9 +150,8 @@ double CostMap::ms_at(const gaze::PixelPosition& position) const {
                          index(position.x_px / extent_.width)];
 }
 
-double CostMap::predicted_ms(
-    const foveation::SamplingPlan& plan,
-    const std::function<gaze::PixelPosition(std::uint32_t, std::uint32_t)>& texel_position) const {
+double CostMap::predicted_ms(const foveation::SamplingPlan& plan,
+                             const foveation::RadialMap& map) const {
     double sum_ms = 0.0;
     const auto add = [&](const std::vector<foveation::Columns>& bands, std::uint32_t height,
                          const auto& position) {
@@ -149,7 +162,10 @@ double CostMap::predicted_ms(
             }
         }
     };
-    add(plan.lp_bands, plan.lp.height, texel_position);
+    add(plan.lp_bands, plan.lp.height, [&](std::uint32_t x, std::uint32_t y) {
+        return map.position({(x + 0.5) / plan.lp.width, (y + 0.5) / plan.lp.height})
+            .value_or(gaze::PixelPosition{});
+    });
     add(plan.disc_bands, extent_.height,
         [](std::uint32_t x, std::uint32_t y) { return gaze::PixelPosition{x + 0.5, y + 0.5}; });
     return sum_ms;

@@ -1,13 +1,19 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "runtime/foveation/radial_map.h"
 #include "runtime/render/frame_renderer.h"
+#include "tests/bench/bench.h"
 
 namespace gazeloop::bench {
+
+/// The picture's content decides much of the speed-up: the middle of the first view is the scene's
+/// dearest spot, a mirror. So frames are rendered in all four directions, as a head would turn.
+inline constexpr std::array kYaws_deg{0.0, 90.0, 180.0, 270.0};
 
 /// One eye's picture of the ray-marched scene, as the papers measure it: the other eye's picture is
 /// the smallest that every method takes (8 x 8 px, under a ten thousandth of the work).
@@ -18,6 +24,9 @@ class RaycastSetup {
     RaycastSetup(const render::VulkanContext& context, vk::Extent2D extent, double half_width_rad);
 
     [[nodiscard]] const gaze::PerEye<vk::Extent2D>& extents() const { return extents_; }
+    [[nodiscard]] std::string name() const;  ///< "1920x1080"
+    /// Of a renderer for these pictures; 16 samples a cell unless the options say otherwise.
+    [[nodiscard]] render::RendererConfig config(const Options& options) const;
     [[nodiscard]] vk::Extent2D extent() const { return extents_[0]; }
 
     /// The eye at the scene's origin, the head turned to the left by yaw_deg; the gaze falls on
@@ -71,11 +80,8 @@ class CostMap {
             render::RendererConfig config, double yaw_deg, double whole_ms);
 
     /// What the plan's cells would take if each cost what a pixel at its place costs.
-    /// `texel_position` gives the picture position of an LP texel's centre.
-    [[nodiscard]] double predicted_ms(
-        const foveation::SamplingPlan& plan,
-        const std::function<gaze::PixelPosition(std::uint32_t, std::uint32_t)>& texel_position)
-        const;
+    [[nodiscard]] double predicted_ms(const foveation::SamplingPlan& plan,
+                                      const foveation::RadialMap& map) const;
 
   private:
     [[nodiscard]] double ms_at(const gaze::PixelPosition& position) const;

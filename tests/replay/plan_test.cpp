@@ -152,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"method", {"plan", "--method", "ring"}, 2, "did you mean 'rings'"},
         Refused{"model", {"plan", "--model", "gunter"}, 2, "did you mean 'guenter'"},
         Refused{"gaze", {"plan", "--gaze", "nan,0"}, 2, "gaze"},
-        Refused{"mar_zero", {"plan", "--mar", "0"}, 2, "acuity.mar = 0: must lie in [1e-06, 1]"},
+        Refused{"mar_zero", {"plan", "--mar", "0"}, 2, "acuity.mar = 0: must lie in [0.001, 1]"},
         Refused{"mar_nan", {"plan", "--mar", "nan"}, 2, "acuity.mar = nan"},
         Refused{"widen", {"plan", "--widen", "181"}, 2, "[0, 180]"},
         Refused{"eye", {"plan", "--eye", "third"}, 2, "--eye"},

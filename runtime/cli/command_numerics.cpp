@@ -1,0 +1,60 @@
+#include <fmt/core.h>
+
+#include <memory>
+#include <string>
+
+#include "runtime/cli/commands.h"
+#include "runtime/cli/output_file.h"
+#include "runtime/cli/run_options.h"
+#include "runtime/numerics/envelope_html.h"
+#include "runtime/numerics/envelope_json.h"
+#include "runtime/numerics/envelope_text.h"
+
+namespace gazeloop::cli {
+namespace {
+
+struct NumericsCommand {
+    LogOptions log;
+    numerics::EnvelopeOptions options;
+    std::string device;
+    std::string html;
+    std::string json;
+};
+
+ExitCode measure(const NumericsCommand& command) {
+    const render::VulkanContext context({.validation = false, .device = command.device}, nullptr);
+    const numerics::Envelope envelope = numerics::measure_envelope(context, command.options);
+    if (command.json != "-" && command.html != "-" && !command.log.quiet) {
+        fmt::print("{}", numerics::envelope_text(envelope));
+    }
+    if (!command.json.empty()) {
+        value_or_throw(write_text(command.json, numerics::envelope_json(envelope).dump(2) + "\n"));
+    }
+    if (!command.html.empty()) {
+        value_or_throw(write_text(command.html, numerics::envelope_html(envelope)));
+    }
+    return envelope.met() ? ExitCode::Ok : ExitCode::GateFailed;
+}
+
+}  // namespace
+
+void add_numerics_command(CLI::App& program, Action& action) {
+    CLI::App* const app = program.add_subcommand(
+        "numerics", "how exact every map is on this device; exit code 1 if a target is missed");
+    const auto command = std::make_shared<NumericsCommand>();
+    app->add_flag("--quick", command->options.quick, "one picture size, fewer maps and draws");
+    app->add_option("--seed", command->options.seed, "of the random probes");
+    app->add_option("--device", command->device, "part of the Vulkan device's name")
+        ->type_name("NAME");
+    app->add_option("--html", command->html, "also write a page with plots; - is stdout")
+        ->type_name("FILE");
+    app->add_option("--json", command->json, "also write every figure as JSON; - is stdout")
+        ->type_name("FILE");
+    command->log.add_to(*app);
+    app->callback([=, &action] {
+        command->log.apply();
+        action = [=] { return measure(*command); };
+    });
+}
+
+}  // namespace gazeloop::cli

@@ -1,0 +1,91 @@
+#include "runtime/cli/kfr_settings.h"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <string_view>
+#include <vector>
+
+#include "runtime/foveation/kernel_table_file.h"
+
+namespace gazeloop::cli {
+namespace {
+
+Expected<std::vector<double>> numbers(std::string_view text) {
+    std::vector<double> list;
+    for (std::string_view left = text; !left.empty();) {
+        const std::size_t comma = std::min(left.find(','), left.size());
+        std::string_view item = left.substr(0, comma);
+        left.remove_prefix(std::min(comma + 1, left.size()));
+        while (item.starts_with(' ')) {
+            item.remove_prefix(1);
+        }
+        double value = 0.0;
+        const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), value);
+        if (error != std::errc{} || end != item.data() + item.size()) {
+            return std::unexpected(Error{
+                ExitCode::Usage,
+                fmt::format("kfr.polynomial = '{}': numbers with commas between are expected, e.g. "
+                            "0.25,0.25,0.5",
+                            text)});
+        }
+        list.push_back(value);
+    }
+    return list;
+}
+
+Expected<foveation::RadialKernel> kernel(const decltype(SettingValues::kfr)& kfr) {
+    if (kfr.kernel == "power") {
+        return kfr.alpha;
+    }
+    if (kfr.kernel == "power-as-printed") {
+        return foveation::PrintedPowerKernel{kfr.alpha};
+    }
+    if (kfr.kernel == "sin") {
+        return foveation::SineKernel{};
+    }
+    if (kfr.kernel == "exp") {
+        return foveation::ExponentialKernel{};
+    }
+    if (kfr.kernel == "polynomial") {
+        const auto coefficients = numbers(kfr.polynomial);
+        if (!coefficients) {
+            return std::unexpected(coefficients.error());
+        }
+        auto polynomial = foveation::PolynomialKernel::create(*coefficients);
+        if (!polynomial) {
+            return std::unexpected(Error{polynomial.error().code,
+                                         fmt::format("kfr.polynomial = {}: {}", kfr.polynomial,
+                                                     polynomial.error().message)});
+        }
+        return std::move(*polynomial);
+    }
+    if (kfr.kernel_table.empty()) {
+        return std::unexpected(Error{ExitCode::Usage,
+                                     "kfr.kernel = table: its file is missing; state it with "
+                                     "kfr.kernel_table"});
+    }
+    auto table = foveation::load_kernel_table(kfr.kernel_table);
+    if (!table) {
+        return std::unexpected(table.error());
+    }
+    return std::move(*table);
+}
+
+}  // namespace
+
+Expected<foveation::KfrParameters> kfr_parameters(const SettingValues& values) {
+    auto made = kernel(values.kfr);
+    if (!made) {
+        return std::unexpected(made.error());
+    }
+    return foveation::KfrParameters{.sigma = values.kfr.sigma,
+                                    .kernel = std::move(*made),
+                                    .disc = values.kfr.disc,
+                                    .border_px = values.kfr.border_px,
+                                    .lp_width = static_cast<std::uint32_t>(values.kfr.lp_width),
+                                    .lp_height = static_cast<std::uint32_t>(values.kfr.lp_height),
+                                    .close_hole = values.kfr.close_hole};
+}
+
+}  // namespace gazeloop::cli

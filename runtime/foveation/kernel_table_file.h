@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <istream>
+#include <string>
+
+#include "runtime/foveation/table_kernel.h"
+
+namespace gazeloop::foveation {
+
+/// A kernel's samples as text, from the fovea outward. Lines of "x,y" (a first line of names, empty
+/// lines and lines that begin with # are skipped), or, `toml`, an array of pairs:
+///     kernel = [[0, 0], [0.5, 0.1], [1, 1]]
+/// Errors (BadInput): what cannot be read, is no number, or breaks TableKernel's rules, with
+/// "name:line".
+Expected<TableKernel> read_kernel_table(std::istream& in, const std::string& name, bool toml);
+
+/// From a file: TOML if its name ends in .toml.
+Expected<TableKernel> load_kernel_table(const std::filesystem::path& file);
+
+}  // namespace gazeloop::foveation

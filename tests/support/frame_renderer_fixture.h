@@ -1,0 +1,94 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "runtime/render/frame_renderer.h"
+#include "runtime/render/picture.h"
+
+namespace gazeloop::render {
+
+using Pictures = gaze::PerEye<Picture>;
+
+/// Renders single frames off screen on one validated device; every test ends with no message.
+class FrameRendererTest : public testing::Test {
+  protected:
+    static VulkanContext& context() {
+        static VulkanContext context({.validation = true, .device = ""}, nullptr);
+        return context;
+    }
+
+    void TearDown() override { EXPECT_EQ(context().validation_messages(), 0U); }
+
+    static RendererConfig config(Method method, std::uint32_t width = 160,
+                                 std::uint32_t height = 120) {
+        RendererConfig config;
+        config.method = method;
+        config.extents = {vk::Extent2D(width, height), vk::Extent2D(width, height)};
+        return config;
+    }
+
+    /// Both eyes from where a head at the origin has them; both foveae at the same position.
+    static FrameRequest request(const RendererConfig& config, gaze::PixelPosition fovea) {
+        FrameRequest request;
+        request.scene_time_s = 2.5;
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const std::size_t e = gaze::index(eye);
+            request.views[e] = {
+                .pose = {.position_m = {eye == gaze::Eye::Left ? -0.0315 : 0.0315, 0, 0}},
+                .fov = {-0.8, 0.8, 0.7, -0.7},
+                .width_px = config.extents[e].width,
+                .height_px = config.extents[e].height};
+            request.foveae[e] = fovea;
+            request.gaze_directions[e] = gaze::unproject(fovea, request.views[e]);
+        }
+        return request;
+    }
+
+    struct Rendered {
+        Pictures pictures;
+        latency::SampleCounts counts;
+        latency::FrameGpuRecord gpu;
+        gaze::PerEye<foveation::SamplingPlan> plans;
+    };
+
+    static Rendered render(const RendererConfig& config, FrameRequest request) {
+        FrameRenderer renderer(context(), config);
+        gaze::PerEye<ColorImage> images;
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            images[e] = ColorImage(
+                context(), config.extents[e], config.format,
+                vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
+            request.targets[e] = {images[e].image(), images[e].view()};
+        }
+        Rendered rendered;
+        renderer.wait_for_slot();
+        rendered.counts = renderer.render(request);
+        renderer.wait_idle();
+        const auto finished = renderer.next_finished();
+        EXPECT_TRUE(finished.has_value());
+        rendered.gpu = finished.value_or(latency::FrameGpuRecord{});
+        EXPECT_FALSE(renderer.next_finished().has_value());
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            rendered.pictures[e] =
+                read_back(context(), images[e].image(), config.extents[e], config.format,
+                          vk::ImageLayout::eColorAttachmentOptimal);
+            rendered.plans[e] = renderer.last_plan(gaze::kEyes[e]);
+        }
+        return rendered;
+    }
+
+    static int largest_difference(const Picture& a, const Picture& b) {
+        int largest = 0;
+        for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                largest = std::max(largest, std::abs(a.pixels[i][c] - b.pixels[i][c]));
+            }
+        }
+        return largest;
+    }
+};
+
+}  // namespace gazeloop::render
