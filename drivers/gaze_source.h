@@ -9,6 +9,12 @@
 
 namespace gazeloop::drivers {
 
+/// Something that happened to a source, for log and session.
+struct SourceEvent {
+    latency::Stamp time;
+    std::string text;  ///< one line
+};
+
 /// Where gaze comes from. A source that owns a device reads it on a thread of its own and hands the
 /// samples over here; a source that computes them does so here.
 class GazeSource {
@@ -21,6 +27,9 @@ class GazeSource {
     /// Appends every sample that has arrived by `now_ns` (host time) and was not handed over yet,
     /// in the order of arrival. Never blocks.
     virtual void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) = 0;
+
+    /// What happened since the last call: devices that came and went, changes of status and clock.
+    [[nodiscard]] virtual std::vector<SourceEvent> take_events() { return {}; }
 
     /// The head motion that belongs to the gaze, or null where the source knows none.
     [[nodiscard]] virtual const gaze::HeadMotion* head_track() const { return nullptr; }

@@ -149,6 +149,7 @@ class FrameLoop {
         record.stamps.end_frame = timeline_->now();
         timeline_->settle(record);
 
+        report_source_events();
         report_gaze_changes(record.fovea);
         for (FrameObserver* const observer : parts_.observers) {
             observer->on_frame(record);
@@ -285,6 +286,12 @@ class FrameLoop {
         for (const std::string& text : parts_.target.take_events()) {
             report_event(timeline_ != nullptr ? timeline_->now() : latency::Stamp{}, "session",
                          text);
+        }
+    }
+
+    void report_source_events() {
+        for (const drivers::SourceEvent& event : source_->take_events()) {
+            report_event(event.time, "tracker", event.text);
         }
     }
 

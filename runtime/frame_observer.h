@@ -33,7 +33,7 @@ class FrameObserver {
     virtual void on_frame(const latency::FrameRecord&) {}
     /// The GPU has finished a frame.
     virtual void on_gpu(const latency::FrameGpuRecord&) {}
-    /// `kind` is one word: session, gaze, loop.
+    /// `kind` is one word: session, gaze, tracker, loop.
     virtual void on_event(latency::Stamp, std::string_view /*kind*/, std::string_view /*text*/) {}
 };
 

@@ -29,7 +29,7 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
     request.settings = &settings;
     request.command_line = command_line;
     request.make_source =
-        value_or_throw(gaze_source_named(command.gaze, tracker, settings.values().sim));
+        value_or_throw(gaze_source_named(command.gaze, tracker, settings.values()));
     request.clock = command.clock == "wall" ? RunClock::Wall : RunClock::Virtual;
     command.options.fill(request);
     request.loop.end_with_source = !command.options.frames && !command.options.seconds;
@@ -41,7 +41,8 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
 void add_run_command(CLI::App& program, const std::string& command_line, Action& action) {
     CLI::App* const app = program.add_subcommand("run", "run the gaze-contingent frame loop");
     const auto command = std::make_shared<RunCommand>();
-    app->add_option("--gaze", command->gaze, "trace:FILE, fixed:AZ,EL (degrees, right, up), or sim")
+    app->add_option("--gaze", command->gaze,
+                    "hid, trace:FILE, fixed:AZ,EL (degrees, right, up), or sim")
         ->type_name("SOURCE");
     app->add_option("--clock", command->clock,
                     "wall: in real time; virtual: the same result on every run")

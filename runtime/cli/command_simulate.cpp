@@ -5,6 +5,7 @@
 #include "drivers/trace/native_trace.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/cli/simulate_tracker.h"
 #include "runtime/cli/tracker_settings.h"
 #include "sim/gaze_generator.h"
 
@@ -43,6 +44,7 @@ ExitCode simulate_gaze(const SimulateGazeCommand& command) {
 void add_simulate_command(CLI::App& program, Action& action) {
     CLI::App* const app = program.add_subcommand("simulate", "make input without a device");
     app->require_subcommand(1);
+    add_simulate_tracker_command(*app, action);
     CLI::App* const gaze = app->add_subcommand("gaze", "write a trace of simulated gaze");
     const auto command = std::make_shared<SimulateGazeCommand>();
     gaze->add_option("file", command->file, "the trace to write (overwritten)")

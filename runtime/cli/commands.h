@@ -18,6 +18,7 @@ void add_numerics_command(CLI::App& program, Action& action);
 void add_report_command(CLI::App& program, Action& action);
 void add_plan_command(CLI::App& program, Action& action);
 void add_simulate_command(CLI::App& program, Action& action);
+void add_devices_command(CLI::App& program, Action& action);
 void add_doctor_command(CLI::App& program, Action& action);
 /// Hidden: what --preview starts.
 void add_preview_window_command(CLI::App& program, Action& action);

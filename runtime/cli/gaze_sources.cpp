@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drivers/fixed/fixed_source.h"
+#include "drivers/hid/hid_source.h"
 #include "drivers/simulated/simulated_source.h"
 #include "drivers/trace/read_trace.h"
 #include "drivers/trace/trace_source.h"
@@ -13,8 +14,15 @@
 
 namespace gazeloop::cli {
 
+drivers::hid::HidOptions hid_options(const TrackerProfile& tracker, const SettingValues& values) {
+    return {.path = "",
+            .delay = {tracker.delay_ns, tracker.delay_uncertainty_ns},
+            .geometry = {values.hid.screen_width_m, values.hid.screen_height_m,
+                         values.hid.viewing_distance_m, values.hid.eye_distance_m}};
+}
+
 Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfile& tracker,
-                                       const sim::GazeSimulation& simulation) {
+                                       const SettingValues& values) {
     const std::size_t colon = text.find(':');
     const std::string_view kind = text.substr(0, colon);
     const std::string_view argument =
@@ -35,11 +43,19 @@ Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfi
             [gaze = *gaze](std::int64_t) { return std::make_unique<drivers::FixedSource>(gaze); };
     }
     if (text == "sim") {
-        return [simulation](std::int64_t start_ns) {
+        return [simulation = values.sim](std::int64_t start_ns) {
             return std::make_unique<drivers::SimulatedSource>(simulation, start_ns);
         };
     }
-    const std::vector<std::string> known{"trace:FILE", "fixed:AZ,EL", "sim"};
+    if (kind == "hid" && (colon == std::string_view::npos || !argument.empty())) {
+        drivers::hid::HidOptions options = hid_options(tracker, values);
+        options.path = argument;
+        return [options = std::move(options)](std::int64_t) {
+            return std::make_unique<drivers::hid::HidSource>(options);
+        };
+    }
+    const std::vector<std::string> known{"hid", "hid:/dev/hidrawN", "trace:FILE", "fixed:AZ,EL",
+                                         "sim"};
     return std::unexpected(
         Error{ExitCode::Usage, "--gaze: " + unknown_name("source", text, known)});
 }

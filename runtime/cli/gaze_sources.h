@@ -5,8 +5,10 @@
 #include <string_view>
 
 #include "drivers/gaze_source.h"
+#include "drivers/hid/tracker_session.h"
 #include "drivers/trace/trace.h"
 #include "runtime/cli/profiles.h"
+#include "runtime/cli/settings.h"
 #include "runtime/error.h"
 #include "sim/gaze_simulation.h"
 
@@ -14,10 +16,13 @@ namespace gazeloop::cli {
 
 using MakeSource = std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)>;
 
-/// What --gaze names: trace:FILE, fixed:AZ,EL or sim. Reads a trace at once. Errors: Usage for an
-/// unknown source, otherwise the source's own.
+/// What --gaze names: hid, hid:/dev/hidrawN, trace:FILE, fixed:AZ,EL or sim. Reads a trace at once;
+/// a device may come later. Errors: Usage for an unknown source, otherwise the source's own.
 Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfile& tracker,
-                                       const sim::GazeSimulation& simulation);
+                                       const SettingValues& values);
+
+/// The options of HID trackers (node not chosen) as configured.
+drivers::hid::HidOptions hid_options(const TrackerProfile& tracker, const SettingValues& values);
 
 /// Plays a trace, `speed` times as fast as it was recorded; every sample arrives `delay_ns` after
 /// it was taken, later by as much as the trace says.

@@ -72,6 +72,7 @@ int gazeloop_main(int count, char** arguments) {
     gazeloop::cli::add_report_command(program, action);
     gazeloop::cli::add_plan_command(program, action);
     gazeloop::cli::add_simulate_command(program, action);
+    gazeloop::cli::add_devices_command(program, action);
     gazeloop::cli::add_doctor_command(program, action);
     gazeloop::cli::add_preview_window_command(program, action);
     if (const auto refusal = unknown_command(program, count, arguments)) {

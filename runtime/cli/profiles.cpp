@@ -313,6 +313,9 @@ Expected<TrackerProfile> load_tracker(std::string_view name) {
         std::ranges::find(tracker.terms, "delay_ms", &std::pair<std::string, double>::first);
     if (delay != tracker.terms.end()) {
         tracker.delay_ns = ms_to_ns(delay->second);
+        // Where nobody has said how sure it is, nothing better than the delay itself can be said.
+        tracker.delay_uncertainty_ns =
+            ms_to_ns(read.optional_number("delay_uncertainty_ms", 0, 1000).value_or(delay->second));
     } else {
         read.miss("delay_ms");
     }

@@ -14,7 +14,8 @@ namespace gazeloop::cli {
 struct TrackerProfile {
     std::string name;
     std::string description;
-    std::int64_t delay_ns = 0;  ///< from exposure to the host's read
+    std::int64_t delay_ns = 0;              ///< from exposure to the host's read, at the least
+    std::int64_t delay_uncertainty_ns = 0;  ///< of it, either way
     /// What the file states of sim::TrackerTerms: term and value. Of the rest nothing is known.
     std::vector<std::pair<std::string, double>> terms;
     std::vector<std::string> assumed;  ///< keys of the figures that nobody has published

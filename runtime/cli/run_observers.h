@@ -54,7 +54,9 @@ class Summing final : public FrameObserver {
 class Logging final : public FrameObserver {
   public:
     void on_event(latency::Stamp, std::string_view kind, std::string_view text) override {
-        spdlog::debug("{}: {}", kind, text);
+        // Whoever runs with a device wants to know what it does.
+        spdlog::log(kind == "tracker" ? spdlog::level::info : spdlog::level::debug, "{}: {}", kind,
+                    text);
     }
 };
 

@@ -34,6 +34,12 @@ struct SettingValues {
         double fixation_distance_m = 1.5;
     } gaze;
     struct {
+        double eye_distance_m = 0.063;
+        double screen_height_m = 0.0;
+        double screen_width_m = 0.0;
+        double viewing_distance_m = 0.0;
+    } hid;
+    struct {
         double sigma = 1.8;
         std::string kernel = "power";
         double alpha = 4.0;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "runtime/gaze/eye.h"
@@ -40,6 +41,8 @@ struct FoveaPoint {
     std::uint64_t sample_sequence = 0;  ///< of the sample it rests on; 0 with Never
     latency::Stamp sampled;             ///< of that sample; unknown with Never
     latency::Stamp arrived;
+    latency::Stamp ready;                        ///< of that sample, as in GazeSample
+    std::optional<std::int64_t> uncertainty_ns;  ///< of `sampled`
 };
 
 /// The foveae of one frame: written once, before the frame's first gaze-dependent submit.

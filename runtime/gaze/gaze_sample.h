@@ -25,6 +25,10 @@ struct GazeSample {
     std::int64_t device_ns = 0;  ///< the tracker's own clock, unchanged but for unit and wrap
     latency::Stamp sampled;      ///< when the eye was seen (exposure), in host time
     latency::Stamp arrived;      ///< when the host had it
+    /// When the host could have had it at the earliest: `sampled` and the tracker's least delay.
+    /// Known where a clock was fitted to the tracker's (latency/clock_fit.h); else unknown.
+    latency::Stamp ready;
+    std::optional<std::int64_t> uncertainty_ns;  ///< of `sampled`, either way, where it is known
     PerEye<EyeRay> eyes;
     std::optional<Pose> head;  ///< head in world at `sampled`, where known
 };

@@ -85,7 +85,8 @@ double smooth_step(double t) { return t * t * (3.0 - 2.0 * t); }
 GazeToFovea::GazeToFovea(const FoveaPolicy& policy) : policy_(policy) {}
 
 void GazeToFovea::add(const GazeSample& sample) {
-    const Times times{sample.device_ns, sample.sampled, sample.arrived};
+    const Times times{sample.device_ns, sample.sampled, sample.arrived, sample.ready,
+                      sample.uncertainty_ns};
     const std::optional<Times> before = std::exchange(received_, times);
     if (before &&
         (times.device_ns < before->device_ns || goes_back(before->sampled, times.sampled))) {
@@ -155,6 +156,8 @@ FoveaPoint GazeToFovea::fovea_of(std::size_t eye, const Condition& condition, co
         point.sample_sequence = valid.sequence;
         point.sampled = valid.times.sampled;
         point.arrived = valid.times.arrived;
+        point.ready = valid.times.ready;
+        point.uncertainty_ns = valid.times.uncertainty_ns;
         if (condition.state == FoveaState::Tracking && valid.borrowed[eye]) {
             point.state = FoveaState::OtherEye;
         }

@@ -58,6 +58,8 @@ class GazeToFovea {
         std::int64_t device_ns = 0;
         latency::Stamp sampled;
         latency::Stamp arrived;
+        latency::Stamp ready;
+        std::optional<std::int64_t> uncertainty_ns;
     };
     struct ValidSample {
         PerEye<glm::dvec3> direction_in_head;

@@ -26,7 +26,11 @@ GazeAge gaze_age(const gaze::FoveaPoint& fovea, const FrameStamps& stamps, const
     GazeAge age;
     age.at_latch = between(fovea.sampled, stamps.latch);
     age.at_display = between(fovea.sampled, shown);
-    age.stages = {between(fovea.sampled, fovea.arrived),
+    if (fovea.uncertainty_ns && age.at_display.known()) {
+        age.uncertainty = {*fovea.uncertainty_ns, StampKind::Profile};
+    }
+    age.stages = {between(fovea.sampled, fovea.ready.known() ? fovea.ready : fovea.arrived),
+                  between(fovea.ready, fovea.arrived),
                   between(fovea.arrived, stamps.latch),
                   between(stamps.latch, stamps.submit),
                   between(stamps.submit, stamps.gpu_end),

@@ -14,7 +14,8 @@ namespace gazeloop::latency {
 
 /// Where the time from the eye to the photon goes. Each stage begins where the one before ends.
 enum class Stage : std::size_t {
-    Tracker,    ///< the eye was seen -> the host had the sample
+    Tracker,    ///< the eye was seen -> the host could have had the sample at the earliest
+    Delivery,   ///< -> the host had it; where the earliest is unknown, Tracker has this time too
     Queue,      ///< -> the gaze was latched
     Submit,     ///< -> the last pass was handed to the GPU
     Gpu,        ///< -> the last pass ended
@@ -22,9 +23,10 @@ enum class Stage : std::size_t {
     Row,        ///< -> the emission of the fovea's row, earlier above the middle; of the display
     Switching,  ///< -> the pixels have switched, a constant of the display
 };
-inline constexpr std::size_t kStageCount = 7;
+inline constexpr std::size_t kStageCount = 8;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "tracker", "queue", "submit", "gpu", "wait for display", "scan to row", "switching"};
+    "tracker", "delivery",         "queue",       "submit",
+    "gpu",     "wait for display", "scan to row", "switching"};
 
 /// When a frame came to light.
 struct ShownFrame {
@@ -42,6 +44,8 @@ struct ShownFrame {
 struct GazeAge {
     Span at_latch;    ///< sampled -> latch
     Span at_display;  ///< sampled -> shown, with the display's row and switching times if known
+    /// Of both ages, either way: of the tracker's fitted clock and of its profile's delay.
+    Span uncertainty;
     std::array<Span, kStageCount> stages;
     /// at_display less the known stages, exactly; known where at_display is. A stage with an
     /// unknown end leaves its time here.

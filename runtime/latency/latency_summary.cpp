@@ -136,6 +136,7 @@ void LatencySummary::complete(const FrameRecord& record) {
 void LatencySummary::add_tracking(const GazeAge& age) {
     gaze_age_at_latch_.add(age.at_latch);
     gaze_age_at_display_.add(age.at_display);
+    gaze_age_uncertainty_.add(age.uncertainty);
     unaccounted_.add(age.unaccounted);
     for (std::size_t stage = 0; stage < kStageCount; ++stage) {
         stages_[stage].add(age.stages[stage]);
@@ -165,6 +166,7 @@ SummaryReport LatencySummary::report_of_complete() const {
     report.config = config_;
     report.gaze_age_at_latch = gaze_age_at_latch_.row();
     report.gaze_age_at_display = gaze_age_at_display_.row();
+    report.gaze_age_uncertainty = gaze_age_uncertainty_.row();
     report.stages = rows(stages_);
     report.unaccounted = unaccounted_.row();
     report.held_gaze_age_at_display = held_gaze_age_at_display_.row();

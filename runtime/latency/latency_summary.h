@@ -64,6 +64,7 @@ struct SummaryReport {
 
     DurationRow gaze_age_at_latch;
     DurationRow gaze_age_at_display;
+    DurationRow gaze_age_uncertainty;  ///< of both ages, either way
     std::array<DurationRow, kStageCount> stages;
     DurationRow unaccounted;
     DurationRow held_gaze_age_at_display;  ///< in held and returning frames: of the held sample
@@ -119,6 +120,7 @@ class LatencySummary {
     std::optional<Neighbour> before_;
     SpanSeries gaze_age_at_latch_;
     SpanSeries gaze_age_at_display_;
+    SpanSeries gaze_age_uncertainty_;
     std::array<SpanSeries, kStageCount> stages_;
     SpanSeries unaccounted_;
     SpanSeries held_gaze_age_at_display_;

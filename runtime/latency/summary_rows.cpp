@@ -8,7 +8,13 @@ std::vector<NamedRow> rows_of(const SummaryReport& report) {
     std::vector<NamedRow> rows{
         {"gaze_age_at_latch", "gaze age at latch", &report.gaze_age_at_latch},
         {"gaze_age_at_display", "gaze age at display", &report.gaze_age_at_display}};
+    if (report.gaze_age_uncertainty.count > 0) {
+        rows.push_back({"gaze_age_uncertainty", "  uncertain by", &report.gaze_age_uncertainty});
+    }
     for (std::size_t stage = 0; stage < kStageCount; ++stage) {
+        if (stage == static_cast<std::size_t>(Stage::Delivery) && report.stages[stage].count == 0) {
+            continue;  // no clock was fitted
+        }
         if (stage == static_cast<std::size_t>(Stage::Row) && report.stages[stage].count == 0) {
             continue;  // how the display lights its rows is unknown, which is said once
         }

@@ -15,7 +15,6 @@ class ColumnNames {
     void operator()(std::string_view head, std::string_view tail, const Field&) {
         names_.push_back(std::string(head) + std::string(tail));
     }
-
     [[nodiscard]] std::string insert_into(std::string_view table) const;
     /// Sets every column in the row whose `key` is the parameter after theirs.
     [[nodiscard]] std::string update(std::string_view table, std::string_view key) const;

@@ -40,6 +40,19 @@ inline gaze::Pose no_pose() {
     return {glm::dquat{kNan, kNan, kNan, kNan}, glm::dvec3{kNan}};
 }
 
+/// What a fitted clock knows of a sample: columns that are NULL where none was fitted, and that
+/// files have not which were written before there were any. `ready` is known as measured only.
+template <typename Visitor, typename Timed>
+void visit_clocked(Visitor& visit, Timed& timed) {
+    auto ready_ns = timed.ready.known() ? std::optional(timed.ready.ns) : std::nullopt;
+    visit("ready", "_ns", ready_ns);
+    visit("uncertainty", "_ns", timed.uncertainty_ns);
+    if constexpr (!std::is_const_v<Timed>) {
+        timed.ready =
+            ready_ns ? latency::Stamp{*ready_ns, latency::StampKind::Measured} : latency::Stamp{};
+    }
+}
+
 template <typename Visitor, typename Frame, typename Sample>
 void visit_sample(Visitor& visit, Frame& frame, Sample& sample) {
     visit("frame", "", frame);
@@ -67,6 +80,7 @@ void visit_sample(Visitor& visit, Frame& frame, Sample& sample) {
     if constexpr (!std::is_const_v<Sample>) {
         sample.head = has_head ? std::optional(head) : std::nullopt;
     }
+    visit_clocked(visit, sample);
 }
 
 /// A count that the first files of this schema version lack: 0 there (see kLaterColumns).
@@ -149,6 +163,7 @@ void visit_fovea(Visitor& visit, Frame& frame, Eye& eye, Fovea& fovea) {
     visit("sample_sequence", "", fovea.sample_sequence);
     visit_stamp(visit, "sampled", fovea.sampled);
     visit_stamp(visit, "arrived", fovea.arrived);
+    visit_clocked(visit, fovea);
 }
 
 template <typename Visitor, typename Frame, typename Eye, typename Triangle>

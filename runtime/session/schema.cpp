@@ -56,7 +56,9 @@ CREATE TABLE gaze (
     head_qz           ANY,
     head_x_m          ANY,
     head_y_m          ANY,
-    head_z_m          ANY
+    head_z_m          ANY,
+    ready_ns          INTEGER,
+    uncertainty_ns    INTEGER
 ) STRICT;
 
 CREATE TABLE frame (
@@ -142,6 +144,8 @@ CREATE TABLE fovea (
     sampled_kind    INTEGER NOT NULL,
     arrived_ns      INTEGER NOT NULL,
     arrived_kind    INTEGER NOT NULL,
+    ready_ns        INTEGER,
+    uncertainty_ns  INTEGER,
     PRIMARY KEY (frame, eye)
 ) STRICT, WITHOUT ROWID;
 

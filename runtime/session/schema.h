@@ -14,9 +14,9 @@ inline constexpr int kOldestSchemaVersion = 1;
 /// Creates the tables in an empty database. SCHEMA.md says what their columns mean.
 extern const char* const kCreateTables;
 
-/// Columns and tables that the first files of this version lack; none of these names is in another
-/// table.
-inline constexpr std::array<std::string_view, 2> kLaterColumns{"texels_hidden", "pixels_hidden"};
+/// Columns and tables that the first files of this version lack, in whichever table they are.
+inline constexpr std::array<std::string_view, 4> kLaterColumns{"texels_hidden", "pixels_hidden",
+                                                               "ready_ns", "uncertainty_ns"};
 inline constexpr std::string_view kHiddenTable = "hidden_area";
 
 /// Names in `meta` that the recorder itself keeps.

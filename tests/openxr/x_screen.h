@@ -27,7 +27,7 @@ class XScreen {
   public:
     explicit XScreen(const ScratchFolder& scratch);
 
-    [[nodiscard]] bool ready() const { return ready_; }
+    [[nodiscard]] bool ready() const { return !number_.empty(); }
     [[nodiscard]] BackgroundProcess& process() { return process_; }
     /// The value of DISPLAY for programs that are to show themselves there.
     [[nodiscard]] std::string display() const;
@@ -36,7 +36,7 @@ class XScreen {
 
   private:
     BackgroundProcess process_;
-    bool ready_;
+    std::string number_;  ///< of the display; empty if the server did not start
 };
 
 }  // namespace gazeloop::tests

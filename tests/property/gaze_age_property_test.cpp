@@ -29,6 +29,7 @@ Drawn any_frame(std::int64_t within_ns) {
     Drawn drawn;
     drawn.fovea.sampled = any_stamp(within_ns);
     drawn.fovea.arrived = any_stamp(within_ns);
+    drawn.fovea.ready = any_stamp(within_ns);
     for (Stamp* stamp : {&drawn.stamps.latch, &drawn.stamps.submit, &drawn.stamps.gpu_end,
                          &drawn.stamps.display}) {
         *stamp = any_stamp(within_ns);
@@ -46,7 +47,8 @@ Drawn any_frame(std::int64_t within_ns) {
 RC_GTEST_PROP(GazeAge, StagesAndTheRestAddUpExactly, ()) {
     const Drawn drawn = any_frame(1'000'000'000'000'000);
     const ShownFrame shown = shown_frame(drawn.stamps, drawn.period_ns);
-    const GazeAge age = gaze_age(drawn.fovea, drawn.stamps, shown.at, drawn.switching_ns, drawn.row_ns);
+    const GazeAge age =
+        gaze_age(drawn.fovea, drawn.stamps, shown.at, drawn.switching_ns, drawn.row_ns);
     if (!age.at_display.known()) {
         return;
     }
@@ -80,7 +82,8 @@ RC_GTEST_PROP(GazeAge, AFrameIsNeverShownBeforeItIsFinished, ()) {
 RC_GTEST_PROP(GazeAge, TakesAnyTimes, ()) {
     const Drawn drawn = any_frame(std::numeric_limits<std::int64_t>::max());
     const ShownFrame shown = shown_frame(drawn.stamps, drawn.period_ns);
-    const GazeAge age = gaze_age(drawn.fovea, drawn.stamps, shown.at, drawn.switching_ns, drawn.row_ns);
+    const GazeAge age =
+        gaze_age(drawn.fovea, drawn.stamps, shown.at, drawn.switching_ns, drawn.row_ns);
     RC_ASSERT(age.at_display.known() == (drawn.fovea.sampled.known() && shown.at.known()));
 }
 

@@ -31,6 +31,7 @@ class AnyRecord {
         sample.device_ns = signed_integer();
         sample.sampled = stamp();
         sample.arrived = stamp();
+        clocked(sample);
         for (gaze::EyeRay& eye : sample.eyes) {
             eye = {vector(), vector(), real(), real(), coin()};
         }
@@ -59,7 +60,10 @@ class AnyRecord {
                      static_cast<gaze::LossReason>(below(gaze::kLossReasonNames.size())),
                      integer(),
                      stamp(),
-                     stamp()};
+                     stamp(),
+                     {},
+                     {}};
+            clocked(fovea);
         }
         frame.fovea.latched = stamp();
         frame.samples = {integer(), integer(), integer(), integer(),
@@ -97,6 +101,16 @@ class AnyRecord {
     bool coin() { return below(2) == 1; }
 
   private:
+    template <typename Timed>
+    void clocked(Timed& timed) {
+        if (coin()) {
+            timed.ready = {signed_integer(), latency::StampKind::Measured};
+        }
+        if (coin()) {
+            timed.uncertainty_ns = signed_integer();
+        }
+    }
+
     std::uint64_t below(std::uint64_t end) { return random_() % end; }
     std::uint64_t integer() {
         constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
@@ -163,12 +177,20 @@ void append(Bits& bits, const latency::Stamp& stamp) {
     append(bits, static_cast<std::uint64_t>(stamp.kind));
 }
 
+template <typename Timed>
+void append_clocked(Bits& bits, const Timed& timed) {
+    append(bits, timed.ready);
+    append(bits, std::uint64_t{timed.uncertainty_ns.has_value()});
+    append(bits, timed.uncertainty_ns.value_or(0));
+}
+
 Bits bits_of(const gaze::GazeSample& sample) {
     Bits bits;
     append(bits, sample.sequence);
     append(bits, sample.device_ns);
     append(bits, sample.sampled);
     append(bits, sample.arrived);
+    append_clocked(bits, sample);
     for (const gaze::EyeRay& eye : sample.eyes) {
         append(bits, eye.origin_m);
         append(bits, eye.direction);
@@ -212,6 +234,7 @@ Bits bits_of(const latency::FrameRecord& frame) {
         append(bits, fovea.sample_sequence);
         append(bits, fovea.sampled);
         append(bits, fovea.arrived);
+        append_clocked(bits, fovea);
     }
     const latency::SampleCounts& samples = frame.samples;
     for (const std::uint64_t count :

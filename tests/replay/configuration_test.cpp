@@ -294,7 +294,10 @@ TEST_F(Configuration, NumbersKeepTheirPointsUnderACommaLocale) {
     const std::string plain = run_all({});
     EXPECT_NE(plain.find("2.25"), std::string::npos);
     EXPECT_NE(plain.find("hash pixels"), std::string::npos);
-    EXPECT_EQ(run_all({.environment = {{"LD_PRELOAD", GAZELOOP_COMMA_LOCALE},
+    EXPECT_EQ(run_all({.environment = {{"LD_PRELOAD",
+                                        std::filesystem::path(GAZELOOP_COMMA_LOCALE).filename()},
+                                       {"LD_LIBRARY_PATH",
+                                        std::filesystem::path(GAZELOOP_COMMA_LOCALE).parent_path()},
                                        {"LOCPATH", locale->folder},
                                        {"GAZELOOP_TEST_LOCALE", locale->name},
                                        {"LC_ALL", locale->name}}}),

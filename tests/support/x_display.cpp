@@ -48,7 +48,7 @@ XServer::XServer() {
 
 void XServer::end() {
     if (pid_ > 0) {
-        kill(pid_, SIGKILL);
+        kill(pid_, SIGTERM);  // it then takes its lock and socket away
         waitpid(pid_, nullptr, 0);
         pid_ = -1;
     }

@@ -10,8 +10,8 @@ gazeloop_test(unit_drivers
 gazeloop_test(unit_sim
     SOURCES sim/eye_tracker_test.cpp sim/gaze_generator_test.cpp sim/person_test.cpp
         sim/random_test.cpp sim/recorded_head_test.cpp sim/saccade_test.cpp
-        drivers/simulated_source_test.cpp
-    LINK gazeloop::sim gazeloop::trace gazeloop::simulated
+        sim/virtual_tracker_test.cpp drivers/simulated_source_test.cpp
+    LINK gazeloop::sim gazeloop::trace gazeloop::simulated gazeloop::uhid gazeloop::hid_reports
     LABELS unit)
 gazeloop_test(unit_display_profile
     SOURCES present/display_profile_test.cpp

@@ -29,8 +29,10 @@ inline Environment vulkan_faults(const std::string& plan) {
 /// The wall clock steps at every reading, see stepped_clocks.cpp.
 inline Environment stepped_clocks() {
     const char* const before = std::getenv("LD_PRELOAD");
+    // By name, because the loader takes a space in a path for the end of it.
     return {{"LD_PRELOAD", (before != nullptr ? before + std::string(":") : std::string()) +
-                               faults_folder() + "/libgazeloop_stepped_clocks.so"}};
+                               "libgazeloop_stepped_clocks.so"},
+            {"LD_LIBRARY_PATH", faults_folder()}};
 }
 
 }  // namespace gazeloop::tests

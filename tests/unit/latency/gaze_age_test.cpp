@@ -116,6 +116,18 @@ TEST_F(GazeAgeOfAFrame, HasStagesThatAddUp) {
     EXPECT_EQ(age.unaccounted, (Span{0, StampKind::Predicted}));
 }
 
+TEST_F(GazeAgeOfAFrame, SplitsTheTrackersTimeWhereAClockWasFitted) {
+    fovea.ready = measured(5'200);
+    fovea.uncertainty_ns = 700;
+    const GazeAge age = gaze_age(fovea, stamps, stamps.display, 2'000);
+    EXPECT_EQ(stage(age, Stage::Tracker), (Span{4'200, StampKind::Profile}));
+    EXPECT_EQ(stage(age, Stage::Delivery), (Span{800, StampKind::Measured}));
+    EXPECT_EQ(age.unaccounted, (Span{0, StampKind::Predicted}));
+    EXPECT_EQ(age.uncertainty, (Span{700, StampKind::Profile}));
+    fovea.sampled = {};
+    EXPECT_FALSE(gaze_age(fovea, stamps, stamps.display, 2'000).uncertainty.known());
+}
+
 TEST_F(GazeAgeOfAFrame, LeavesTheTimeAroundAnUnknownStampUnaccounted) {
     stamps.gpu_end = {};
     const GazeAge age = gaze_age(fovea, stamps, stamps.display, 2'000);

@@ -169,6 +169,16 @@ TEST_F(ReadSession, KnowsWhatWasHiddenFromWhichFrameOn) {
     EXPECT_THAT(error(), HasSubstr("table hidden_area, row 3: is of an earlier frame"));
 }
 
+TEST_F(ReadSession, ReadsFilesFromBeforeClocksWereFitted) {
+    record();
+    for (const char* const table : {"gaze", "fovea"}) {
+        for (const char* const column : {"ready_ns", "uncertainty_ns"}) {
+            change(std::string("ALTER TABLE ") + table + " DROP COLUMN " + column);
+        }
+    }
+    EXPECT_EQ(error(), "no error");
+}
+
 TEST_F(ReadSession, NamesTableRowAndColumnOfAWrongType) {
     record();
     loosen("frame");

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drivers/gaze_source.h"
+#include "runtime/session/spsc_queue.h"
+
+namespace gazeloop::drivers {
+
+/// What a device's reading thread hands to the loop: samples without a lock, and rarely a line
+/// about the device.
+class DeviceFeed {
+  public:
+    // ---- the reading thread
+
+    /// Numbers the sample and hands it over; a full queue drops it, which is counted.
+    void push(gaze::GazeSample& sample, std::uint64_t lost_before = 0) {
+        sequence_ += 1 + lost_before;
+        sample.sequence = sequence_;
+        if (samples_.try_push(sample)) {
+            last_ = sample;
+        } else {
+            dropped_.fetch_add(1, std::memory_order_relaxed);
+        }
+    }
+
+    /// There is no gaze from here on, at this time: a sample in which neither eye is valid, so that
+    /// the loop's policy for lost gaze takes over with its next frame, in a replay too.
+    void push_loss(latency::Stamp at) {
+        gaze::GazeSample lost;
+        lost.device_ns = last_.device_ns;
+        lost.arrived = at;
+        push(lost);
+    }
+
+    void tell(latency::Stamp time, std::string text) {
+        const std::lock_guard lock(mutex_);
+        events_.push_back({time, std::move(text)});
+        told_.store(true, std::memory_order_release);
+    }
+
+    // ---- the loop
+
+    void poll(std::vector<gaze::GazeSample>& samples) {
+        while (const gaze::GazeSample* const sample = samples_.front()) {
+            samples.push_back(*sample);
+            samples_.pop();
+        }
+    }
+
+    [[nodiscard]] std::vector<SourceEvent> take_events() {
+        if (!told_.load(std::memory_order_acquire)) {
+            return {};
+        }
+        const std::lock_guard lock(mutex_);
+        told_.store(false, std::memory_order_relaxed);
+        return std::exchange(events_, {});
+    }
+
+    /// Samples lost because the loop did not ask for so long.
+    [[nodiscard]] std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
+
+  private:
+    /// 4 s of a 1000 Hz tracker, 1.3 MB.
+    static constexpr std::size_t kQueueSamples = 4096;
+
+    session::SpscQueue<gaze::GazeSample> samples_{kQueueSamples};
+    std::atomic<std::uint64_t> dropped_{0};
+    std::atomic<bool> told_{false};
+    std::mutex mutex_;
+    std::vector<SourceEvent> events_;
+    std::uint64_t sequence_ = 0;
+    gaze::GazeSample last_;
+};
+
+}  // namespace gazeloop::drivers

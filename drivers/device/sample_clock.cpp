@@ -1,0 +1,78 @@
+#include "drivers/device/sample_clock.h"
+
+#include <fmt/format.h>
+
+#include "runtime/latency/span.h"
+
+namespace gazeloop::drivers {
+namespace {
+
+using latency::ClockVerdict;
+using latency::StampKind;
+
+/// Of the 63 reports that hidraw keeps, nearly all: a reader that late has lost what came after.
+constexpr std::uint64_t kBacklog = 48;
+
+}  // namespace
+
+void SampleClock::stamp(std::uint64_t ticks, std::int64_t arrived_ns, gaze::GazeSample& sample) {
+    sample.device_ns = counter_.to_ns(ticks);
+    sample.arrived = {arrived_ns, StampKind::Measured};
+    sample.sampled = {};
+    sample.ready = {};
+    sample.uncertainty_ns.reset();
+
+    const latency::ClockReading reading = fit_.add(sample.device_ns, arrived_ns);
+    if (reading.verdict != ClockVerdict::Unusable) {
+        sample.ready = {reading.host_ns, StampKind::Measured};
+        sample.sampled = {reading.host_ns - delay_.least_ns, StampKind::Profile};
+        sample.uncertainty_ns = reading.uncertainty_ns + delay_.uncertainty_ns;
+    }
+
+    lost_ = 0;
+    const std::int64_t period_ns = fit_.period_ns();
+    if (last_device_ns_ && period_ns > 0) {
+        const auto step =
+            latency::saturated(static_cast<__int128>(sample.device_ns) - *last_device_ns_);
+        // A clock that was set leaves the sample's time unknown, and is no loss.
+        if (queued_in_a_row_ >= kBacklog && sample.ready.known() &&
+            step > period_ns + period_ns / 2) {
+            const bool up = step % period_ns >= period_ns - period_ns / 2;
+            lost_ = static_cast<std::uint64_t>(step / period_ns - (up ? 0 : 1));
+        }
+        const bool queued = arrived_ns - last_arrived_ns_ < period_ns / 4;
+        queued_in_a_row_ = queued ? queued_in_a_row_ + 1 : 0;
+    }
+    last_device_ns_ = sample.device_ns;
+    last_arrived_ns_ = arrived_ns;
+}
+
+std::optional<std::string> SampleClock::take_change() {
+    const latency::ClockReading& reading = fit_.last();
+    std::optional<std::string> text;
+    if (fit_.steps() != told_steps_) {
+        told_steps_ = fit_.steps();
+        text = "clock: the tracker's clock was set";
+    } else if (told_verdict_ != reading.verdict &&
+               fit_.trouble() != latency::ClockTrouble::Settling) {
+        told_verdict_ = reading.verdict;
+        text = describe(fit_);
+    }
+    return text;
+}
+
+std::string describe(const latency::ClockFit& fit) {
+    const latency::ClockReading& reading = fit.last();
+    const auto verdict = latency::kClockVerdictNames[static_cast<std::size_t>(reading.verdict)];
+    const auto trouble = latency::kClockTroubleNames[static_cast<std::size_t>(fit.trouble())];
+    if (reading.verdict == ClockVerdict::Unusable) {
+        return fmt::format("clock: unusable ({}), so the age of the gaze is unknown", trouble);
+    }
+    const std::string why = fit.trouble() == latency::ClockTrouble::None
+                                ? std::string()
+                                : fmt::format(" ({})", trouble);
+    return fmt::format("clock: {}{}, within {:.2f} ms, skew {:+.0f} ppm", verdict, why,
+                       static_cast<double>(reading.uncertainty_ns) * 1e-6, fit.skew_ppm());
+}
+
+}  // namespace gazeloop::drivers

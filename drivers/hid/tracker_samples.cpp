@@ -1,0 +1,67 @@
+#include "drivers/hid/tracker_samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace gazeloop::drivers::hid {
+
+TrackerSamples::TrackerSamples(EyeTrackerLayout layout, const ScreenGeometry& geometry,
+                               const TrackerDelay& delay)
+    : layout_(std::move(layout)), geometry_(geometry) {
+    for (const TrackingLayout& tracking : layout_.tracking) {
+        std::optional<SampleClock>& clock = clocks_.emplace_back();
+        if (tracking.timestamp) {
+            clock.emplace(tracking.timestamp->bits, tracking.timestamp->tick_ns, delay);
+        }
+    }
+}
+
+std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_t> report,
+                                                     std::int64_t arrived_ns) {
+    const InputReport input = decode_input(layout_, report);
+    if (const auto* const status = std::get_if<StatusReport>(&input)) {
+        status_changed_ = status_ != *status;
+        status_ = *status;
+        return std::nullopt;
+    }
+    const auto* const tracking = std::get_if<TrackingReport>(&input);
+    if (tracking == nullptr) {
+        ++counts_.others;
+        return std::nullopt;
+    }
+    ++counts_.samples;
+    counts_.truncated += tracking->truncated ? 1 : 0;
+    gaze::GazeSample sample;
+    sample.eyes = eye_rays(*tracking, geometry_);
+    sample.arrived = {arrived_ns, latency::StampKind::Measured};
+
+    const auto layout =
+        std::ranges::find(layout_.tracking, tracking->report_id, &TrackingLayout::report_id);
+    const auto index = static_cast<std::size_t>(std::distance(layout_.tracking.begin(), layout));
+    std::optional<SampleClock>& clock = clocks_[index];
+    lost_before_last_ = 0;
+    last_clock_.reset();
+    if (clock && tracking->ticks) {
+        clock->stamp(*tracking->ticks, arrived_ns, sample);
+        last_clock_ = index;
+        lost_before_last_ = clock->lost_before_last();
+        counts_.lost += lost_before_last_;
+    }
+    return sample;
+}
+
+std::optional<std::string> TrackerSamples::take_change() {
+    if (std::exchange(status_changed_, false)) {
+        return fmt::format("status: {}", text_of(status_->status.value_or(TrackerStatus::Unknown)));
+    }
+    return last_clock_ ? clocks_[*last_clock_]->take_change() : std::nullopt;
+}
+
+const latency::ClockFit* TrackerSamples::clock() const {
+    return last_clock_ ? &clocks_[*last_clock_]->fit() : nullptr;
+}
+
+}  // namespace gazeloop::drivers::hid

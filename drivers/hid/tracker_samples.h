@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "drivers/device/sample_clock.h"
+#include "drivers/hid/eye_tracker_reports.h"
+#include "drivers/hid/screen_gaze.h"
+
+namespace gazeloop::drivers::hid {
+
+/// Makes samples of a tracker's input reports, in the order of arrival. Allocates nothing but for
+/// changes it has something to say about.
+class TrackerSamples {
+  public:
+    TrackerSamples(EyeTrackerLayout layout, const ScreenGeometry& geometry,
+                   const TrackerDelay& delay);
+
+    struct Counts {
+        std::uint64_t samples = 0;
+        std::uint64_t truncated = 0;  ///< of them: reports that were cut short
+        std::uint64_t others = 0;     ///< reports of something else
+        std::uint64_t lost = 0;       ///< reports that were certainly lost on the way
+    };
+
+    /// The sample of a report that had arrived by `arrived_ns`, all but its number; none where the
+    /// report is of something else.
+    [[nodiscard]] std::optional<gaze::GazeSample> take(std::span<const std::uint8_t> report,
+                                                       std::int64_t arrived_ns);
+    /// Reports that are missing before the last sample.
+    [[nodiscard]] std::uint64_t lost_before_last() const { return lost_before_last_; }
+
+    /// A line about what the last report changed: the device's status, its clock.
+    [[nodiscard]] std::optional<std::string> take_change();
+
+    [[nodiscard]] const Counts& counts() const { return counts_; }
+    /// Of the report that came last; null before, and for a tracker without timestamps.
+    [[nodiscard]] const latency::ClockFit* clock() const;
+
+  private:
+    EyeTrackerLayout layout_;
+    ScreenGeometry geometry_;
+    /// By the index of the tracking report; none for those without a timestamp.
+    std::vector<std::optional<SampleClock>> clocks_;
+    std::optional<std::size_t> last_clock_;
+    std::uint64_t lost_before_last_ = 0;
+    std::optional<StatusReport> status_;
+    bool status_changed_ = false;
+    Counts counts_;
+};
+
+}  // namespace gazeloop::drivers::hid

@@ -1,0 +1,133 @@
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "drivers/hid/hid_source.h"
+#include "runtime/cli/commands.h"
+#include "runtime/cli/device_report.h"
+#include "runtime/cli/gaze_sources.h"
+#include "runtime/cli/interrupt.h"
+#include "runtime/cli/profiles.h"
+#include "runtime/cli/run_options.h"
+#include "runtime/latency/clock.h"
+
+namespace gazeloop::cli {
+namespace {
+
+struct DevicesCommand {
+    LogOptions log;
+    std::vector<std::string> config_files;
+    std::vector<std::string> assignments;
+    bool json = false;
+    bool watch = false;
+    double seconds = 2.0;
+};
+
+std::string eye_text(const gaze::EyeRay& ray) {
+    if (!ray.valid) {
+        return "      -       -  ";
+    }
+    return fmt::format("{:+7.2f} {:+7.2f}  ",
+                       glm::degrees(std::atan2(ray.direction.x, -ray.direction.z)),
+                       glm::degrees(std::asin(std::clamp(ray.direction.y, -1.0, 1.0))));
+}
+
+/// Live gaze, ten lines a second, in one line of a terminal.
+ExitCode watch(const drivers::hid::HidOptions& options, const DevicesCommand& command) {
+    constexpr std::int64_t kEvery_ns = 100'000'000;
+    const bool terminal = isatty(STDOUT_FILENO) != 0;
+    drivers::hid::HidSource source(options);
+    std::vector<gaze::GazeSample> samples;
+    bool any = false;
+    const std::int64_t begin_ns = latency::monotonic_ns();
+    fmt::print("degrees right, up: left eye, right eye; samples; age\n");
+    for (std::int64_t i = 1; !interrupted(); ++i) {
+        const std::int64_t now_ns = begin_ns + i * kEvery_ns;
+        if (static_cast<double>(now_ns - begin_ns) * 1e-9 > command.seconds) {
+            break;
+        }
+        latency::sleep_until_ns(now_ns);
+        samples.clear();
+        source.poll(now_ns, samples);
+        for (const drivers::SourceEvent& event : source.take_events()) {
+            fmt::print("{}{}\n", terminal ? "\r\x1b[K" : "", event.text);
+        }
+        if (!samples.empty()) {
+            const gaze::GazeSample& last = samples.back();
+            any = any || last.eyes[0].valid || last.eyes[1].valid;
+            const std::string age =
+                last.sampled.known()
+                    ? fmt::format("{:.1f} +/- {:.1f} ms at its arrival",
+                                  static_cast<double>(last.arrived.ns - last.sampled.ns) * 1e-6,
+                                  static_cast<double>(last.uncertainty_ns.value_or(0)) * 1e-6)
+                    : std::string("unknown");
+            fmt::print("{}{}{}{:4}  {}{}", terminal ? "\r\x1b[K" : "", eye_text(last.eyes[0]),
+                       eye_text(last.eyes[1]), samples.size(), age, terminal ? "" : "\n");
+        }
+        std::fflush(stdout);
+    }
+    fmt::print("{}", terminal ? "\n" : "");
+    return any ? ExitCode::Ok : ExitCode::NoDevice;
+}
+
+ExitCode devices(const DevicesCommand& command) {
+    Settings settings;
+    RunOptions configured;
+    configured.config_files = command.config_files;
+    configured.assignments = command.assignments;
+    value_or_throw(configured.apply_to(settings, true));
+    const TrackerProfile profile = value_or_throw(load_tracker(settings.values().profile.tracker));
+    const drivers::hid::HidOptions options = hid_options(profile, settings.values());
+    if (command.watch) {
+        return watch(options, command);
+    }
+    std::vector<drivers::hid::TrackerProbe> probes;
+    for (const drivers::hid::FoundTracker& tracker : drivers::hid::find_trackers()) {
+        probes.push_back(drivers::hid::probe_tracker(
+            tracker, options, std::chrono::milliseconds(std::llround(command.seconds * 1e3)),
+            [] { return interrupted(); }));
+    }
+    if (command.json) {
+        fmt::print("{}\n", devices_json(probes).dump(2));
+    } else {
+        fmt::print("{}", devices_text(probes));
+    }
+    return any_gaze(probes) ? ExitCode::Ok : ExitCode::NoDevice;
+}
+
+}  // namespace
+
+void add_devices_command(CLI::App& program, Action& action) {
+    CLI::App* const app = program.add_subcommand(
+        "devices", "list eye trackers, listen to each, and say why one does not track");
+    const auto command = std::make_shared<DevicesCommand>();
+    command->log.add_to(*app);
+    app->add_option("--config", command->config_files, "TOML file with settings; may be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    app->add_option("--set", command->assignments, "a setting; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    CLI::Option* const seconds =
+        app->add_option("--seconds", command->seconds,
+                        "how long to listen to each (2), or to watch (until interrupted)")
+            ->type_name("S")
+            ->check(number_between(0.1, 1e9));
+    CLI::Option* const json = app->add_flag("--json", command->json, "for programs");
+    app->add_flag("--watch", command->watch, "show live gaze")->excludes(json);
+    app->callback([=, &action] {
+        command->log.apply();
+        if (command->watch && seconds->count() == 0) {
+            command->seconds = 1e9;
+        }
+        action = [=] { return devices(*command); };
+    });
+}
+
+}  // namespace gazeloop::cli

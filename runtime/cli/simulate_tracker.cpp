@@ -1,0 +1,109 @@
+#include "runtime/cli/simulate_tracker.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "drivers/trace/read_trace.h"
+#include "runtime/cli/interrupt.h"
+#include "runtime/cli/run_options.h"
+#include "runtime/latency/clock.h"
+#include "sim/gaze_generator.h"
+#include "sim/uhid_device.h"
+#include "sim/virtual_tracker.h"
+
+namespace gazeloop::cli {
+namespace {
+
+/// Simulated gaze repeats after this.
+constexpr double kLap_s = 60.0;
+
+struct SimulateTrackerCommand {
+    LogOptions log;
+    std::string trace;
+    double seconds = 1e9;
+    sim::GazeSimulation gaze;
+};
+
+drivers::Trace gaze_of(const SimulateTrackerCommand& command) {
+    return command.trace.empty() ? sim::generate_gaze(command.gaze, kLap_s)
+                                 : value_or_throw(drivers::read_trace(command.trace));
+}
+
+double rate_hz(const drivers::Trace& trace) {
+    const double span_s = static_cast<double>(trace.samples.back().sampled.ns) * 1e-9;
+    return span_s > 0.0 ? static_cast<double>(trace.samples.size() - 1) / span_s : 0.0;
+}
+
+/// Plays the gaze again and again, each sample at its time, to whoever has started the tracker.
+ExitCode simulate_tracker(const SimulateTrackerCommand& command) {
+    const drivers::Trace trace = gaze_of(command);
+    const auto hz = static_cast<std::uint16_t>(std::clamp(rate_hz(trace) + 0.5, 0.0, 65535.0));
+    std::uint8_t modes = 0;
+    auto device = value_or_throw(sim::UhidDevice::create(
+        {"gazeloop virtual eye tracker", sim::kVirtualVendor, sim::kVirtualProduct},
+        sim::virtual_tracker_descriptor(),
+        {.get_feature = [hz](std::uint8_t id) { return sim::virtual_tracker_feature(id, hz); },
+         .set_feature =
+             [&modes](std::span<const std::uint8_t> report) {
+                 if (report.size() >= 2 && report[0] == sim::kVirtualControlId) {
+                     modes = report[1];
+                     spdlog::info("{}", modes != 0 ? "asked to start" : "asked to stop");
+                 }
+             }}));
+    spdlog::info("plugged in: a virtual eye tracker, {} Hz; gazeloop run --gaze hid uses it", hz);
+
+    std::uint64_t sent = 0;
+    const std::int64_t begin_ns = latency::monotonic_ns();
+    std::int64_t lap_ns = begin_ns;
+    const auto over = [&] {
+        return interrupted() ||
+               static_cast<double>(latency::monotonic_ns() - begin_ns) * 1e-9 > command.seconds;
+    };
+    while (!over()) {
+        for (const gaze::GazeSample& sample : trace.samples) {
+            const std::int64_t wait_ns = lap_ns + sample.sampled.ns - latency::monotonic_ns();
+            device.answer_for(std::chrono::nanoseconds(std::max<std::int64_t>(wait_ns, 1)));
+            if (over()) {
+                break;
+            }
+            if (modes != 0) {
+                const std::int64_t taken_ns = lap_ns + sample.sampled.ns - begin_ns;
+                value_or_throw(device.send(sim::virtual_tracker_report(
+                    sample, static_cast<std::uint64_t>(taken_ns / 1000))));
+                ++sent;
+            }
+        }
+        constexpr std::int64_t kBetweenLaps_ns = 10'000'000;
+        lap_ns += trace.samples.back().sampled.ns + kBetweenLaps_ns;
+    }
+    if (!command.log.quiet) {
+        fmt::print("{} reports sent\n", sent);
+    }
+    return interrupted() ? ExitCode::Interrupted : ExitCode::Ok;
+}
+
+}  // namespace
+
+void add_simulate_tracker_command(CLI::App& simulate, Action& action) {
+    CLI::App* const app = simulate.add_subcommand(
+        "tracker", "be a HID eye tracker (usage page 0x12), through /dev/uhid");
+    const auto command = std::make_shared<SimulateTrackerCommand>();
+    app->add_option("--trace", command->trace, "what it sees; without: simulated gaze")
+        ->type_name("FILE");
+    app->add_option("--seconds", command->seconds, "end after S seconds (until interrupted)")
+        ->check(number_between(0.0, 1e9));
+    app->add_option("--rate", command->gaze.tracker.rate_hz, "samples a second, Hz")
+        ->check(number_between(1.0, 1e4));
+    app->add_option("--seed", command->gaze.seed, "the same seed gives the same gaze");
+    command->log.add_to(*app);
+    app->callback([=, &action] {
+        command->log.apply();
+        action = [=] { return simulate_tracker(*command); };
+    });
+}
+
+}  // namespace gazeloop::cli

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "runtime/latency/span.h"
+
+namespace gazeloop::latency {
+
+/// A device's counter of limited width, without its wraps: a difference of more than half the range
+/// is taken for the shorter way round. So a counter that is set back by less than half its range
+/// goes back here too.
+class TickCounter {
+  public:
+    /// `bits` (1 to 64) of the counter, each tick `tick_ns` (> 0) nanoseconds long.
+    TickCounter(std::uint32_t bits, double tick_ns) : shift_(64 - bits), tick_ns_(tick_ns) {}
+
+    /// The device's time in nanoseconds; the first one is that of the ticks themselves. Saturates
+    /// 292 years away from 0.
+    [[nodiscard]] std::int64_t to_ns(std::uint64_t ticks) {
+        if (!started_) {
+            started_ = true;
+            total_ = (ticks << shift_) >> shift_;
+        } else {
+            // Both counters shifted to the left end of 64 bits: their difference wraps as they do.
+            const std::uint64_t step = (ticks << shift_) - (total_ << shift_);
+            total_ += static_cast<std::uint64_t>(static_cast<std::int64_t>(step) >> shift_);
+        }
+        return ns_of(static_cast<std::int64_t>(total_));
+    }
+
+  private:
+    [[nodiscard]] std::int64_t ns_of(std::int64_t ticks) const {
+        constexpr double kWholeBelow = 1e12;
+        if (tick_ns_ < kWholeBelow && tick_ns_ == std::floor(tick_ns_)) {
+            return saturated(static_cast<__int128>(ticks) * static_cast<std::int64_t>(tick_ns_));
+        }
+        constexpr auto kGreatest = static_cast<double>(std::numeric_limits<std::int64_t>::max());
+        const double ns = static_cast<double>(ticks) * tick_ns_;
+        if (std::abs(ns) < kGreatest) {
+            return std::llround(ns);
+        }
+        return ns < 0.0 ? std::numeric_limits<std::int64_t>::min()
+                        : std::numeric_limits<std::int64_t>::max();
+    }
+
+    std::uint32_t shift_;
+    double tick_ns_;
+    std::uint64_t total_ = 0;  ///< two's complement
+    bool started_ = false;
+};
+
+}  // namespace gazeloop::latency

@@ -1,0 +1,154 @@
+// The program as its users run it, on an emulated device.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "runtime/latency/clock.h"
+#include "runtime/session/session_file.h"
+#include "sim/virtual_tracker.h"
+#include "tests/device/emulated_tracker.h"
+#include "tests/support/run_program.h"
+
+namespace gazeloop::tests {
+namespace {
+
+/// Sends a report every 5 ms, while it exists.
+class Sending {
+  public:
+    explicit Sending(const EmulatedTracker& tracker)
+        : thread_([this, &tracker] {
+              gaze::GazeSample sample;
+              for (gaze::EyeRay& ray : sample.eyes) {
+                  ray.valid = true;
+              }
+              const std::int64_t begin_ns = latency::monotonic_ns();
+              for (std::int64_t i = 0; !stop_; ++i) {
+                  latency::sleep_until_ns(begin_ns + i * 5'000'000);
+                  // Nobody may read yet, or any more.
+                  (void)tracker.try_send(
+                      sim::virtual_tracker_report(sample, static_cast<std::uint64_t>(i) * 5000));
+              }
+          }) {}
+    Sending(const Sending&) = delete;
+    Sending& operator=(const Sending&) = delete;
+    ~Sending() {
+        stop_ = true;
+        thread_.join();
+    }
+
+  private:
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+class DevicesProgram : public testing::Test {
+  protected:
+    void SetUp() override {
+        const auto descriptor = sim::virtual_tracker_descriptor();
+        tracker_.emplace(std::vector<std::uint8_t>(descriptor.begin(), descriptor.end()));
+        if (!tracker_->possible()) {
+            GTEST_SKIP() << "not under umockdev's preload library";
+        }
+        for (const std::uint8_t id : std::initializer_list<std::uint8_t>{0x11, 0x12, 0x13}) {
+            tracker_->set_feature(id, *sim::virtual_tracker_feature(id, 200));
+        }
+    }
+
+    std::optional<EmulatedTracker> tracker_;
+    ScratchFolder folder_;
+};
+
+TEST_F(DevicesProgram, SaysWhyThereIsNoGaze) {
+    const ProgramResult none = run_gazeloop({"devices"});
+    EXPECT_EQ(none.exit_code, 4) << none.err;
+    EXPECT_NE(none.out.find("No eye tracker was found"), std::string::npos) << none.out;
+    tracker_->plug_in();
+    const ProgramResult silent = run_gazeloop({"devices", "--seconds", "0.2"});
+    EXPECT_EQ(silent.exit_code, 4) << silent.err;
+    EXPECT_NE(silent.out.find("it sends nothing"), std::string::npos) << silent.out;
+    EXPECT_NE(silent.out.find("not tried on hardware"), std::string::npos) << silent.out;
+}
+
+TEST_F(DevicesProgram, ListsWhatATrackerStatesAndDoes) {
+    tracker_->plug_in();
+    const Sending sending(*tracker_);
+    const ProgramResult result = run_gazeloop({"devices", "--seconds", "1", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+    const auto list = nlohmann::json::parse(result.out);
+    ASSERT_EQ(list.size(), 1U);
+    EXPECT_EQ(list[0]["path"], "/dev/hidraw0");
+    EXPECT_EQ(list[0]["status"], "ready");
+    EXPECT_EQ(list[0]["stated_hz"], 200);
+    EXPECT_DOUBLE_EQ(list[0]["screen_width_m"], sim::kVirtualScreenWidth_m);
+    EXPECT_GT(list[0]["samples_with_gaze"], 0);
+    EXPECT_TRUE(list[0]["clock"].is_string());
+    EXPECT_FALSE(list[0]["tried_on_hardware"]);
+    EXPECT_TRUE(list[0]["problems"].empty()) << list.dump(2);
+    const ProgramResult text = run_gazeloop({"devices", "--seconds", "0.5"});
+    EXPECT_NE(text.out.find("gaze in 100 %"), std::string::npos) << text.out;
+    const ProgramResult live = run_gazeloop({"devices", "--watch", "--seconds", "1"});
+    EXPECT_EQ(live.exit_code, 0) << live.err;
+    EXPECT_NE(live.out.find("plugged in"), std::string::npos) << live.out;
+}
+
+TEST_F(DevicesProgram, RunsOnThroughPluggingInAndPullingOut) {
+    const std::string session = folder_.file("session.gaze");
+    ProgramOptions options;
+    options.trigger = "no HID eye tracker is plugged in";
+    options.timeout = std::chrono::seconds(200);
+    std::thread hands;
+    options.on_trigger = [&](int) {
+        hands = std::thread([&] {
+            for (int round = 0; round < 2; ++round) {
+                tracker_->plug_in();
+                {
+                    const Sending sending(*tracker_);
+                    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+                }
+                tracker_->unplug();
+                std::this_thread::sleep_for(std::chrono::milliseconds(700));
+            }
+        });
+    };
+    const ProgramResult result =
+        run_gazeloop({"run", "--gaze", "hid", "--target", "headless", "--seconds", "6", "--record",
+                      session, "--set", "render.scale=0.05"},
+                     options);
+    if (hands.joinable()) {
+        hands.join();
+    }
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const session::SessionFile file = value_or_throw(session::read_session(session));
+    int plugged = 0;
+    int gone = 0;
+    for (const auto& event : file.events) {
+        plugged += event.kind == "tracker" && event.text.starts_with("plugged in") ? 1 : 0;
+        gone += event.kind == "tracker" && event.text.starts_with("gone") ? 1 : 0;
+    }
+    // A node may be found once more between the failed read and udev's word of the removal.
+    EXPECT_GE(plugged, 2);
+    EXPECT_EQ(gone, plugged);
+    bool any_tracking = false;
+    for (const auto& frame : file.frames) {
+        any_tracking =
+            any_tracking || frame.frame.fovea.eyes[0].state == gaze::FoveaState::Tracking;
+    }
+    EXPECT_TRUE(any_tracking);
+    // A loss reached the loop as a sample, and the next frame did not track.
+    for (const auto& recorded : file.samples) {
+        const gaze::GazeSample& sample = recorded.sample;
+        if (!sample.eyes[0].valid && !sample.sampled.known()) {
+            for (const auto& frame : file.frames) {
+                if (frame.frame.index == recorded.frame) {
+                    EXPECT_NE(frame.frame.fovea.eyes[0].state, gaze::FoveaState::Tracking);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gazeloop::tests

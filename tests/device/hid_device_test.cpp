@@ -1,0 +1,275 @@
+// The HID path on an emulated device: found, opened, read, pulled out.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+#include "drivers/hid/hid_source.h"
+#include "runtime/latency/clock.h"
+#include "tests/device/emulated_tracker.h"
+#include "tests/unit/drivers/hid/descriptor_items.h"
+
+namespace gazeloop::drivers::hid {
+namespace {
+
+using tests::EmulatedTracker;
+
+/// Report 0x10 of the first layout, at `time_us`: both eyes 600 mm before the middle of a screen.
+std::vector<std::uint8_t> report_at(std::uint64_t time_us, std::int32_t gaze_x_um = 200'000) {
+    std::vector<std::uint8_t> report{0x10};
+    const auto add = [&](const auto value) {
+        const std::size_t at = report.size();
+        report.resize(at + sizeof(value));
+        std::memcpy(report.data() + at, &value, sizeof(value));
+    };
+    add(time_us);
+    for (const std::int32_t um : {gaze_x_um, 100'000, 170'000, 160'000, 600'000, 230'000, 160'000,
+                                  600'000, 0, 0, 0, 0, 0, 0}) {
+        add(um);
+    }
+    return report;
+}
+
+bool contains(const std::vector<std::string>& lines, std::string_view part) {
+    return std::ranges::any_of(
+        lines, [&](const std::string& line) { return line.find(part) != std::string::npos; });
+}
+
+class HidDevice : public testing::Test {
+  protected:
+    void SetUp() override {
+        tracker_.emplace(first_layout());
+        if (!tracker_->possible()) {
+            GTEST_SKIP() << "not under umockdev's preload library";
+        }
+        tracker_->set_feature(0x13, {0x13, 1, 120, 0});
+        std::vector<std::uint8_t> configuration(19, 0);
+        configuration[0] = 0x12;
+        const std::int32_t size_um[] = {527'000, 296'000};
+        std::memcpy(configuration.data() + 11, size_um, sizeof(size_um));
+        tracker_->set_feature(0x12, configuration);
+    }
+
+    /// Waits for as long as it may take on a busy machine, not for a time that is tested.
+    void until(HidSource& source, const std::function<bool()>& done) {
+        for (int i = 0; i < 2000 && !done(); ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            source.poll(0, samples_);
+            for (SourceEvent& event : source.take_events()) {
+                EXPECT_TRUE(event.time.known());
+                EXPECT_LE(event.text.size(), 240U) << event.text;
+                events_.push_back(std::move(event.text));
+            }
+        }
+        ASSERT_TRUE(done());
+    }
+    void until_event(HidSource& source, std::string_view part) {
+        until(source, [&] { return contains(events_, part); });
+    }
+
+    std::optional<EmulatedTracker> tracker_;
+    std::vector<gaze::GazeSample> samples_;
+    std::vector<std::string> events_;
+};
+
+TEST_F(HidDevice, IsFoundOnceAndByItsDescriptor) {
+    EXPECT_TRUE(find_trackers().empty());
+    tracker_->plug_in();
+    const std::vector<FoundTracker> found = find_trackers();
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].path, "/dev/hidraw0");
+    EXPECT_EQ(found[0].text(), "Emulated Eye Tracker (1209:e7e7) at /dev/hidraw0");
+    EXPECT_TRUE(found[0].layout.has_value());
+    EXPECT_FALSE(found[0].access_problem.has_value());
+    tracker_->unplug();
+    EXPECT_TRUE(find_trackers().empty());
+}
+
+TEST_F(HidDevice, TellsItsFeaturesAndIsStartedAndStopped) {
+    tracker_->plug_in();
+    const std::vector<FoundTracker> found = find_trackers();
+    {
+        auto session = TrackerSession::open(found.at(0), {});
+        ASSERT_TRUE(session.has_value()) << session.error().message;
+        EXPECT_EQ(session->features().status, (StatusReport{TrackerStatus::Ready, 120}));
+        EXPECT_DOUBLE_EQ(session->features().screen_width_m.value_or(0.0), 0.527);
+        EXPECT_FALSE(session->features().quality.has_value()) << "that report stalls";
+        EXPECT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 3}));
+    }
+    EXPECT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 0}));
+}
+
+TEST_F(HidDevice, WorksWithoutFeaturesToo) {
+    tracker_->plug_in();
+    tracker_->set_fault(EmulatedTracker::Fault::FeaturesStall);
+    auto session = TrackerSession::open(find_trackers().at(0), {});
+    ASSERT_TRUE(session.has_value()) << session.error().message;
+    EXPECT_FALSE(session->features().status.status.has_value());
+    EXPECT_TRUE(contains(session->remarks(), "does not take the request"));
+}
+
+TEST_F(HidDevice, ANodeThatIsNoHidDeviceIsRefused) {
+    const auto opened = HidrawDevice::open("/dev/null");
+    ASSERT_FALSE(opened.has_value());
+    EXPECT_EQ(opened.error().code, ExitCode::NoDevice);
+    EXPECT_NE(opened.error().message.find("/dev/null"), std::string::npos);
+    EXPECT_FALSE(HidrawDevice::open("/dev/hidraw77").has_value());
+}
+
+TEST_F(HidDevice, ReportsBecomeSamplesWholeAndShort) {
+    tracker_->plug_in();
+    HidSource source({});
+    until_event(source, "plugged in");
+    tracker_->send(report_at(1000));
+    tracker_->send(std::vector<std::uint8_t>{0x13, 4, 120, 0});
+    tracker_->send(std::vector<std::uint8_t>{0x77, 1, 2, 3});
+    std::vector<std::uint8_t> cut = report_at(9333);
+    cut.resize(20);
+    tracker_->send(cut);
+    tracker_->send(report_at(17667, 0x7FFFFFFF));
+    until(source, [&] { return samples_.size() >= 3; });
+    until_event(source, "calibration");
+    EXPECT_TRUE(samples_[0].eyes[0].valid && samples_[0].eyes[1].valid);
+    EXPECT_EQ(samples_[0].device_ns, 1'000'000);
+    EXPECT_EQ(samples_[0].arrived.kind, latency::StampKind::Measured);
+    EXPECT_FALSE(samples_[0].sampled.known()) << "one sample makes no clock";
+    EXPECT_FALSE(samples_[1].eyes[0].valid) << "cut off before the eyes";
+    EXPECT_EQ(samples_[1].device_ns, 9'333'000);
+    EXPECT_FALSE(samples_[2].eyes[0].valid);
+    EXPECT_EQ(samples_[2].sequence, samples_[0].sequence + 2);
+}
+
+TEST_F(HidDevice, ComesLateGoesAndComesBack) {
+    HidSource source({});
+    until_event(source, "no HID eye tracker is plugged in");
+    for (int round = 1; round <= 3; ++round) {
+        tracker_->plug_in();
+        until_event(source, "plugged in");
+        tracker_->send(report_at(1000));
+        until(source, [&] { return !samples_.empty() && samples_.back().eyes[0].valid; });
+        tracker_->unplug();
+        until_event(source, "gone: " + tracker_->node());
+        ASSERT_FALSE(samples_.back().eyes[0].valid || samples_.back().eyes[1].valid)
+            << "the loss is a sample, so that the loop need not wait until the gaze is stale";
+        EXPECT_TRUE(samples_.back().arrived.known());
+        samples_.clear();
+        events_.clear();
+    }
+}
+
+TEST_F(HidDevice, AReadErrorIsToldAndTheDeviceOpenedAgain) {
+    tracker_->plug_in();
+    HidSource source({});
+    until_event(source, "plugged in");
+    tracker_->set_fault(EmulatedTracker::Fault::ReadFails);
+    until_event(source, "gone");
+    events_.clear();
+    tracker_->set_fault(EmulatedTracker::Fault::None);
+    until_event(source, "plugged in");
+    samples_.clear();
+    tracker_->send(report_at(5000));
+    until(source, [&] { return !samples_.empty() && samples_.back().eyes[0].valid; });
+}
+
+TEST_F(HidDevice, GivesTimesOnceItsClockIsKnown) {
+    tracker_->plug_in();
+    HidSource source({.path = "", .delay = {4'000'000, 1'000'000}, .geometry = {}});
+    until_event(source, "plugged in");
+    // 200 Hz by the host's clock, so that late reports are late by its scheduling alone.
+    const std::int64_t start_ns = latency::monotonic_ns();
+    for (int i = 0; i < 200; ++i) {
+        latency::sleep_until_ns(start_ns + i * 5'000'000LL);
+        tracker_->send(report_at(static_cast<std::uint64_t>(i) * 5000));
+    }
+    until(source, [&] { return samples_.size() >= 200; });
+    const gaze::GazeSample& last = samples_.back();
+    if (!last.sampled.known()) {
+        GTEST_SKIP() << "the machine was too busy to tell the clock";
+    }
+    EXPECT_EQ(last.sampled.kind, latency::StampKind::Profile);
+    EXPECT_EQ(last.ready.kind, latency::StampKind::Measured);
+    EXPECT_EQ(last.ready.ns - last.sampled.ns, 4'000'000);
+    EXPECT_GE(last.uncertainty_ns.value_or(0), 1'000'000);
+    EXPECT_LE(last.ready.ns, last.arrived.ns);
+    EXPECT_GE(last.ready.ns, start_ns + 199 * 5'000'000LL - *last.uncertainty_ns);
+}
+
+/// Time on a processor of this process's thread of that name, seconds.
+double thread_seconds(const std::string& name) {
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
+        std::ifstream comm(entry.path() / "comm");
+        std::string found;
+        std::getline(comm, found);
+        if (found == name) {
+            std::ifstream schedstat(entry.path() / "schedstat");
+            double ns = 0.0;
+            schedstat >> ns;
+            return ns * 1e-9;
+        }
+    }
+    return 0.0;
+}
+
+// Nothing is lost; what it takes is printed, and an upper bound, because every read goes through
+// umockdev's own thread.
+TEST_F(HidDevice, KeepsUpWithAThousandReportsASecond) {
+    constexpr int kReports = 3000;
+    tracker_->plug_in();
+    HidSource source({});
+    until_event(source, "plugged in");
+    const double cpu_before_s = thread_seconds(kHidThreadName);
+    const std::int64_t start_ns = latency::monotonic_ns();
+    std::thread sender([&] {
+        for (int i = 0; i < kReports; ++i) {
+            latency::sleep_until_ns(start_ns + i * 1'000'000LL);
+            tracker_->send(report_at(static_cast<std::uint64_t>(i) * 1000));
+        }
+    });
+    std::vector<double> published_us;
+    for (int i = 0; i < 1'000'000 && samples_.size() < kReports; ++i) {
+        const std::size_t before = samples_.size();
+        source.poll(0, samples_);
+        const std::int64_t now_ns = latency::monotonic_ns();
+        if (samples_.size() == before + 1) {
+            published_us.push_back(static_cast<double>(now_ns - samples_.back().arrived.ns) * 1e-3);
+        }
+        if (samples_.size() == before) {
+            latency::sleep_until_ns(now_ns + 20'000);
+        }
+    }
+    sender.join();
+    ASSERT_EQ(samples_.size(), static_cast<std::size_t>(kReports));
+    const double seconds = static_cast<double>(latency::monotonic_ns() - start_ns) * 1e-9;
+    for (int i = 0; i < kReports; ++i) {
+        EXPECT_EQ(samples_[static_cast<std::size_t>(i)].device_ns, i * 1'000'000LL);
+        EXPECT_EQ(samples_[static_cast<std::size_t>(i)].sequence,
+                  samples_[0].sequence + static_cast<std::uint64_t>(i));
+    }
+    EXPECT_EQ(source.dropped(), 0U);
+    std::ranges::sort(published_us);
+    fmt::print(
+        "reader {:.2f} % of a core; read to polled p50 {:.0f} us, p99 {:.0f} us (polled every "
+        "20 us and more)\n",
+        100.0 * (thread_seconds(kHidThreadName) - cpu_before_s) / seconds,
+        published_us.at(published_us.size() / 2), published_us.at(published_us.size() * 99 / 100));
+}
+
+TEST_F(HidDevice, SaysWhenItMayNotBeOpened) {
+    if (geteuid() == 0) {
+        GTEST_SKIP() << "root may open everything";
+    }
+    tracker_->plug_in();
+    tracker_->set_mode(0);
+    const FoundTracker found = find_trackers().at(0);
+    EXPECT_NE(found.access_problem.value_or("").find("permission denied"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gazeloop::drivers::hid

@@ -1,0 +1,135 @@
+#include "drivers/hid/tracker_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "tests/support/allocation_counter.h"
+#include "tests/unit/drivers/hid/descriptor_items.h"
+
+namespace gazeloop::drivers::hid {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+
+TrackerSamples samples_of(const std::vector<std::uint8_t>& descriptor) {
+    return {value_or_throw(find_eye_tracker(value_or_throw(parse_report_descriptor(descriptor)))),
+            ScreenGeometry{}, TrackerDelay{.least_ns = 5 * kMs, .uncertainty_ns = 2 * kMs}};
+}
+
+std::array<std::uint8_t, 65> report_at(std::uint64_t time_us) {
+    std::array<std::uint8_t, 65> report{0x10};
+    std::memcpy(report.data() + 1, &time_us, sizeof(time_us));
+    const std::int32_t um[] = {200'000, 100'000, 170'000, 160'000,
+                               600'000, 230'000, 160'000, 600'000};
+    std::memcpy(report.data() + 9, um, sizeof(um));
+    return report;
+}
+
+TEST(TrackerSamples, HaveTimesOnceTheClockIsKnownAndTheProfilesDelayBeforeIt) {
+    TrackerSamples samples = samples_of(first_layout());
+    std::optional<gaze::GazeSample> last;
+    for (int i = 0; i < 600; ++i) {
+        const std::int64_t taken_ns = i * 10 * kMs;
+        // 3 ms at the least, every fifth 2 ms later.
+        const std::int64_t arrived_ns = taken_ns + 3 * kMs + (i % 5 == 4 ? 2 * kMs : 0);
+        last = samples.take(report_at(static_cast<std::uint64_t>(taken_ns / 1000)), arrived_ns);
+        ASSERT_TRUE(last.has_value());
+        EXPECT_EQ(last->arrived, (latency::Stamp{arrived_ns, latency::StampKind::Measured}));
+        EXPECT_EQ(last->sampled.known(), last->ready.known());
+    }
+    ASSERT_TRUE(last->sampled.known());
+    EXPECT_EQ(last->sampled.kind, latency::StampKind::Profile);
+    EXPECT_NEAR(static_cast<double>(last->ready.ns), 5990.0 * kMs + 3.0 * kMs, 1e3);
+    EXPECT_EQ(last->ready.ns - last->sampled.ns, 5 * kMs);
+    EXPECT_GE(*last->uncertainty_ns, 2 * kMs);
+    EXPECT_LT(*last->uncertainty_ns, 3 * kMs);
+    EXPECT_EQ(samples.counts().samples, 600U);
+}
+
+TEST(TrackerSamples, AreOfUnknownAgeWhereTheTimestampsLie) {
+    TrackerSamples samples = samples_of(first_layout());
+    for (int i = 0; i < 600; ++i) {
+        const std::int64_t arrived_ns = i * 10 * kMs;
+        const auto sample =
+            samples.take(report_at(static_cast<std::uint64_t>(i / 100)), arrived_ns);
+        EXPECT_FALSE(sample->sampled.known());
+        EXPECT_FALSE(sample->uncertainty_ns.has_value());
+        EXPECT_TRUE(sample->arrived.known());
+    }
+    const auto change = samples.take_change();
+    ASSERT_TRUE(change.has_value());
+    EXPECT_EQ(*change,
+              "clock: unusable (timestamps stand still), so the age of the gaze is unknown");
+    EXPECT_FALSE(samples.take_change().has_value()) << "told once";
+}
+
+TEST(TrackerSamples, TellChangesOfTheStatusOnce) {
+    TrackerSamples samples = samples_of(first_layout());
+    const std::vector<std::uint8_t> ready{0x13, 1, 120, 0};
+    const std::vector<std::uint8_t> uncalibrated{0x13, 4, 120, 0};
+    EXPECT_FALSE(samples.take(ready, 1).has_value());
+    EXPECT_EQ(samples.take_change(), "status: ready");
+    (void)samples.take(ready, 2);
+    EXPECT_FALSE(samples.take_change().has_value());
+    (void)samples.take(uncalibrated, 3);
+    EXPECT_NE(samples.take_change().value_or("").find("calibrat"), std::string::npos);
+}
+
+TEST(TrackerSamples, CountALossOnlyBehindAFullBacklog) {
+    TrackerSamples samples = samples_of(first_layout());
+    std::int64_t taken_ns = 0;
+    const auto take = [&](std::int64_t arrived_ns) {
+        return samples.take(report_at(static_cast<std::uint64_t>(taken_ns / 1000)), arrived_ns);
+    };
+    for (int i = 0; i < 100; ++i) {
+        taken_ns += 10 * kMs;
+        (void)take(taken_ns + kMs);
+    }
+    taken_ns += 500 * kMs;  // no eyes were seen
+    (void)take(taken_ns + kMs);
+    EXPECT_EQ(samples.lost_before_last(), 0U);
+    // The reader slept for 2 s: 63 reports waited, the 137 after them are gone.
+    const std::int64_t awake_ns = taken_ns + 2000 * kMs;
+    for (int i = 0; i < 63; ++i) {
+        taken_ns += 10 * kMs;
+        (void)take(awake_ns + i * 1000);
+        EXPECT_EQ(samples.lost_before_last(), 0U);
+    }
+    taken_ns += 1380 * kMs;
+    (void)take(taken_ns + kMs);
+    EXPECT_EQ(samples.lost_before_last(), 137U);
+    EXPECT_EQ(samples.counts().lost, 137U);
+}
+
+TEST(TrackerSamples, WithoutTimestampsOnlyTheArrivalIsKnown) {
+    DescriptorItems d;
+    d.page(eye_tracker::kPage).open(CollectionType::Application, eye_tracker::kEyeTracker);
+    d.usage(eye_tracker::kGazePoint).fields(32, 2).input(DescriptorItems::kVariable).close();
+    TrackerSamples samples = samples_of(d.bytes());
+    const auto sample = samples.take(std::vector<std::uint8_t>(8, 0), 77);
+    ASSERT_TRUE(sample.has_value());
+    EXPECT_FALSE(sample->sampled.known());
+    EXPECT_EQ(sample->arrived.ns, 77);
+    EXPECT_EQ(samples.clock(), nullptr);
+}
+
+TEST(TrackerSamples, AllocateNothingInSteadyState) {
+    TrackerSamples samples = samples_of(first_layout());
+    const auto take = [&](int i) {
+        (void)samples.take(report_at(static_cast<std::uint64_t>(i) * 1000), i * kMs);
+    };
+    for (int i = 0; i < 2000; ++i) {
+        take(i);
+        (void)samples.take_change();
+    }
+    const std::size_t before = tests::allocations_of_this_thread();
+    for (int i = 2000; i < 4000; ++i) {
+        take(i);
+        EXPECT_FALSE(samples.take_change().has_value());
+    }
+    EXPECT_EQ(tests::allocations_of_this_thread(), before);
+}
+
+}  // namespace
+}  // namespace gazeloop::drivers::hid

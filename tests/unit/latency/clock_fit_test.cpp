@@ -1,0 +1,337 @@
+#include "runtime/latency/clock_fit.h"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "sim/random.h"
+#include "tests/support/allocation_counter.h"
+
+namespace gazeloop::latency {
+namespace {
+
+constexpr double kMs = 1e6;
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+/// The host's clock at the start, and the device's: far apart.
+constexpr std::int64_t kHost_ns = 5'000'000 * kSecond_ns;
+constexpr std::int64_t kDevice_ns = 77 * kSecond_ns;
+constexpr double kLeastDelay_ns = 3.0 * kMs;
+
+enum class Jitter { None, Uniform, Exponential };
+
+/// A tracker with a clock of its own whose truth is known.
+struct SimulatedTracker {
+    double rate_hz = 120.0;
+    double skew_ppm = 50.0;  ///< its second is too short by this
+    Jitter jitter = Jitter::Exponential;
+    double jitter_ns = 1.0 * kMs;  ///< uniform: greatest, exponential: mean
+    std::uint64_t seed = 1;
+
+    sim::Random random{seed, sim::Stream::Jitter};
+    std::int64_t sample = 0;
+    double step_ns = 0.0;  ///< of its clock so far
+    double previous_arrival_ns = 0.0;
+
+    struct Report {
+        std::int64_t taken_ns = 0;  ///< host time, the truth
+        std::int64_t device_ns = 0;
+        std::int64_t arrived_ns = 0;
+    };
+
+    Report next() {
+        const double true_ns = static_cast<double>(sample++) * 1e9 / rate_hz;
+        const double jitter_now = jitter == Jitter::None      ? 0.0
+                                  : jitter == Jitter::Uniform ? random.uniform(0.0, jitter_ns)
+                                                              : random.exponential(jitter_ns);
+        // Reports do not overtake each other.
+        previous_arrival_ns = std::max(previous_arrival_ns, true_ns + kLeastDelay_ns + jitter_now);
+        return {kHost_ns + std::llround(true_ns),
+                kDevice_ns + std::llround(true_ns * (1.0 - skew_ppm * 1e-6) + step_ns),
+                kHost_ns + std::llround(previous_arrival_ns)};
+    }
+};
+
+double error_ns(const ClockReading& reading, const SimulatedTracker::Report& report) {
+    return static_cast<double>(reading.host_ns - report.taken_ns) - kLeastDelay_ns;
+}
+
+double percentile(std::vector<double> values, double percent) {
+    const auto at =
+        static_cast<std::size_t>(percent / 100.0 * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
+    return values[at];
+}
+
+class KnownClock : public testing::TestWithParam<Jitter> {};
+
+// The targets: 120 Hz, 1 ms of one-sided jitter, 50 ppm; after 5 s within 100 us at p99.
+TEST_P(KnownClock, IsFollowedToATenthOfAMillisecond) {
+    std::vector<double> errors;
+    std::size_t outside = 0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        SimulatedTracker tracker{.jitter = GetParam(), .seed = seed};
+        ClockFit clock;
+        for (int i = 0; i < 30 * 120; ++i) {
+            const auto report = tracker.next();
+            const ClockReading reading = clock.add(report.device_ns, report.arrived_ns);
+            if (i < 5 * 120) {
+                continue;
+            }
+            ASSERT_EQ(reading.verdict, ClockVerdict::Good) << seed << ' ' << i;
+            EXPECT_LE(reading.host_ns, report.arrived_ns);
+            const double error = std::abs(error_ns(reading, report));
+            errors.push_back(error);
+            outside += error > static_cast<double>(reading.uncertainty_ns) ? 1 : 0;
+        }
+        EXPECT_NEAR(clock.skew_ppm(), 50.0, 12.0);
+        EXPECT_EQ(clock.steps(), 0U) << seed;
+        EXPECT_EQ(clock.trouble(), ClockTrouble::None);
+    }
+    const double p99 = percentile(errors, 99.0);
+    fmt::print(
+        "error p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us; outside its uncertainty {:.3f} %\n",
+        percentile(errors, 50.0) / 1e3, p99 / 1e3, percentile(errors, 100.0) / 1e3,
+        100.0 * static_cast<double>(outside) / static_cast<double>(errors.size()));
+    EXPECT_LT(p99, 100e3);
+    EXPECT_LT(static_cast<double>(outside), 0.01 * static_cast<double>(errors.size()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Jitters, KnownClock,
+                         testing::Values(Jitter::None, Jitter::Uniform, Jitter::Exponential));
+
+// What it says of its uncertainty holds from the first reading on.
+TEST_P(KnownClock, StatesAnUncertaintyThatHolds) {
+    for (const double rate_hz : {30.0, 120.0, 1000.0}) {
+        for (const double skew_ppm : {-200.0, 0.0, 200.0}) {
+            std::size_t readings = 0;
+            std::size_t outside = 0;
+            for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+                SimulatedTracker tracker{
+                    .rate_hz = rate_hz, .skew_ppm = skew_ppm, .jitter = GetParam(), .seed = seed};
+                ClockFit clock;
+                for (int i = 0; i < static_cast<int>(6 * rate_hz); ++i) {
+                    const auto report = tracker.next();
+                    const ClockReading reading = clock.add(report.device_ns, report.arrived_ns);
+                    if (reading.verdict != ClockVerdict::Unusable) {
+                        ++readings;
+                        outside += std::abs(error_ns(reading, report)) >
+                                           static_cast<double>(reading.uncertainty_ns) + 1.0
+                                       ? 1
+                                       : 0;
+                    }
+                }
+            }
+            EXPECT_GT(readings, static_cast<std::size_t>(5 * rate_hz) * 60);
+            EXPECT_LT(static_cast<double>(outside), 0.01 * static_cast<double>(readings))
+                << rate_hz << " Hz, " << skew_ppm << " ppm";
+        }
+    }
+}
+
+struct Step {
+    double by_ms;
+    Jitter jitter;
+};
+
+TEST(ClockFitSteps, AreFoundWithinTenSamplesAndThenFollowed) {
+    for (const Jitter jitter : {Jitter::None, Jitter::Uniform, Jitter::Exponential}) {
+        for (const double by_ms :
+             {-3.6e6, -1000.0, -25.0, -8.333, -6.0, 6.0, 8.333, 25.0, 1000.0, 3.6e6}) {
+            for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+                SimulatedTracker tracker{.jitter = jitter, .seed = seed};
+                ClockFit clock;
+                int found_after = -1;
+                std::vector<double> errors;
+                for (int i = 0; i < 20 * 120; ++i) {
+                    if (i == 10 * 120) {
+                        tracker.step_ns = by_ms * kMs;
+                    }
+                    const auto report = tracker.next();
+                    const ClockReading reading = clock.add(report.device_ns, report.arrived_ns);
+                    if (reading.stepped) {
+                        ASSERT_GE(i, 10 * 120) << "no step yet";
+                        ASSERT_EQ(found_after, -1) << "found twice";
+                        found_after = i - 10 * 120 + 1;
+                    }
+                    if (reading.verdict != ClockVerdict::Unusable && found_after > 0) {
+                        EXPECT_LT(std::abs(error_ns(reading, report)),
+                                  static_cast<double>(reading.uncertainty_ns) + 1.0 * kMs)
+                            << by_ms << " ms, sample " << i << ", seed " << seed;
+                    }
+                    if (i >= 15 * 120) {
+                        errors.push_back(std::abs(error_ns(reading, report)));
+                        EXPECT_EQ(reading.verdict, ClockVerdict::Good);
+                    }
+                }
+                EXPECT_GT(found_after, 0) << by_ms << " ms, seed " << seed;
+                EXPECT_LE(found_after, 10) << by_ms << " ms, seed " << seed;
+                EXPECT_LT(percentile(errors, 99.0), 200e3) << by_ms << " ms, seed " << seed;
+            }
+        }
+    }
+}
+
+TEST(ClockFit, LateDeliveryIsNoStep) {
+    SimulatedTracker tracker;
+    ClockFit clock;
+    std::int64_t held_until_ns = 0;
+    for (int i = 0; i < 40 * 120; ++i) {
+        auto report = tracker.next();
+        if (i % 600 == 599) {  // the host sleeps for 150 ms, then reads what has piled up
+            held_until_ns = report.arrived_ns + 150'000'000;
+        }
+        const bool congested = i > 3000 && i < 3100;  // everything 6 ms later for a while
+        report.arrived_ns += congested ? 6'000'000 : 0;
+        report.arrived_ns = std::max(report.arrived_ns, held_until_ns);
+        const ClockReading reading = clock.add(report.device_ns, report.arrived_ns);
+        if (i > 600) {
+            ASSERT_NE(reading.verdict, ClockVerdict::Unusable) << i;
+            EXPECT_LT(std::abs(error_ns(reading, report)), 150e3) << i;
+        }
+    }
+    EXPECT_EQ(clock.steps(), 0U);
+}
+
+TEST(ClockFit, GapsCostNothing) {
+    SimulatedTracker tracker;
+    ClockFit clock;
+    for (int i = 0; i < 60 * 120; ++i) {
+        const auto report = tracker.next();
+        const bool silent = (i > 1000 && i < 1200) || (i > 3000 && i < 6000) || i % 7 == 0;
+        if (silent) {
+            continue;
+        }
+        const ClockReading reading = clock.add(report.device_ns, report.arrived_ns);
+        if (i > 600) {
+            ASSERT_EQ(reading.verdict, ClockVerdict::Good) << i;
+            EXPECT_LT(std::abs(error_ns(reading, report)), 300e3) << i;
+        }
+    }
+    EXPECT_EQ(clock.steps(), 0U);
+    const auto report = tracker.next();  // an hour later it begins anew
+    const std::int64_t hour_ns = 3600 * kSecond_ns;
+    EXPECT_EQ(clock.add(report.device_ns + hour_ns, report.arrived_ns + hour_ns).verdict,
+              ClockVerdict::Unusable);
+    EXPECT_EQ(clock.trouble(), ClockTrouble::Settling);
+}
+
+TEST(ClockFit, OneWrongTimestampIsLeftOut) {
+    for (const double by_ms : {-500.0, 500.0, 1e12}) {
+        SimulatedTracker tracker;
+        ClockFit clock;
+        int in_question = 0;  // late by chance right after the wrong one
+        for (int i = 0; i < 20 * 120; ++i) {
+            auto report = tracker.next();
+            const bool wrong = i > 600 && i % 100 == 0;
+            report.device_ns += wrong ? std::llround(by_ms * kMs) : 0;
+            const ClockReading reading = clock.add(report.device_ns, report.arrived_ns);
+            if (i > 600) {
+                const bool known = reading.verdict != ClockVerdict::Unusable;
+                EXPECT_FALSE(wrong && known) << i;
+                in_question += !wrong && !known ? 1 : 0;
+                EXPECT_TRUE(!known || std::abs(error_ns(reading, report)) < 100e3) << i;
+            }
+        }
+        EXPECT_LE(in_question, 5);
+        EXPECT_EQ(clock.steps(), 0U);
+    }
+}
+
+/// The verdict after 10 s of timestamps that are what `lie` makes of the true ones.
+ClockFit after_lies(const std::function<std::int64_t(std::int64_t device_ns, int sample)>& lie,
+                    double rate_hz = 120.0) {
+    SimulatedTracker tracker{.rate_hz = rate_hz};
+    ClockFit clock;
+    int usable = 0;
+    for (int i = 0; i < static_cast<int>(20 * rate_hz); ++i) {
+        const auto report = tracker.next();
+        const ClockReading reading = clock.add(lie(report.device_ns, i), report.arrived_ns);
+        if (reading.verdict != ClockVerdict::Unusable) {
+            ++usable;
+            EXPECT_LE(reading.host_ns, report.arrived_ns);
+        }
+    }
+    fmt::print("usable {} times: {} ({}), uncertainty {} us\n", usable,
+               kClockVerdictNames[static_cast<std::size_t>(clock.last().verdict)],
+               kClockTroubleNames[static_cast<std::size_t>(clock.trouble())],
+               clock.last().uncertainty_ns / 1000);
+    return clock;
+}
+
+TEST(ClockFitLies, AreSeenThrough) {
+    const auto expect_unusable = [](const ClockFit& clock, ClockTrouble trouble) {
+        EXPECT_EQ(clock.last().verdict, ClockVerdict::Unusable);
+        EXPECT_EQ(clock.trouble(), trouble);
+    };
+    expect_unusable(after_lies([](std::int64_t, int) { return std::int64_t{42}; }),
+                    ClockTrouble::StandsStill);
+    expect_unusable(after_lies([](std::int64_t ns, int) { return ns / kSecond_ns * kSecond_ns; }),
+                    ClockTrouble::StandsStill);
+    // Whole seconds where the field counts microseconds.
+    expect_unusable(after_lies([](std::int64_t ns, int) { return ns / kSecond_ns * 1000; }),
+                    ClockTrouble::StandsStill);
+    expect_unusable(after_lies([](std::int64_t ns, int) { return -ns; }), ClockTrouble::Restless);
+    expect_unusable(after_lies([](std::int64_t ns, int) { return ns * 2; }),
+                    ClockTrouble::Restless);
+    expect_unusable(after_lies([](std::int64_t ns, int) { return ns / 2; }), ClockTrouble::Late);
+    expect_unusable(after_lies([](std::int64_t ns, int) { return ns / 1000; }),
+                    ClockTrouble::Jitter);
+    expect_unusable(after_lies([](std::int64_t ns, int i) { return ns - (i / 20) * kSecond_ns; }),
+                    ClockTrouble::Restless);
+    // Noise without relation to anything.
+    sim::Random random{7, sim::Stream::Noise};
+    EXPECT_EQ(after_lies([&](std::int64_t, int) {
+                  return static_cast<std::int64_t>(random.uniform(-9e18, 9e18));
+              })
+                  .last()
+                  .verdict,
+              ClockVerdict::Unusable);
+    EXPECT_EQ(after_lies([](std::int64_t, int i) {
+                  return i % 2 == 0 ? std::numeric_limits<std::int64_t>::min()
+                                    : std::numeric_limits<std::int64_t>::max();
+              })
+                  .last()
+                  .verdict,
+              ClockVerdict::Unusable);
+}
+
+TEST(ClockFitLies, TicksOfSomeMillisecondsAreCoarse) {
+    const auto in_steps_of = [](std::int64_t tick_ns, double rate_hz = 120.0) {
+        return after_lies([=](std::int64_t ns, int) { return ns / tick_ns * tick_ns; }, rate_hz);
+    };
+    EXPECT_EQ(in_steps_of(100'000).last().verdict, ClockVerdict::Good);
+    EXPECT_EQ(in_steps_of(4'000'000).last().verdict, ClockVerdict::Coarse);
+    EXPECT_EQ(in_steps_of(4'000'000).trouble(), ClockTrouble::CoarseTicks);
+    EXPECT_EQ(in_steps_of(4'000'000, 1000.0).last().verdict, ClockVerdict::Coarse);
+    EXPECT_EQ(in_steps_of(16'000'000, 1000.0).last().verdict, ClockVerdict::Unusable);
+    // A clock that counts frames is regular, not coarse.
+    SimulatedTracker tracker{.skew_ppm = 0.0, .jitter = Jitter::Uniform};
+    ClockFit clock;
+    for (int i = 0; i < 2000; ++i) {
+        const auto report = tracker.next();
+        clock.add(std::int64_t{i} * 8'333'333, report.arrived_ns);
+    }
+    EXPECT_EQ(clock.last().verdict, ClockVerdict::Good);
+}
+
+TEST(ClockFit, AllocatesNothing) {
+    SimulatedTracker tracker;
+    ClockFit clock;
+    const std::size_t before = tests::allocations_of_this_thread();
+    for (int i = 0; i < 10'000; ++i) {
+        tracker.step_ns = i % 3000 == 2999 ? tracker.step_ns + 20.0 * kMs : tracker.step_ns;
+        const auto report = tracker.next();
+        clock.add(report.device_ns, report.arrived_ns);
+    }
+    EXPECT_EQ(tests::allocations_of_this_thread(), before);
+    EXPECT_EQ(clock.steps(), 3U);
+}
+
+}  // namespace
+}  // namespace gazeloop::latency

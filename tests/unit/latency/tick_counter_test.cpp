@@ -1,0 +1,48 @@
+#include "runtime/latency/tick_counter.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace gazeloop::latency {
+namespace {
+
+TEST(TickCounter, GoesOnThroughTheWrap) {
+    TickCounter counter(32, 1000.0);
+    EXPECT_EQ(counter.to_ns(0xFFFFFFF0U), 0xFFFFFFF0LL * 1000);
+    EXPECT_EQ(counter.to_ns(0xFFFFFFFFU), 0xFFFFFFFFLL * 1000);
+    EXPECT_EQ(counter.to_ns(4), (0x100000000LL + 4) * 1000);
+    EXPECT_EQ(counter.to_ns(1), (0x100000000LL + 1) * 1000) << "a little back is back";
+}
+
+TEST(TickCounter, AWideCounterNeedsNoUnwrapping) {
+    TickCounter counter(64, 1000.0);
+    EXPECT_EQ(counter.to_ns(5), 5000);
+    EXPECT_EQ(counter.to_ns(1'000'000'000'000), 1'000'000'000'000'000);
+    EXPECT_EQ(counter.to_ns(0), 0);
+}
+
+TEST(TickCounter, SaturatesAndRounds) {
+    EXPECT_EQ(TickCounter(64, 1000.0).to_ns(0x7FFFFFFFFFFFFFFF),
+              std::numeric_limits<std::int64_t>::max());
+    EXPECT_EQ(TickCounter(64, 1e200).to_ns(1), std::numeric_limits<std::int64_t>::max());
+    EXPECT_EQ(TickCounter(64, 1e200).to_ns(0), 0);
+    EXPECT_EQ(TickCounter(32, 0.4).to_ns(3), 1);
+    EXPECT_EQ(TickCounter(8, 1e6 / 3.0).to_ns(3), 1'000'000);
+}
+
+RC_GTEST_PROP(TickCounter, FollowsAnyCounterThatAdvancesByLessThanHalfItsRange, ()) {
+    const auto bits = *rc::gen::inRange<std::uint32_t>(2, 65);
+    const std::uint64_t mask = bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+    const auto steps =
+        *rc::gen::container<std::vector<std::uint32_t>>(rc::gen::arbitrary<std::uint32_t>());
+    std::uint64_t truth = *rc::gen::arbitrary<std::uint16_t>() & mask;
+    TickCounter counter(bits, 1.0);
+    RC_ASSERT(counter.to_ns(truth) == static_cast<std::int64_t>(truth));
+    for (const std::uint32_t step : steps) {
+        truth += step & (mask >> 1U);
+        RC_ASSERT(counter.to_ns(truth & mask) == static_cast<std::int64_t>(truth));
+    }
+}
+
+}  // namespace
+}  // namespace gazeloop::latency
