@@ -1,6 +1,7 @@
 #include "drivers/hid/hid_source.h"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <pthread.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
@@ -58,6 +59,7 @@ class HidSource::Reader {
             const std::vector<FoundTracker> trackers = find_trackers();
             const FoundTracker* const tracker = chosen(trackers, options_);
             milliseconds pause = kLookAgainAfter;
+            bool lost = false;
             if (tracker == nullptr) {
                 tell_once(told, options_.path.empty()
                                     ? "no HID eye tracker is plugged in: waiting for one"
@@ -68,12 +70,23 @@ class HidSource::Reader {
             } else {
                 told.clear();
                 read(*tracker, *session);
-                pause = kRetryAfter;
+                lost = true;
+            }
+            if (lost) {
+                let_settle();
+                continue;
             }
             if (!stopped()) {
                 watch.wait(pause, wake_fd_);
             }
         }
+    }
+
+    /// After a loss the node may be there for a moment longer, and events of its coming may still
+    /// wait: neither is a reason to take it for plugged in again.
+    void let_settle() const {
+        pollfd wake{.fd = wake_fd_, .events = POLLIN, .revents = 0};
+        ::poll(&wake, 1, static_cast<int>(kRetryAfter.count()));
     }
 
     void tell_once(std::string& told, const std::string& text) {

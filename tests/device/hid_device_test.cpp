@@ -184,15 +184,19 @@ TEST_F(HidDevice, GivesTimesOnceItsClockIsKnown) {
     until_event(source, "plugged in");
     // 200 Hz by the host's clock, so that late reports are late by its scheduling alone.
     const std::int64_t start_ns = latency::monotonic_ns();
+    int sent_late = 0;
     for (int i = 0; i < 200; ++i) {
         latency::sleep_until_ns(start_ns + i * 5'000'000LL);
+        sent_late += latency::monotonic_ns() - start_ns - i * 5'000'000LL > 2'000'000 ? 1 : 0;
         tracker_->send(report_at(static_cast<std::uint64_t>(i) * 5000));
     }
     until(source, [&] { return samples_.size() >= 200; });
     const gaze::GazeSample& last = samples_.back();
-    if (!last.sampled.known()) {
-        GTEST_SKIP() << "the machine was too busy to tell the clock";
+    if (sent_late > 20) {
+        GTEST_SKIP() << "the machine was too busy to be a tracker: " << sent_late
+                     << " of 200 reports were sent over 2 ms late";
     }
+    ASSERT_TRUE(last.sampled.known());
     EXPECT_EQ(last.sampled.kind, latency::StampKind::Profile);
     EXPECT_EQ(last.ready.kind, latency::StampKind::Measured);
     EXPECT_EQ(last.ready.ns - last.sampled.ns, 4'000'000);

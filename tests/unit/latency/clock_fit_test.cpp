@@ -140,12 +140,15 @@ struct Step {
 };
 
 TEST(ClockFitSteps, AreFoundWithinTenSamplesAndThenFollowed) {
+    int streams = 0;
+    int wrong_before_found = 0;  // a step of a few milliseconds may look like jitter at first
     for (const Jitter jitter : {Jitter::None, Jitter::Uniform, Jitter::Exponential}) {
         for (const double by_ms :
              {-3.6e6, -1000.0, -25.0, -8.333, -6.0, 6.0, 8.333, 25.0, 1000.0, 3.6e6}) {
             for (std::uint64_t seed = 1; seed <= 20; ++seed) {
                 SimulatedTracker tracker{.jitter = jitter, .seed = seed};
                 ClockFit clock;
+                ++streams;
                 int found_after = -1;
                 std::vector<double> errors;
                 for (int i = 0; i < 20 * 120; ++i) {
@@ -159,7 +162,14 @@ TEST(ClockFitSteps, AreFoundWithinTenSamplesAndThenFollowed) {
                         ASSERT_EQ(found_after, -1) << "found twice";
                         found_after = i - 10 * 120 + 1;
                     }
-                    if (reading.verdict != ClockVerdict::Unusable && found_after > 0) {
+                    if (reading.verdict != ClockVerdict::Unusable && i >= 10 * 120 &&
+                        found_after < 0) {
+                        wrong_before_found +=
+                            std::abs(error_ns(reading, report)) >
+                                    static_cast<double>(reading.uncertainty_ns) + 1.0 * kMs
+                                ? 1
+                                : 0;
+                    } else if (reading.verdict != ClockVerdict::Unusable && i >= 10 * 120) {
                         EXPECT_LT(std::abs(error_ns(reading, report)),
                                   static_cast<double>(reading.uncertainty_ns) + 1.0 * kMs)
                             << by_ms << " ms, sample " << i << ", seed " << seed;
@@ -175,6 +185,7 @@ TEST(ClockFitSteps, AreFoundWithinTenSamplesAndThenFollowed) {
             }
         }
     }
+    EXPECT_LE(wrong_before_found, streams / 100) << "readings believed before the step was found";
 }
 
 TEST(ClockFit, LateDeliveryIsNoStep) {
