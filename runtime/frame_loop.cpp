@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <limits>
+
+#include "runtime/render/depth.h"
 
 namespace gazeloop {
 namespace {
@@ -17,6 +20,10 @@ class FrameLoop {
     FrameLoop(const LoopParts& parts, const LoopOptions& options)
         : parts_(parts), options_(options) {
         samples_.reserve(kSamplesAtOnce);
+        if (parts.renderer.config().depth_format != vk::Format::eUndefined) {
+            target_frame_.depth = {.near_m = std::numeric_limits<float>::infinity(),
+                                   .far_m = render::kDepthNear_m};
+        }
     }
 
     LoopResult run() {

@@ -76,7 +76,8 @@ std::unique_ptr<present::FrameTarget> make_target(const FrameRunRequest& request
     if (values.target.name == "openxr") {
         return present::make_openxr_target({.display = display,
                                             .scale = values.render.scale,
-                                            .validation = values.target.validation});
+                                            .validation = values.target.validation,
+                                            .depth = values.render.depth});
     }
     present::HeadlessTarget::Options options{
         .display = display,
@@ -122,6 +123,7 @@ void warm_up(const render::VulkanContext& context, const render::RendererConfig&
     render::FrameRequest request;
     request.views = views;
     gaze::PerEye<render::ColorImage> images;
+    gaze::PerEye<render::DepthImage> depths;
     render::FrameRenderer renderer(context, config);
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
@@ -129,6 +131,11 @@ void warm_up(const render::VulkanContext& context, const render::RendererConfig&
             context, config.extents[e], config.format,
             vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
         request.targets[e] = {images[e].image(), images[e].view()};
+        if (config.depth_format != vk::Format::eUndefined) {
+            depths[e] = render::DepthImage(context, config.extents[e], config.depth_format);
+            request.targets[e].depth_image = depths[e].image();
+            request.targets[e].depth_view = depths[e].view();
+        }
         request.foveae[e] = {views[e].width_px / 2.0, views[e].height_px / 2.0};
         request.gaze_directions[e] = {0.0, 0.0, -1.0};
     }
@@ -248,6 +255,7 @@ class FrameRun {
                 .acuity = acuity_parameters(values_),
                 .extents = target_->extents(),
                 .format = target_->format(),
+                .depth_format = target_->depth_format().value_or(vk::Format::eUndefined),
                 .profile = values_.render.profile,
                 .hash = request_.hash,
                 .frames_in_flight = static_cast<std::uint32_t>(values_.render.frames_in_flight),

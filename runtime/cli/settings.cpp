@@ -196,6 +196,7 @@ Settings::Settings() {
          &v.layers.s2_fixed},
         {"profile.display", "display profile, or a .toml file", Choice{&v.profile.display, {}}},
         {"profile.tracker", "tracker profile, or a .toml file", Choice{&v.profile.tracker, {}}},
+        {"render.depth", "hand depth images to the runtime, where it takes them", &v.render.depth},
         {"render.frames_in_flight", "frames that the GPU may be working on",
          Whole{&v.render.frames_in_flight, 1, 3}},
         {"render.hidden_area", "leave out what the headset shows to no eye", &v.render.hidden_area},

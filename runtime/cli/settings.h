@@ -75,6 +75,7 @@ struct SettingValues {
         std::int64_t spp = 1;
         double scale = 1.0;
         bool profile = true;
+        bool depth = true;
         bool hidden_area = true;
         std::int64_t frames_in_flight = 2;
     } render;

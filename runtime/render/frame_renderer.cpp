@@ -42,20 +42,35 @@ void discard_and_attach(const vk::raii::CommandBuffer& commands, vk::Image image
                                     Access::eColorAttachmentWrite));
 }
 
+void discard_and_attach_depth(const vk::raii::CommandBuffer& commands, vk::Image image) {
+    constexpr auto kTests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+    barrier(
+        commands,
+        image_barrier(image, Layout::eUndefined, Layout::eDepthStencilAttachmentOptimal, kTests,
+                      Access::eDepthStencilAttachmentWrite, kTests,
+                      Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite,
+                      vk::ImageAspectFlagBits::eDepth));
+}
+
 void write_buffer(const vk::raii::Device& device, vk::DescriptorSet set, std::uint32_t binding,
                   vk::DescriptorType type, vk::Buffer buffer) {
     const vk::DescriptorBufferInfo info(buffer, 0, VK_WHOLE_SIZE);
     device.updateDescriptorSets(vk::WriteDescriptorSet(set, binding, 0, type, {}, info), {});
 }
 
+/// `depth_view` null: colours alone. Cleared depth is infinitely far.
 void begin_rendering(const vk::raii::CommandBuffer& commands, vk::ImageView view,
                      vk::Extent2D extent, vk::AttachmentLoadOp load,
-                     const std::array<float, 4>& background = {}) {
+                     const std::array<float, 4>& background = {}, vk::ImageView depth_view = {}) {
     const vk::RenderingAttachmentInfo attachment(view, Layout::eColorAttachmentOptimal, {}, {}, {},
                                                  load, vk::AttachmentStoreOp::eStore,
                                                  vk::ClearColorValue(background));
+    const vk::RenderingAttachmentInfo depth(depth_view, Layout::eDepthStencilAttachmentOptimal, {},
+                                            {}, {}, load, vk::AttachmentStoreOp::eStore,
+                                            vk::ClearValue(vk::ClearDepthStencilValue(0.0F, 0)));
     const vk::Rect2D area({0, 0}, extent);
-    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, attachment));
+    commands.beginRendering(
+        vk::RenderingInfo({}, area, 1, 0, attachment, depth_view ? &depth : nullptr));
     commands.setViewport(0, vk::Viewport(0.0F, 0.0F, static_cast<float>(extent.width),
                                          static_cast<float>(extent.height), 0.0F, 1.0F));
     commands.setScissor(0, area);
@@ -116,20 +131,22 @@ FrameRenderer::FrameRenderer(const VulkanContext& context, const RendererConfig&
     set_layout_ = make_set_layout(device, log_polar ? Inputs::UniformsAndLpMap : Inputs::Uniforms);
     layout_ = make_pipeline_layout(device, set_layout_);
     const bool encode = !encodes_srgb(config.format);
-    const auto scene_shader = [&](std::string_view pass) {
-        return fmt::format("{}.{}.frag", config.scene, pass);
-    };
+    // A variant of its own: the mere statement of a depth costs a third of a resolve.
+    const std::string_view suffix =
+        config.depth_format == vk::Format::eUndefined ? "frag" : "depth.frag";
     const bool in_gaze_frame = config.method == Method::Acuity;
     if (log_polar) {
         pass_i_ = make_pipeline(device, layout_,
                                 {.vertex = "tiles.vert",
-                                 .fragment = scene_shader("log_polar"),
+                                 .fragment = fmt::format("{}.log_polar.frag", config.scene),
                                  .format = kLpFormat,
                                  .in_gaze_frame = in_gaze_frame,
                                  .samples = config.samples});
+        const std::string resolve_shader = fmt::format("log_polar.{}", suffix);
         PipelineSource resolve{.vertex = "full_screen.vert",
-                               .fragment = "log_polar.frag",
+                               .fragment = resolve_shader,
                                .format = config.format,
+                               .depth_format = config.depth_format,
                                .in_gaze_frame = in_gaze_frame,
                                .encode_srgb = encode};
         resolve_ = make_pipeline(device, layout_, resolve);
@@ -143,8 +160,9 @@ FrameRenderer::FrameRenderer(const VulkanContext& context, const RendererConfig&
     } else {
         full_ = make_pipeline(device, layout_,
                               {.vertex = "full_screen.vert",
-                               .fragment = scene_shader("full"),
+                               .fragment = fmt::format("{}.full.{}", config.scene, suffix),
                                .format = config.format,
+                               .depth_format = config.depth_format,
                                .encode_srgb = encode,
                                .samples = config.samples});
     }
@@ -377,14 +395,20 @@ template <typename DrawEye>
 void FrameRenderer::draw_pictures(const Slot& slot, const FrameRequest& request,
                                   const DrawEye& draw_eye) {
     const vk::raii::CommandBuffer& commands = slot.commands();
+    const bool depth = config_.depth_format != vk::Format::eUndefined;
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-        discard_and_attach(commands, request.targets[e].image);
+        const EyeTarget& target = request.targets[e];
+        discard_and_attach(commands, target.image);
+        if (depth) {
+            discard_and_attach_depth(commands, target.depth_image);
+        }
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0,
                                     *slot.eyes[e].set, {});
         const foveation::HiddenArea* const hidden = request.hidden[e].get();
         begin_rendering(
-            commands, request.targets[e].view, config_.extents[e],
-            hidden != nullptr ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare);
+            commands, target.view, config_.extents[e],
+            hidden != nullptr ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare, {},
+            depth ? target.depth_view : vk::ImageView{});
         draw_eye(e);
         commands.endRendering();
     }

@@ -27,6 +27,8 @@ struct RendererConfig {
     foveation::AcuityParameters acuity;
     gaze::PerEye<vk::Extent2D> extents;
     vk::Format format = vk::Format::eR8G8B8A8Srgb;
+    /// Of the targets' depth images (depth.h says what they hold); undefined: none is written.
+    vk::Format depth_format = vk::Format::eUndefined;
     bool profile = true;                 ///< a submit and a pair of timestamps for each pass
     bool hash = false;                   ///< read every picture back and hash it
     std::uint32_t frames_in_flight = 2;  ///< [1, 3]
@@ -51,7 +53,8 @@ struct FrameRequest {
     gaze::PerEye<gaze::PixelPosition> foveae;
     /// Unit vectors in the views' frames: the foveae as angles, for methods in the gaze's frame.
     gaze::PerEye<glm::dvec3> gaze_directions{};
-    gaze::PerEye<EyeTarget> targets;  ///< any layout before, COLOR_ATTACHMENT_OPTIMAL after
+    /// Any layout before; after, COLOR_ATTACHMENT_OPTIMAL and DEPTH_STENCIL_ATTACHMENT_OPTIMAL.
+    gaze::PerEye<EyeTarget> targets;
     foveation::HiddenAreas hidden{};  ///< of these views; what they hide is black
 };
 

@@ -3,8 +3,13 @@
 namespace gazeloop::render {
 namespace {
 
-constexpr vk::ImageSubresourceRange kWholeColor{vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
-constexpr vk::ImageSubresourceRange kWholeDepth{vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1};
+vk::ImageSubresourceRange whole(vk::ImageAspectFlags aspect) { return {aspect, 0, 1, 0, 1}; }
+
+vk::raii::ImageView make_view(const VulkanContext& context, vk::Image image, vk::Format format,
+                              vk::ImageAspectFlags aspect) {
+    return {context.device(),
+            vk::ImageViewCreateInfo({}, image, vk::ImageViewType::e2D, format, {}, whole(aspect))};
+}
 
 }  // namespace
 
@@ -25,8 +30,8 @@ HostBuffer::HostBuffer(const VulkanContext& context, vk::DeviceSize bytes,
     mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
 }
 
-ColorImage::ColorImage(const VulkanContext& context, vk::Extent2D extent, vk::Format format,
-                       vk::ImageUsageFlags usage)
+DeviceImage::DeviceImage(const VulkanContext& context, vk::Extent2D extent, vk::Format format,
+                         vk::ImageUsageFlags usage)
     : extent_(extent), format_(format) {
     const vk::raii::Device& device = context.device();
     image_ = vk::raii::Image(
@@ -39,24 +44,35 @@ ColorImage::ColorImage(const VulkanContext& context, vk::Extent2D extent, vk::Fo
                     needs.size, context.memory_type(needs.memoryTypeBits,
                                                     vk::MemoryPropertyFlagBits::eDeviceLocal)));
     image_.bindMemory(*memory_, 0);
+}
+
+ColorImage::ColorImage(const VulkanContext& context, vk::Extent2D extent, vk::Format format,
+                       vk::ImageUsageFlags usage)
+    : DeviceImage(context, extent, format, usage) {
     view_ = make_color_view(context, *image_, format);
+}
+
+DepthImage::DepthImage(const VulkanContext& context, vk::Extent2D extent, vk::Format format)
+    : DeviceImage(
+          context, extent, format,
+          vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eTransferSrc) {
+    view_ = make_depth_view(context, *image_, format);
 }
 
 vk::raii::ImageView make_color_view(const VulkanContext& context, vk::Image image,
                                     vk::Format format) {
-    return {context.device(),
-            vk::ImageViewCreateInfo({}, image, vk::ImageViewType::e2D, format, {}, kWholeColor)};
+    return make_view(context, image, format, vk::ImageAspectFlagBits::eColor);
 }
 
 vk::raii::ImageView make_depth_view(const VulkanContext& context, vk::Image image,
                                     vk::Format format) {
-    return {context.device(),
-            vk::ImageViewCreateInfo({}, image, vk::ImageViewType::e2D, format, {}, kWholeDepth)};
+    return make_view(context, image, format, vk::ImageAspectFlagBits::eDepth);
 }
 
 vk::ImageMemoryBarrier2 image_barrier(vk::Image image, vk::ImageLayout from, vk::ImageLayout to,
                                       vk::PipelineStageFlags2 after, vk::AccessFlags2 writes,
-                                      vk::PipelineStageFlags2 before, vk::AccessFlags2 reads) {
+                                      vk::PipelineStageFlags2 before, vk::AccessFlags2 reads,
+                                      vk::ImageAspectFlags aspect) {
     return {after,
             writes,
             before,
@@ -66,7 +82,7 @@ vk::ImageMemoryBarrier2 image_barrier(vk::Image image, vk::ImageLayout from, vk:
             VK_QUEUE_FAMILY_IGNORED,
             VK_QUEUE_FAMILY_IGNORED,
             image,
-            kWholeColor};
+            whole(aspect)};
 }
 
 }  // namespace gazeloop::render

@@ -43,24 +43,39 @@ class HostBuffer {
     std::byte* mapped_ = nullptr;
 };
 
-/// A two-dimensional colour image with memory and a view of its own.
-class ColorImage {
+/// A two-dimensional image with memory of its own.
+class DeviceImage {
   public:
-    ColorImage() = default;
-    ColorImage(const VulkanContext& context, vk::Extent2D extent, vk::Format format,
-               vk::ImageUsageFlags usage);
-
     [[nodiscard]] vk::Image image() const { return *image_; }
     [[nodiscard]] vk::ImageView view() const { return *view_; }
     [[nodiscard]] vk::Extent2D extent() const { return extent_; }
     [[nodiscard]] vk::Format format() const { return format_; }
 
-  private:
+  protected:
+    DeviceImage() = default;
+    DeviceImage(const VulkanContext& context, vk::Extent2D extent, vk::Format format,
+                vk::ImageUsageFlags usage);
+
     vk::raii::DeviceMemory memory_{nullptr};
     vk::raii::Image image_{nullptr};
     vk::raii::ImageView view_{nullptr};
     vk::Extent2D extent_;
     vk::Format format_ = vk::Format::eUndefined;
+};
+
+/// With a view of its colours.
+class ColorImage : public DeviceImage {
+  public:
+    ColorImage() = default;
+    ColorImage(const VulkanContext& context, vk::Extent2D extent, vk::Format format,
+               vk::ImageUsageFlags usage);
+};
+
+/// With a view of its depth; the format has no stencil. For drawing into and reading back.
+class DepthImage : public DeviceImage {
+  public:
+    DepthImage() = default;
+    DepthImage(const VulkanContext& context, vk::Extent2D extent, vk::Format format);
 };
 
 /// A two-dimensional view of level and layer 0: of colours, or of the depth of a format without
@@ -70,9 +85,10 @@ vk::raii::ImageView make_color_view(const VulkanContext& context, vk::Image imag
 vk::raii::ImageView make_depth_view(const VulkanContext& context, vk::Image image,
                                     vk::Format format);
 
-/// A layout transition of a whole colour image with its memory dependency.
-vk::ImageMemoryBarrier2 image_barrier(vk::Image image, vk::ImageLayout from, vk::ImageLayout to,
-                                      vk::PipelineStageFlags2 after, vk::AccessFlags2 writes,
-                                      vk::PipelineStageFlags2 before, vk::AccessFlags2 reads);
+/// A layout transition of a whole image with its memory dependency.
+vk::ImageMemoryBarrier2 image_barrier(
+    vk::Image image, vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 after,
+    vk::AccessFlags2 writes, vk::PipelineStageFlags2 before, vk::AccessFlags2 reads,
+    vk::ImageAspectFlags aspect = vk::ImageAspectFlagBits::eColor);
 
 }  // namespace gazeloop::render

@@ -44,33 +44,49 @@ void run_once(const VulkanContext& context, auto&& record) {
     context.device().waitIdle();
 }
 
-}  // namespace
-
-Picture read_back(const VulkanContext& context, vk::Image image, vk::Extent2D extent,
-                  vk::Format format, vk::ImageLayout layout) {
-    const std::size_t count = std::size_t{extent.width} * extent.height;
-    const HostBuffer buffer(context, count * bytes_per_pixel(format),
-                            vk::BufferUsageFlagBits::eTransferDst);
+/// All pixels, row by row; the image is left in its layout.
+HostBuffer copy_to_host(const VulkanContext& context, vk::Image image, vk::Extent2D extent,
+                        vk::ImageAspectFlagBits aspect, vk::ImageLayout layout,
+                        vk::DeviceSize bytes) {
+    HostBuffer buffer(context, bytes * extent.width * extent.height,
+                      vk::BufferUsageFlagBits::eTransferDst);
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;
     run_once(context, [&](const vk::raii::CommandBuffer& commands) {
         const auto move = [&](vk::ImageLayout from, vk::ImageLayout to) {
-            const auto barrier =
-                image_barrier(image, from, to, Stage::eAllCommands, Access::eMemoryWrite,
-                              Stage::eAllCommands, Access::eMemoryRead | Access::eMemoryWrite);
+            const auto barrier = image_barrier(image, from, to, Stage::eAllCommands,
+                                               Access::eMemoryWrite, Stage::eAllCommands,
+                                               Access::eMemoryRead | Access::eMemoryWrite, aspect);
             commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
         };
         move(layout, vk::ImageLayout::eTransferSrcOptimal);
         commands.copyImageToBuffer(
             image, vk::ImageLayout::eTransferSrcOptimal, buffer.buffer(),
-            vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},
-                                vk::Extent3D(extent, 1)));
+            vk::BufferImageCopy(0, 0, 0, {aspect, 0, 0, 1}, {}, vk::Extent3D(extent, 1)));
         move(vk::ImageLayout::eTransferSrcOptimal, layout);
         const vk::MemoryBarrier2 to_host(Stage::eCopy, Access::eTransferWrite, Stage::eHost,
                                          Access::eHostRead);
         commands.pipelineBarrier2(vk::DependencyInfo({}, to_host));
     });
+    return buffer;
+}
 
+}  // namespace
+
+std::vector<float> read_back_depth(const VulkanContext& context, const DepthImage& image) {
+    const HostBuffer buffer =
+        copy_to_host(context, image.image(), image.extent(), vk::ImageAspectFlagBits::eDepth,
+                     vk::ImageLayout::eDepthStencilAttachmentOptimal, sizeof(float));
+    std::vector<float> depths(std::size_t{image.extent().width} * image.extent().height);
+    std::memcpy(depths.data(), buffer.mapped().data(), depths.size() * sizeof(float));
+    return depths;
+}
+
+Picture read_back(const VulkanContext& context, vk::Image image, vk::Extent2D extent,
+                  vk::Format format, vk::ImageLayout layout) {
+    const HostBuffer buffer = copy_to_host(context, image, extent, vk::ImageAspectFlagBits::eColor,
+                                           layout, bytes_per_pixel(format));
+    const std::size_t count = std::size_t{extent.width} * extent.height;
     Picture picture{extent.width, extent.height, {}};
     picture.pixels.resize(count);
     const auto* const bytes = reinterpret_cast<const std::uint8_t*>(buffer.mapped().data());

@@ -24,6 +24,9 @@ struct Picture {
 Picture read_back(const VulkanContext& context, vk::Image image, vk::Extent2D extent,
                   vk::Format format, vk::ImageLayout layout);
 
+/// The values of a D32_SFLOAT image that lies in DEPTH_STENCIL_ATTACHMENT_OPTIMAL, top row first.
+std::vector<float> read_back_depth(const VulkanContext& context, const DepthImage& image);
+
 /// |a - b| times `gain` for each channel, clamped. Precondition: equal sizes.
 Picture amplified_difference(const Picture& a, const Picture& b, double gain);
 

@@ -68,12 +68,15 @@ vk::raii::Pipeline make_pipeline(const vk::raii::Device& device,
     vk::PipelineColorBlendAttachmentState attachment;
     attachment.colorWriteMask = Channel::eR | Channel::eG | Channel::eB | Channel::eA;
     const vk::PipelineColorBlendStateCreateInfo blend({}, VK_FALSE, vk::LogicOp::eCopy, attachment);
+    const bool depth = source.depth_format != vk::Format::eUndefined;
+    const vk::PipelineDepthStencilStateCreateInfo depth_stencil({}, depth, depth,
+                                                                vk::CompareOp::eAlways);
     const std::array dynamics{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
     const vk::PipelineDynamicStateCreateInfo dynamic({}, dynamics);
-    const vk::PipelineRenderingCreateInfo rendering(0, source.format);
+    const vk::PipelineRenderingCreateInfo rendering(0, source.format, source.depth_format);
     vk::GraphicsPipelineCreateInfo info({}, stages, &vertex_input, &assembly, nullptr, &viewport,
-                                        &rasterization, &multisample, nullptr, &blend, &dynamic,
-                                        *layout);
+                                        &rasterization, &multisample, &depth_stencil, &blend,
+                                        &dynamic, *layout);
     info.pNext = &rendering;
     return {device, nullptr, info};
 }

@@ -34,13 +34,15 @@ struct PipelineSource {
     std::string_view vertex;  ///< names as shaders::spirv takes them
     std::string_view fragment;
     vk::Format format;
-    bool disc = false;           ///< of a resolve: with the direct disc
-    bool in_gaze_frame = false;  ///< of a log-polar map
-    bool encode_srgb = false;    ///< the target's format does not encode by itself
-    std::uint32_t samples = 1;   ///< a texel or pixel
+    vk::Format depth_format = vk::Format::eUndefined;  ///< undefined: no depth is written
+    bool disc = false;                                 ///< of a resolve: with the direct disc
+    bool in_gaze_frame = false;                        ///< of a log-polar map
+    bool encode_srgb = false;   ///< the target's format does not encode by itself
+    std::uint32_t samples = 1;  ///< a texel or pixel
 };
 
-/// A pipeline for dynamic rendering into one colour attachment, viewport and scissor dynamic.
+/// A pipeline for dynamic rendering into one colour attachment and, if its shader writes depth, a
+/// depth attachment that takes every value; viewport and scissor dynamic.
 vk::raii::Pipeline make_pipeline(const vk::raii::Device& device,
                                  const vk::raii::PipelineLayout& layout,
                                  const PipelineSource& source);

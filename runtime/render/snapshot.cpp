@@ -20,6 +20,7 @@ struct Rendered {
 Rendered render_off_screen(const VulkanContext& context, RendererConfig config,
                            FrameRequest request) {
     config.hash = false;
+    config.depth_format = vk::Format::eUndefined;
     config.lp_background = {0.0F, 0.0F, 0.0F, 1.0F};
     FrameRenderer renderer(context, config);
     gaze::PerEye<ColorImage> images;

@@ -1,6 +1,6 @@
 // Depth for a compositor that reprojects: kDepthNear_m / z, with z the distance along the view's
-// axis; 1 at kDepthNear_m, 0 at infinity (runtime/render/depth.h). Shaders that write it are variants
-// of their own (GAZELOOP_DEPTH): the mere statement costs a third of a resolve.
+// axis; 1 at kDepthNear_m, 0 at infinity (runtime/render/depth.h says why). Shaders that write it are
+// variants of their own (GAZELOOP_DEPTH): the mere statement costs a third of a resolve.
 const float kDepthNear_m = 0.1;
 
 void set_depth(vec2 position_px, float nearness) {

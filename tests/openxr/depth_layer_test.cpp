@@ -1,7 +1,9 @@
 // Depth images on their way to a real runtime, filled by a clear, validation on.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -9,6 +11,7 @@
 #include "runtime/error.h"
 #include "runtime/present/openxr/openxr_target.h"
 #include "runtime/render/gpu_memory.h"
+#include "runtime/session/session_file.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::present {
@@ -30,14 +33,11 @@ void clear(const render::VulkanContext& context, const render::EyeTarget& target
         render::image_barrier(target.image, Layout::eUndefined, Layout::eColorAttachmentOptimal,
                               Stage::eColorAttachmentOutput, Access::eNone,
                               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-    auto depth_barrier = color_barrier;
     constexpr auto kTests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
-    depth_barrier.setImage(target.depth_image)
-        .setNewLayout(Layout::eDepthStencilAttachmentOptimal)
-        .setSrcStageMask(kTests)
-        .setDstStageMask(kTests)
-        .setDstAccessMask(Access::eDepthStencilAttachmentWrite)
-        .setSubresourceRange({vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1});
+    const auto depth_barrier = render::image_barrier(
+        target.depth_image, Layout::eUndefined, Layout::eDepthStencilAttachmentOptimal, kTests,
+        Access::eNone, kTests, Access::eDepthStencilAttachmentWrite,
+        vk::ImageAspectFlagBits::eDepth);
     const std::array barriers{color_barrier, depth_barrier};
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barriers));
     const vk::RenderingAttachmentInfo color(target.view, Layout::eColorAttachmentOptimal, {}, {},
@@ -128,6 +128,24 @@ TEST_F(DepthLayer, MayBeReversedAndEndless) {
 TEST_F(DepthLayer, ReachesTheRuntime) { EXPECT_THROW(run(DepthRange{1.0F, 1.0F}), SetupError); }
 
 TEST_F(DepthLayer, IsLeftOutWhereNobodyFilledIt) { run(std::nullopt); }
+
+TEST_F(DepthLayer, GoesAlongWithTheProgramsPicturesUnlessSwitchedOff) {
+    const std::string session = scratch_.file("session.gaze");
+    for (const auto& [setting, taken] :
+         {std::pair{"render.depth=true", "D32Sfloat"}, {"render.depth=false", "none"}}) {
+        const tests::ProgramResult result =
+            tests::run_gazeloop({"run", "--frames", "10", "--record", session, "--set", setting,
+                                 "--set", "render.scale=0.1", "--set", "vulkan.validation=true"});
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_EQ(result.err.find("Vulkan validation"), std::string::npos) << result.err;
+        const auto recorded = value_or_throw(session::read_session(session));
+        const auto row =
+            std::ranges::find(recorded.header.device, "depth layer", &session::NamedValue::name);
+        ASSERT_NE(row, recorded.header.device.end());
+        EXPECT_EQ(row->value, taken);
+        std::filesystem::remove(session);
+    }
+}
 
 }  // namespace
 }  // namespace gazeloop::present

@@ -49,6 +49,7 @@ class FrameRendererTest : public testing::Test {
 
     struct Rendered {
         Pictures pictures;
+        gaze::PerEye<std::vector<float>> depths;  ///< where the configuration has a depth format
         latency::SampleCounts counts;
         latency::FrameGpuRecord gpu;
         gaze::PerEye<foveation::SamplingPlan> plans;
@@ -56,12 +57,19 @@ class FrameRendererTest : public testing::Test {
 
     static Rendered render(const RendererConfig& config, FrameRequest request) {
         FrameRenderer renderer(context(), config);
+        const bool depth = config.depth_format != vk::Format::eUndefined;
         gaze::PerEye<ColorImage> images;
+        gaze::PerEye<DepthImage> depths;
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
             images[e] = ColorImage(
                 context(), config.extents[e], config.format,
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
             request.targets[e] = {images[e].image(), images[e].view()};
+            if (depth) {
+                depths[e] = DepthImage(context(), config.extents[e], config.depth_format);
+                request.targets[e].depth_image = depths[e].image();
+                request.targets[e].depth_view = depths[e].view();
+            }
         }
         Rendered rendered;
         renderer.wait_for_slot();
@@ -75,6 +83,9 @@ class FrameRendererTest : public testing::Test {
             rendered.pictures[e] =
                 read_back(context(), images[e].image(), config.extents[e], config.format,
                           vk::ImageLayout::eColorAttachmentOptimal);
+            if (depth) {
+                rendered.depths[e] = read_back_depth(context(), depths[e]);
+            }
             rendered.plans[e] = renderer.last_plan(gaze::kEyes[e]);
         }
         return rendered;

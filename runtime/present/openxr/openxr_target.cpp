@@ -464,7 +464,8 @@ class OpenXrTarget final : public FrameTarget {
                 {"openxr system", instance_.system_name()},
                 {"openxr manifest", choice_.manifest},
                 {"openxr runtime chosen by", choice_.reason},
-                {"target format", vk::to_string(format_)}};
+                {"target format", vk::to_string(format_)},
+                {"depth layer", depth_format_ ? vk::to_string(*depth_format_) : "none"}};
     }
 
     std::vector<std::string> take_events() override { return std::exchange(events_, {}); }
