@@ -266,11 +266,13 @@ class RuntimeProbe {
 
 /// What the loop itself does before its first frame.
 void probe_session(const OpenXrChecks& asked, ProbeReport& report) {
+    std::optional<render::VulkanContext> opened;  // outlives the target
     report.step("setting up the loop's OpenXR target");
     const auto target = present::make_openxr_target(
         {.display = asked.display, .scale = asked.scale, .validation = false});
     report.step("opening the Vulkan device that the OpenXR runtime wants");
-    const render::VulkanContext context({}, target->vulkan_factory());
+    const render::VulkanContext& context =
+        opened.emplace(render::VulkanOptions{}, target->vulkan_factory());
     report.step("starting the OpenXR session");
     target->start(context);
     const bool software =

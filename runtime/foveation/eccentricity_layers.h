@@ -34,11 +34,12 @@ struct LayerOptions {
 };
 
 struct EccentricityLayer {
-    double radius_deg = 0.0;  ///< outer edge; of the last layer, the display's e*
-    double factor = 1.0;      ///< s: display pixels a sample, each way
-    double width_px = 0.0;    ///< D: samples along the side (of the last layer, the longer one)
-    double pixels = 0.0;      ///< P: samples in all
-    double weight = 1.0;      ///< w: work of one of them
+    /// Outer edge; of the last layer the display's e*, and what lies beyond it where aspect > 1.
+    double radius_deg = 0.0;
+    double factor = 1.0;    ///< s: display pixels a sample, each way
+    double width_px = 0.0;  ///< D: samples along the side (of the last layer, the longer one)
+    double pixels = 0.0;    ///< P: samples in all
+    double weight = 1.0;    ///< w: work of one of them
 };
 
 struct EccentricityLayers {
@@ -50,7 +51,7 @@ struct EccentricityLayers {
 };
 
 /// Radii and sampling factors of eccentricity layers that keep to a MAR line and take the least
-/// work: minimise sum w_i P_i over 0 <= e_1 <= ... <= e_{n-1} < e*, with
+/// work: minimise sum w_i P_i over 0 <= e_1 <= ... <= e_{n-1} <= e*, with
 ///     s_1 = 1, s_{i+1} = max(1, omega(e_i) / omega*), D_i = 2 D*/s_i tan(e_i) V*/W*, P_i = D_i^2,
 /// and D*/s_n, alpha* D_n^2 for the last (Eqs. 2 to 5). The paper's factors fall below 1 where the
 /// display is coarser than the eye; a layer never needs more than the display's own pixels.

@@ -54,8 +54,8 @@ class FrameTarget {
     /// Who must create the Vulkan objects; null: nobody cares.
     virtual render::VulkanFactory* vulkan_factory() = 0;
 
-    /// Makes swapchains or images for the context, once, before anything below.
-    /// Throws SetupError.
+    /// Makes swapchains or images for the context, once, before anything below. The context must
+    /// outlive the target. Throws SetupError.
     virtual void start(const render::VulkanContext& context) = 0;
 
     [[nodiscard]] virtual gaze::PerEye<vk::Extent2D> extents() const = 0;

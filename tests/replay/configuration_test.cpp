@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "tests/support/comma_locale.h"
+#include "tests/support/preload.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::tests {
@@ -294,14 +295,11 @@ TEST_F(Configuration, NumbersKeepTheirPointsUnderACommaLocale) {
     const std::string plain = run_all({});
     EXPECT_NE(plain.find("2.25"), std::string::npos);
     EXPECT_NE(plain.find("hash pixels"), std::string::npos);
-    EXPECT_EQ(run_all({.environment = {{"LD_PRELOAD",
-                                        std::filesystem::path(GAZELOOP_COMMA_LOCALE).filename()},
-                                       {"LD_LIBRARY_PATH",
-                                        std::filesystem::path(GAZELOOP_COMMA_LOCALE).parent_path()},
-                                       {"LOCPATH", locale->folder},
-                                       {"GAZELOOP_TEST_LOCALE", locale->name},
-                                       {"LC_ALL", locale->name}}}),
-              plain);
+    Environment commas = preloaded(GAZELOOP_COMMA_LOCALE);
+    commas.insert(commas.end(), {{"LOCPATH", locale->folder},
+                                 {"GAZELOOP_TEST_LOCALE", locale->name},
+                                 {"LC_ALL", locale->name}});
+    EXPECT_EQ(run_all({.environment = commas}), plain);
 }
 
 }  // namespace

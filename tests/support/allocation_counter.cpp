@@ -1,7 +1,6 @@
 #include "tests/support/allocation_counter.h"
 
-#include <cstdlib>
-#include <new>
+#include <cstddef>
 
 namespace {
 thread_local std::size_t allocations = 0;
@@ -10,21 +9,15 @@ thread_local std::size_t allocations = 0;
 std::size_t gazeloop::tests::allocations_of_this_thread() { return allocations; }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// Sanitizers have a malloc of their own: only operator new is counted. Its other forms, but for
-// aligned ones, come down to these.
-// NOLINTBEGIN(cppcoreguidelines-no-malloc): operator new itself
-void* operator new(std::size_t size) {
-    ++allocations;
-    void* memory = std::malloc(size == 0 ? 1 : size);
-    if (memory == nullptr) {
-        throw std::bad_alloc();
-    }
-    return memory;
-}
+// Sanitizers have a malloc of their own, and tell who asks. (allocator_interface.h, which g++ 12
+// does not install.)
+extern "C" int __sanitizer_install_malloc_and_free_hooks(  // NOLINT
+    void (*on_malloc)(const volatile void*, std::size_t), void (*on_free)(const volatile void*));
 
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-// NOLINTEND(cppcoreguidelines-no-malloc)
+namespace {
+[[maybe_unused]] const int installed = __sanitizer_install_malloc_and_free_hooks(
+    [](const volatile void*, std::size_t) { ++allocations; }, [](const volatile void*) {});
+}  // namespace
 #else
 // Everything comes down to these, operator new as well. glibc's own are under other names, too.
 extern "C" {

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <cstdlib>
 #include <string>
-#include <utility>
-#include <vector>
+
+#include "tests/support/preload.h"
 
 namespace gazeloop::tests {
 
-/// Environment under which a program's OpenXR runtime, Vulkan device or clocks misbehave.
-using Environment = std::vector<std::pair<std::string, std::string>>;
+// Environments under which a program's OpenXR runtime, Vulkan device or clocks misbehave.
 
 inline std::string faults_folder() { return std::string(GAZELOOP_BINARY_DIR) + "/faults"; }
 
@@ -28,11 +26,7 @@ inline Environment vulkan_faults(const std::string& plan) {
 
 /// The wall clock steps at every reading, see stepped_clocks.cpp.
 inline Environment stepped_clocks() {
-    const char* const before = std::getenv("LD_PRELOAD");
-    // By name, because the loader takes a space in a path for the end of it.
-    return {{"LD_PRELOAD", (before != nullptr ? before + std::string(":") : std::string()) +
-                               "libgazeloop_stepped_clocks.so"},
-            {"LD_LIBRARY_PATH", faults_folder()}};
+    return preloaded(faults_folder() + "/libgazeloop_stepped_clocks.so");
 }
 
 }  // namespace gazeloop::tests
