@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include "runtime/doctor/checks.h"
 #include "runtime/doctor/probe.h"
