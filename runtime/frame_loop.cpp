@@ -143,6 +143,7 @@ class FrameLoop {
         gaze::PerEye<render::EyeTarget> images{};
         if (planned_.should_render) {
             images = parts_.target.acquire();
+            parts_.renderer.fit(planned_.views);
             wait_for_gpu();
             report_finished_frames();
         }

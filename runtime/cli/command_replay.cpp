@@ -94,8 +94,10 @@ void check_frames(const session::SessionFile& session, const std::string& file) 
             const double turn =
                 glm::length(view.pose.orientation) + glm::length(frame.head.orientation);
             const glm::dvec3 place = view.pose.position_m + frame.head.position_m;
-            if (!gaze::is_valid(view) || !(std::abs(turn - 2.0) < 1e-3) ||
-                !std::isfinite(place.x + place.y + place.z) || !std::isfinite(frame.scene_time_s)) {
+            const auto [smallest, largest] = std::minmax(view.width_px, view.height_px);
+            if (!gaze::is_valid(view) || smallest < 2 || largest > 16384 ||
+                !(std::abs(turn - 2.0) < 1e-3) || !std::isfinite(place.x + place.y + place.z) ||
+                !std::isfinite(frame.scene_time_s)) {
                 throw damaged(i, fmt::format("impossible view of the {} eye",
                                              gaze::kEyeNames[gaze::index(eye)]));
             }

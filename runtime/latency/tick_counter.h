@@ -8,24 +8,30 @@
 
 namespace gazeloop::latency {
 
-/// A device's counter of limited width, without its wraps: a difference of more than half the range
-/// is taken for the shorter way round. So a counter that is set back by less than half its range
-/// goes back here too.
+/// The ticks from one reading of a counter of `bits` (1 to 64) to another; the bits above are
+/// ignored. A difference of more than half the range is taken for the shorter way round.
+[[nodiscard]] constexpr std::int64_t tick_difference(std::uint64_t from, std::uint64_t to,
+                                                     std::uint32_t bits) {
+    // Both shifted to the left end of 64 bits: their difference wraps as they do.
+    const std::uint32_t shift = 64 - bits;
+    return static_cast<std::int64_t>((to << shift) - (from << shift)) >> shift;
+}
+
+/// A device's counter of limited width, without its wraps, by tick_difference(). So a counter that
+/// is set back by less than half its range goes back here too.
 class TickCounter {
   public:
     /// `bits` (1 to 64) of the counter, each tick `tick_ns` (> 0) nanoseconds long.
-    TickCounter(std::uint32_t bits, double tick_ns) : shift_(64 - bits), tick_ns_(tick_ns) {}
+    TickCounter(std::uint32_t bits, double tick_ns) : bits_(bits), tick_ns_(tick_ns) {}
 
     /// The device's time in nanoseconds; the first one is that of the ticks themselves. Saturates
     /// 292 years away from 0.
     [[nodiscard]] std::int64_t to_ns(std::uint64_t ticks) {
         if (!started_) {
             started_ = true;
-            total_ = (ticks << shift_) >> shift_;
+            total_ = (ticks << (64 - bits_)) >> (64 - bits_);
         } else {
-            // Both counters shifted to the left end of 64 bits: their difference wraps as they do.
-            const std::uint64_t step = (ticks << shift_) - (total_ << shift_);
-            total_ += static_cast<std::uint64_t>(static_cast<std::int64_t>(step) >> shift_);
+            total_ += static_cast<std::uint64_t>(tick_difference(total_, ticks, bits_));
         }
         return ns_of(static_cast<std::int64_t>(total_));
     }
@@ -45,7 +51,7 @@ class TickCounter {
                         : std::numeric_limits<std::int64_t>::max();
     }
 
-    std::uint32_t shift_;
+    std::uint32_t bits_;
     double tick_ns_;
     std::uint64_t total_ = 0;  ///< two's complement
     bool started_ = false;

@@ -252,7 +252,7 @@ void FrameRenderer::put_eye(std::size_t eye, std::unique_ptr<LogPolarEye> made) 
 
 /// The acuity-derived map needs the fields of view, which a runtime states with the first frame and
 /// may change.
-void FrameRenderer::fit_eyes(const gaze::StereoView& views) {
+void FrameRenderer::fit(const gaze::StereoView& views) {
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
         if (config_.method == Method::Acuity &&
             (eyes_[e] == nullptr || !eyes_[e]->fits(views[e]))) {
@@ -295,7 +295,7 @@ void FrameRenderer::wait_for_slot(std::uint32_t in_flight) {
 }
 
 latency::SampleCounts FrameRenderer::render(const FrameRequest& request) {
-    fit_eyes(request.views);
+    fit(request.views);
     Slot& slot = *slots_[submitted_ % slots_.size()];
     slot.pool.reset();
     slot.segments = 0;
@@ -525,10 +525,8 @@ latency::FrameGpuRecord FrameRenderer::collect(Slot& slot) {
     if (result == vk::Result::eSuccess) {
         for (std::uint32_t segment = 0; segment < slot.timed_segments; ++segment) {
             if (const auto pass = slot.segment_pass[segment]) {
-                record.pass_ns[static_cast<std::size_t>(*pass)] =
-                    std::llround(static_cast<double>(ticks[std::size_t{2} * segment + 1] -
-                                                     ticks[std::size_t{2} * segment]) *
-                                 context_->timestamp_period_ns());
+                record.pass_ns[static_cast<std::size_t>(*pass)] = std::llround(clock_.elapsed_ns(
+                    ticks[std::size_t{2} * segment], ticks[std::size_t{2} * segment + 1]));
             }
         }
         record.gpu_begin = clock_.host_time(ticks[0]);

@@ -76,6 +76,10 @@ class FrameRenderer {
     void wait_for_slot();
     void wait_for_slot(std::uint32_t in_flight);
 
+    /// Makes what depends on the fields of view, if they are others than before, which takes
+    /// milliseconds: before the gaze is read. render() does it where nobody has.
+    void fit(const gaze::StereoView& views);
+
     /// Submits a frame. Precondition: wait_for_slot() and the drained next_finished() since the
     /// last call.
     latency::SampleCounts render(const FrameRequest& request);
@@ -100,7 +104,6 @@ class FrameRenderer {
 
     void make_slots();
     void put_eye(std::size_t eye, std::unique_ptr<LogPolarEye> made);
-    void fit_eyes(const gaze::StereoView& views);
     void begin_segment(Slot& slot, std::optional<latency::Pass> pass);
     void end_segments(Slot& slot);
     void shade_tiles(Slot& slot, std::size_t eye, const ColorImage& target,

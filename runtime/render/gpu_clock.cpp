@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "runtime/latency/tick_counter.h"
+
 namespace gazeloop::render {
 namespace {
 
@@ -43,15 +45,18 @@ void GpuClock::calibrate() {
     max_deviation_ns_ = deviation_ns;
 }
 
+double GpuClock::elapsed_ns(std::uint64_t from_ticks, std::uint64_t to_ticks) const {
+    return static_cast<double>(
+               latency::tick_difference(from_ticks, to_ticks, context_->timestamp_bits())) *
+           context_->timestamp_period_ns();
+}
+
 latency::Stamp GpuClock::host_time(std::uint64_t gpu_ticks) {
     if (!usable_) {
         return {};
     }
-    const auto since_calibration_ns = [&] {
-        // Signed: a stamp may lie before the calibration.
-        return static_cast<double>(static_cast<std::int64_t>(gpu_ticks - gpu_ticks_)) *
-               context_->timestamp_period_ns();
-    };
+    // Negative where the stamp lies before the calibration.
+    const auto since_calibration_ns = [&] { return elapsed_ns(gpu_ticks_, gpu_ticks); };
     if (std::abs(since_calibration_ns()) > kCalibrateAgainNs) {
         calibrate();
     }

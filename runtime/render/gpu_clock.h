@@ -17,6 +17,9 @@ class GpuClock {
     /// Whether a device with these time domains can relate its clock to CLOCK_MONOTONIC.
     [[nodiscard]] static bool relates(std::span<const vk::TimeDomainEXT> domains);
 
+    /// From one timestamp of the queue to another, also through a wrap.
+    [[nodiscard]] double elapsed_ns(std::uint64_t from_ticks, std::uint64_t to_ticks) const;
+
     /// Unknown where the device cannot relate its clock to CLOCK_MONOTONIC.
     [[nodiscard]] latency::Stamp host_time(std::uint64_t gpu_ticks);
 

@@ -175,6 +175,7 @@ void VulkanContext::create_device(VulkanFactory* factory) {
     memory_ = physical_.getMemoryProperties();
     queue_family_ = queue_family_of(physical_).value();  // no device is chosen without one
     timestamp_period_ns_ = physical_.getProperties().limits.timestampPeriod;
+    timestamp_bits_ = physical_.getQueueFamilyProperties()[queue_family_].timestampValidBits;
 
     std::vector<const char*> extensions;
     calibrated_timestamps_ = std::ranges::any_of(

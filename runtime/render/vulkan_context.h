@@ -37,6 +37,8 @@ class VulkanContext {
     [[nodiscard]] std::uint32_t queue_family() const { return queue_family_; }
     [[nodiscard]] bool has_calibrated_timestamps() const { return calibrated_timestamps_; }
     [[nodiscard]] double timestamp_period_ns() const { return timestamp_period_ns_; }
+    /// Valid bits of the queue's timestamps, 36 to 64.
+    [[nodiscard]] std::uint32_t timestamp_bits() const { return timestamp_bits_; }
 
     /// A memory type that the mask allows and that has the wanted properties. Throws SetupError.
     [[nodiscard]] std::uint32_t memory_type(std::uint32_t mask,
@@ -64,6 +66,7 @@ class VulkanContext {
     std::uint32_t queue_family_ = 0;
     bool calibrated_timestamps_ = false;
     double timestamp_period_ns_ = 1.0;
+    std::uint32_t timestamp_bits_ = 64;
 };
 
 }  // namespace gazeloop::render

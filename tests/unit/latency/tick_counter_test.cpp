@@ -14,6 +14,18 @@ TEST(TickCounter, GoesOnThroughTheWrap) {
     EXPECT_EQ(counter.to_ns(1), (0x100000000LL + 1) * 1000) << "a little back is back";
 }
 
+// GPUs count with 36 to 64 bits.
+TEST(TickCounter, DifferencesGoTheShorterWayRound) {
+    constexpr std::uint64_t kLast36 = (1ULL << 36) - 1;
+    EXPECT_EQ(tick_difference(kLast36 - 4, 5, 36), 10);
+    EXPECT_EQ(tick_difference(5, kLast36 - 4, 36), -10);
+    EXPECT_EQ(tick_difference(0, 1ULL << 35, 36), -(1LL << 35));
+    EXPECT_EQ(tick_difference(7, (1ULL << 60) + 9, 36), 2) << "bits above hold anything";
+    EXPECT_EQ(tick_difference(~0ULL, 0, 64), 1);
+    EXPECT_EQ(tick_difference(3, 3, 1), 0);
+    EXPECT_EQ(tick_difference(0, 1, 1), -1);
+}
+
 TEST(TickCounter, AWideCounterNeedsNoUnwrapping) {
     TickCounter counter(64, 1000.0);
     EXPECT_EQ(counter.to_ns(5), 5000);
