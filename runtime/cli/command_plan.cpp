@@ -185,8 +185,10 @@ void add_plan_command(CLI::App& program, Action& action) {
                     "by how much the gaze may be off, degrees: what eyes then need")
         ->check(number_between(0.0, foveation::kMaxWideningDeg))
         ->type_name("DEG");
-    app->add_option("--json", options.json, "write the plan as JSON; - is stdout")
-        ->type_name("FILE");
+    app->add_option("--json", options.json, "write the plan as JSON; without a file, to stdout")
+        ->expected(0, 1)
+        ->default_str("-")
+        ->type_name("[FILE]");
     app->add_option("--png", command->chart,
                     "draw densities over eccentricity, all methods; .png or .svg")
         ->type_name("FILE");

@@ -67,8 +67,8 @@ drivers::Trace trace_of(const session::SessionFile& session, const std::string& 
 bool decides_foveae(std::string_view key) { return key.starts_with("gaze."); }
 
 bool decides_picture(std::string_view key) {
-    return key.starts_with("kfr.") || key == "render.hidden_area" || key == "render.method" ||
-           key == "render.scene" || key == "render.spp";
+    return key.starts_with("acuity.") || key.starts_with("kfr.") || key == "render.hidden_area" ||
+           key == "render.method" || key == "render.scene" || key == "render.spp";
 }
 
 /// Refuses what the program cannot have recorded.

@@ -60,12 +60,12 @@ Expected<foveation::RadialKernel> kernel(const decltype(SettingValues::kfr)& kfr
         }
         return std::move(*polynomial);
     }
-    if (kfr.kernel_table.empty()) {
+    if (kfr.kernel_samples.empty()) {
         return std::unexpected(Error{ExitCode::Usage,
                                      "kfr.kernel = table: its file is missing; state it with "
-                                     "kfr.kernel_table"});
+                                     "kfr.kernel_table, or its samples with kfr.kernel_samples"});
     }
-    auto table = foveation::load_kernel_table(kfr.kernel_table);
+    auto table = foveation::read_kernel_samples(kfr.kernel_samples, "kfr.kernel_samples");
     if (!table) {
         return std::unexpected(table.error());
     }
@@ -73,6 +73,22 @@ Expected<foveation::RadialKernel> kernel(const decltype(SettingValues::kfr)& kfr
 }
 
 }  // namespace
+
+Expected<void> take_kernel_table(Settings& settings) {
+    const std::string file = settings.values().kfr.kernel_table;
+    if (settings.values().kfr.kernel != "table" || file.empty()) {
+        return {};
+    }
+    const auto table = foveation::load_kernel_table(file);
+    if (!table) {
+        return std::unexpected(table.error());
+    }
+    if (auto set = settings.set("kfr.kernel_samples", foveation::kernel_samples(*table), file);
+        !set) {
+        return set;
+    }
+    return settings.set("kfr.kernel_table", "", "taken");
+}
 
 Expected<foveation::KfrParameters> kfr_parameters(const SettingValues& values) {
     auto made = kernel(values.kfr);

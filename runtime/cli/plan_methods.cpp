@@ -17,6 +17,7 @@
 #include "runtime/foveation/sampling_plan.h"
 #include "runtime/foveation/shading_rings.h"
 #include "runtime/foveation/sparse_pattern.h"
+#include "runtime/foveation/useless_map.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -49,22 +50,23 @@ Expected<PlannedMethod> plan_kfr(const PlanSubject& subject) {
     foveation::SamplingPlan plan;
     const gaze::PixelPosition fovea = subject.field.fovea();
     foveation::plan_kfr(parameters, *lp, image, fovea, plan);
+    const foveation::LogPolarMap map(parameters.kernel, image, fovea);
+    const double core_px = plan.disc_radius_px - plan.disc_border_px;
     return PlannedMethod{
         .parameters = fmt::format(
             "sigma {}, {}, {}", set.sigma,
             set.kernel == "power" ? fmt::format("alpha {}", set.alpha) : "kernel " + set.kernel,
             set.disc ? "disc" : "no disc"),
         .samples = plan.texels_shaded + plan.pixels_direct,
-        .density = std::make_unique<foveation::KfrDensity>(
-            foveation::LogPolarMap(parameters.kernel, image, fovea), *lp, fovea,
-            plan.disc_radius_px - plan.disc_border_px),
+        .density = std::make_unique<foveation::KfrDensity>(map, *lp, fovea, core_px),
         .figures = {{"lp_width", static_cast<double>(lp->width)},
                     {"lp_height", static_cast<double>(lp->height)},
                     {"texels_shaded", static_cast<double>(plan.texels_shaded)},
                     {"texels_off_screen", static_cast<double>(plan.texels_off_screen)},
                     {"texels_under_disc", static_cast<double>(plan.texels_under_disc)},
                     {"disc_pixels", static_cast<double>(plan.pixels_direct)},
-                    {"disc_radius_px", plan.disc_radius_px}}};
+                    {"disc_radius_px", plan.disc_radius_px}},
+        .useless = foveation::why_useless(map, *lp, core_px)};
 }
 
 Expected<PlannedMethod> plan_acuity(const PlanSubject& subject) {
@@ -74,16 +76,15 @@ Expected<PlannedMethod> plan_acuity(const PlanSubject& subject) {
     if (!profile) {
         return std::unexpected(profile.error());
     }
-    const glm::dvec3 gaze = gaze::unproject(subject.field.fovea(), view);
     foveation::SamplingPlan plan;
-    foveation::plan_acuity(parameters, *profile, view, gaze, plan);
+    foveation::plan_acuity(parameters, *profile, view, subject.field.gaze(), plan);
     const double core = plan.in_gaze_frame->disc_half_sine - plan.in_gaze_frame->border_half_sine;
     return PlannedMethod{
         .parameters =
             fmt::format("m {}, {}", parameters.mar.slope, parameters.disc ? "disc" : "no disc"),
         .samples = plan.texels_shaded + plan.pixels_direct,
         .density = std::make_unique<foveation::AcuityDensity>(
-            foveation::AcuityMap(*profile, foveation::GazeFrame(view, gaze)),
+            foveation::AcuityMap(*profile, subject.field.frame()),
             glm::degrees(2.0 * std::asin(core))),
         .figures = {{"lp_width", static_cast<double>(plan.lp.width)},
                     {"lp_height", static_cast<double>(plan.lp.height)},

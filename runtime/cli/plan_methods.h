@@ -33,6 +33,7 @@ struct PlannedMethod {
     std::uint64_t samples = 0;  ///< shaded for one picture
     std::unique_ptr<foveation::OfferedDensity> density;
     std::vector<PlanFigure> figures{};  ///< of the method's own
+    std::string useless{};              ///< why its parameters make no useful picture; or empty
 };
 
 /// A method that `plan` knows. A new one is a function and a row in plan_methods.cpp.

@@ -31,6 +31,11 @@ std::string heading(const PlanQuestion& question) {
                 : std::string());
 }
 
+/// Nothing where the divisor is: an eye that sees none of the picture asks for no sample.
+std::string times(double ratio) {
+    return std::isfinite(ratio) ? fmt::format("{:.2f}x", ratio) : std::string("-");
+}
+
 }  // namespace
 
 PlanReport make_plan_report(PlanQuestion question, std::vector<PlanRow> rows) {
@@ -56,9 +61,9 @@ std::string plan_report_text(const PlanReport& report) {
     std::string text = heading(asked) + "\n\n";
     text += fmt::format("{:24} {:>10} {:>8}\n", "fewest samples by", "samples", "display");
     for (std::size_t i = 0; i < asked.models.size(); ++i) {
-        text += fmt::format("  {:22} {:>10} {:>7.2f}x\n", asked.models[i]->name(),
+        text += fmt::format("  {:22} {:>10} {:>8}\n", asked.models[i]->name(),
                             thousands(report.fewest[i]),
-                            static_cast<double>(report.display_pixels) / report.fewest[i]);
+                            times(static_cast<double>(report.display_pixels) / report.fewest[i]));
     }
     for (const PlanRow& row : report.rows) {
         text += fmt::format("\n{} {}\n", row.method, row.plan.parameters);
@@ -66,15 +71,18 @@ std::string plan_report_text(const PlanReport& report) {
             "  {} samples, {:.2f}x fewer than the display's pixels\n",
             thousands(static_cast<double>(row.plan.samples)),
             static_cast<double>(report.display_pixels) / static_cast<double>(row.plan.samples));
+        if (!row.plan.useless.empty()) {
+            text += fmt::format("  useless: {}\n", row.plan.useless);
+        }
         for (std::size_t i = 0; i < asked.models.size(); ++i) {
             const PlanVerdict& verdict = row.verdicts[i];
             const foveation::FieldPoint& worst = verdict.sufficiency.worst;
             text += fmt::format(
-                "  {:14} {:12} least {:>4} at {:.1f} deg (pixel {:.0f},{:.0f}); {:.2f}x the "
+                "  {:14} {:12} least {:>4} at {:.1f} deg (pixel {:.0f},{:.0f}); {} the "
                 "fewest\n",
                 asked.models[i]->name(), verdict.sufficiency.sufficient() ? "enough" : "not enough",
                 ratio(verdict.sufficiency.least_ratio), worst.eccentricity_deg, worst.pixel.x_px,
-                worst.pixel.y_px, verdict.samples_over_fewest);
+                worst.pixel.y_px, times(verdict.samples_over_fewest));
         }
     }
     text +=
@@ -115,6 +123,7 @@ nlohmann::ordered_json plan_report_json(const PlanReport& report) {
             figures[figure.name] = figure.value;
         }
         entry["figures"] = std::move(figures);
+        entry["useless"] = row.plan.useless;
         auto verdicts = ordered_json::array();
         for (std::size_t i = 0; i < asked.models.size(); ++i) {
             const PlanVerdict& verdict = row.verdicts[i];

@@ -5,6 +5,7 @@
 
 #include <charconv>
 
+#include "runtime/cli/kfr_settings.h"
 #include "runtime/preview/preview_memory.h"
 #include "runtime/preview/preview_window.h"
 
@@ -138,7 +139,7 @@ Expected<void> RunOptions::apply_to(Settings& settings, bool standard_files) con
             }
         }
     }
-    return {};
+    return take_kernel_table(settings);
 }
 
 void RunOptions::fill(FrameRunRequest& request) const {

@@ -41,7 +41,7 @@ struct RunOptions {
         {"--display", "profile.display", "display profile, by name or .toml file", ""},
         {"--sigma", "kfr.sigma", "picture width over LP-buffer width, .5 to 32", ""},
         {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16", ""},
-        {"--mar", "acuity.mar", "slope of the MAR line, .001 to 1", ""},
+        {"--mar", "acuity.mar", "slope of the MAR line, e.g. .022", ""},
         {"--seed", "sim.seed", "the same seed gives the same simulated gaze", ""},
         {"--tracker", "profile.tracker", "tracker profile, by name or .toml file", ""},
         {"--spp", "render.spp", "samples a texel or pixel, 1 to 16", ""},

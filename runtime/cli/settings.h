@@ -44,6 +44,7 @@ struct SettingValues {
         std::string kernel = "power";
         double alpha = 4.0;
         std::string polynomial = "1";
+        std::string kernel_samples;
         std::string kernel_table;
         std::int64_t lp_width = 0;
         std::int64_t lp_height = 0;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/foveation/hidden_area.h"
+
 namespace gazeloop::foveation {
 namespace {
 
@@ -28,7 +30,15 @@ Density AcuityMap::density(const gaze::PixelPosition& position, LpSize lp) const
 }
 
 std::optional<ColumnRange> AcuityMap::on_screen(double from_rad, double to_rad) const {
-    const auto rho = frame_.on_screen(from_rad, to_rad);
+    return columns(frame_.on_screen(from_rad, to_rad));
+}
+
+std::optional<ColumnRange> AcuityMap::visible(const HiddenArea& hidden, double from_rad,
+                                              double to_rad) const {
+    return columns(frame_.rho_in_wedge(hidden.outline(), from_rad, to_rad));
+}
+
+std::optional<ColumnRange> AcuityMap::columns(const std::optional<GazeFrame::RhoRange>& rho) const {
     if (!rho) {
         return std::nullopt;
     }

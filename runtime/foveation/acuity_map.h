@@ -17,6 +17,8 @@ class AcuityMap final : public RadialMap {
     [[nodiscard]] Density density(const gaze::PixelPosition& position, LpSize lp) const override;
     [[nodiscard]] std::optional<ColumnRange> on_screen(double from_rad,
                                                        double to_rad) const override;
+    [[nodiscard]] std::optional<ColumnRange> visible(const HiddenArea& hidden, double from_rad,
+                                                     double to_rad) const override;
 
     [[nodiscard]] const GazeFrame& frame() const { return frame_; }
     [[nodiscard]] const AcuityProfile& profile() const { return profile_; }
@@ -30,6 +32,9 @@ class AcuityMap final : public RadialMap {
     [[nodiscard]] double disc_eccentricity_deg(LpSize lp) const;
 
   private:
+    [[nodiscard]] std::optional<ColumnRange> columns(
+        const std::optional<GazeFrame::RhoRange>& rho) const;
+
     AcuityProfile profile_;
     GazeFrame frame_;
 };

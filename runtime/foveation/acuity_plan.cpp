@@ -38,8 +38,7 @@ void plan_disc_tiles(const GazeFrame& frame, double eccentricity_rad, const Hidd
             }
         }
         if (hidden != nullptr) {
-            const Columns visible = hidden->visible_columns(y0);
-            band = {std::max(band.first, visible.first), std::min(band.end, visible.end)};
+            band = common(band, hidden->visible_columns(y0));
         }
         if (!band.empty()) {
             plan.pixels_direct += std::uint64_t{y1 - y0} * (band.end - band.first);

@@ -64,12 +64,10 @@ Expected<AcuityProfile> AcuityProfile::create(const AcuityParameters& parameters
         derived ? std::clamp(most_pixels_per_degree(view), P::kMinPixelsPerDegree,
                              P::kMaxPixelsPerDegree)
                 : parameters.pixels_per_degree;
-    for (const auto& good :
-         {check("acuity.mar", parameters.mar.slope, P::kMinSlope, P::kMaxSlope),
-          check("acuity.omega0_deg", parameters.mar.omega0_deg, P::kMinOmega0Deg, P::kMaxOmega0Deg),
-          check("acuity.pixels_per_degree", pixels_per_degree, P::kMinPixelsPerDegree,
-                P::kMaxPixelsPerDegree),
-          check("acuity.border_px", parameters.border_px, 0.0, 64.0)}) {
+    for (const auto& good : {check_mar_line(parameters.mar),
+                             check("acuity.pixels_per_degree", pixels_per_degree,
+                                   P::kMinPixelsPerDegree, P::kMaxPixelsPerDegree),
+                             check("acuity.border_px", parameters.border_px, 0.0, 64.0)}) {
         if (!good) {
             return std::unexpected(good.error());
         }

@@ -11,10 +11,6 @@ namespace gazeloop::foveation {
 
 /// The parameters of acuity-derived foveated rendering.
 struct AcuityParameters {
-    static constexpr double kMinSlope = 0.001;
-    static constexpr double kMaxSlope = 1.0;
-    static constexpr double kMinOmega0Deg = 0.001;
-    static constexpr double kMaxOmega0Deg = 1.0;
     static constexpr double kMinPixelsPerDegree = 0.01;
     static constexpr double kMaxPixelsPerDegree = 1e5;
 

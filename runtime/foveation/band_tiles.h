@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +25,12 @@ struct Columns {
 
     [[nodiscard]] bool empty() const { return first >= end; }
 };
+
+/// What both have; all zero where they have nothing in common.
+[[nodiscard]] inline Columns common(const Columns& a, const Columns& b) {
+    const Columns both{std::max(a.first, b.first), std::min(a.end, b.end)};
+    return both.empty() ? Columns{} : both;
+}
 
 /// Appends tiles that hold every column of every band: one for each run of kTileRows rows that
 /// needs any, as small as its bands allow. Band i has the rows [i * kBandRows, min((i + 1) *

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "runtime/error.h"
+#include "runtime/foveation/gaze_frame.h"
 #include "runtime/foveation/tile.h"
 #include "runtime/gaze/view.h"
 
@@ -13,15 +14,18 @@ namespace gazeloop::foveation {
 struct FieldPoint {
     gaze::PixelPosition pixel;
     double eccentricity_deg = 0.0;  ///< the true angle from the gaze, not a distance in pixels
-    double direction_rad = 0.0;     ///< around the gaze: 0 to the right, counter-clockwise
+    /// Around the gaze: 0 to the right, counter-clockwise; turned with the gaze as GazeFrame is,
+    /// which by Listing's law is how an eye turns.
+    double direction_rad = 0.0;
     /// How the pixel position moves: first column by a degree outward from the gaze, second column
     /// by a degree counter-clockwise around it (of visual angle, not of direction).
     glm::dmat2 px_per_deg{1.0};
 };
 
-/// The visual field around one gaze, on one eye's flat picture. On such a picture a circle of
-/// eccentricity around an off-axis gaze is no circle in pixels, so whatever depends on acuity has
-/// to be asked for here.
+/// The visual field around one gaze, on one eye's flat picture: a GazeFrame that has been checked,
+/// in degrees, and what models and plans ask of it. On such a picture a circle of eccentricity
+/// around an off-axis gaze is no circle in pixels, so whatever depends on acuity has to be asked
+/// for here.
 class GazeField {
   public:
     /// `gaze_direction` in the view frame, of any length. Errors (Usage): a view that cannot be
@@ -31,10 +35,13 @@ class GazeField {
 
     static constexpr std::uint32_t kMaxSidePx = 16384;
 
-    [[nodiscard]] const gaze::EyeView& view() const { return view_; }
+    [[nodiscard]] const gaze::EyeView& view() const { return frame_.view(); }
+    [[nodiscard]] const GazeFrame& frame() const { return frame_; }
+    /// The gaze, in the view frame; unit length.
+    [[nodiscard]] const glm::dvec3& gaze() const { return frame_.view_from_gaze()[2]; }
 
     /// Where the gaze falls in the picture (or beyond it: gaze::project).
-    [[nodiscard]] gaze::PixelPosition fovea() const { return gaze::project(forward_, view_); }
+    [[nodiscard]] gaze::PixelPosition fovea() const { return gaze::project(gaze(), view()); }
 
     /// The field at a pixel position, in the picture or beyond it.
     [[nodiscard]] FieldPoint at(const gaze::PixelPosition& pixel) const;
@@ -59,17 +66,11 @@ class GazeField {
     [[nodiscard]] double greatest_eccentricity_deg() const;
 
   private:
-    GazeField(const gaze::EyeView& view, const glm::dvec3& forward);
+    explicit GazeField(const GazeFrame& frame) : frame_(frame) {}
 
-    [[nodiscard]] double eccentricity_rad(const glm::dvec3& direction) const;
-    [[nodiscard]] FieldPoint point(const glm::dvec3& direction, const gaze::PixelPosition& pixel,
-                                   double eccentricity_rad, double direction_rad) const;
+    [[nodiscard]] FieldPoint point(const gaze::PixelPosition& pixel, const GazePolar& polar) const;
 
-    gaze::EyeView view_;
-    glm::dvec3 forward_;  ///< of the gaze frame; unit, as the two below
-    glm::dvec3 right_;
-    glm::dvec3 up_;
-    glm::dvec2 px_per_tangent_;
+    GazeFrame frame_;
 };
 
 }  // namespace gazeloop::foveation

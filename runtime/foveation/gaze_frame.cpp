@@ -5,42 +5,17 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <numbers>
 
+#include "runtime/foveation/segment_part.h"
 #include "runtime/gaze/direction.h"
 
 namespace gazeloop::foveation {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-/// A convex polygon of rays: the picture's rectangle, cut by at most two lines.
-struct Polygon {
-    std::array<glm::dvec3, 6> rays{};
-    std::size_t size = 0;
-
-    void add(const glm::dvec3& ray) { rays[size++] = ray; }
-    [[nodiscard]] const glm::dvec3& after(std::size_t i) const { return rays[(i + 1) % size]; }
-};
-
-/// The part on the inner side of the plane through the eye with this normal.
-Polygon cut(const Polygon& polygon, const glm::dvec3& inside) {
-    Polygon kept;
-    for (std::size_t i = 0; i < polygon.size; ++i) {
-        const glm::dvec3& a = polygon.rays[i];
-        const glm::dvec3& b = polygon.after(i);
-        const double side_a = glm::dot(inside, a);
-        const double side_b = glm::dot(inside, b);
-        if (side_a >= 0.0) {
-            kept.add(a);
-        }
-        if ((side_a > 0.0 && side_b < 0.0) || (side_a < 0.0 && side_b > 0.0)) {
-            kept.add(glm::mix(a, b, side_a / (side_a - side_b)));
-        }
-    }
-    return kept;
-}
 
 /// tan(e / 2) of a ray; no cancellation before and behind.
 double rho_of(const glm::dvec3& ray) {
@@ -51,11 +26,9 @@ double rho_of(const glm::dvec3& ray) {
 
 /// (x_px, y_px, 1) to the ray (tangents, -1) in the view frame.
 glm::dmat3 view_from_picture(const gaze::EyeView& view) {
-    const double left = std::tan(view.fov.left_rad);
-    const double up = std::tan(view.fov.up_rad);
-    const double per_x = (std::tan(view.fov.right_rad) - left) / view.width_px;
-    const double per_y = (std::tan(view.fov.down_rad) - up) / view.height_px;
-    return {glm::dvec3(per_x, 0.0, 0.0), glm::dvec3(0.0, per_y, 0.0), glm::dvec3(left, up, -1.0)};
+    const glm::dvec2 tangents = 1.0 / px_per_tangent(view);
+    return {glm::dvec3(tangents.x, 0.0, 0.0), glm::dvec3(0.0, tangents.y, 0.0),
+            glm::dvec3(std::tan(view.fov.left_rad), std::tan(view.fov.up_rad), -1.0)};
 }
 
 /// Right, down and forward of a gaze, in the view frame: the smallest rotation from straight ahead.
@@ -103,32 +76,24 @@ std::optional<gaze::PixelPosition> GazeFrame::position(const GazePolar& polar) c
     if (direction.z >= -1e-12) {
         return std::nullopt;
     }
-    const double left = std::tan(view_.fov.left_rad);
-    const double up = std::tan(view_.fov.up_rad);
+    const glm::dvec2 scale = px_per_tangent(view_);
     return gaze::PixelPosition{
-        (direction.x / -direction.z - left) * view_.width_px /
-            (std::tan(view_.fov.right_rad) - left),
-        (direction.y / -direction.z - up) * view_.height_px / (std::tan(view_.fov.down_rad) - up)};
+        (direction.x / -direction.z - std::tan(view_.fov.left_rad)) * scale.x,
+        (direction.y / -direction.z - std::tan(view_.fov.up_rad)) * scale.y};
 }
 
-std::optional<GazeFrame::RhoRange> GazeFrame::on_screen(double from_rad, double to_rad) const {
-    const double right = view_.width_px - 0.5;
-    const double bottom = view_.height_px - 0.5;
-    Polygon polygon{{ray(0.5, 0.5), ray(right, 0.5), ray(right, bottom), ray(0.5, bottom)}, 4};
-    // Half a turn or more is not convex any more: take every direction.
-    if (to_rad - from_rad < kPi * 0.999) {
-        // A row's directions are a half-plane through the gaze. It cuts the picture in a line, so
-        // that the wedge between two of them is cut out of the rectangle by two lines.
-        polygon = cut(polygon, {-std::sin(from_rad), std::cos(from_rad), 0.0});
-        polygon = cut(polygon, {std::sin(to_rad), -std::cos(to_rad), 0.0});
-    }
-    if (polygon.size == 0) {
-        return std::nullopt;
-    }
-    // Eccentricity has no extreme on the sphere but at the gaze and opposite of it, so over a
-    // polygon its extremes lie on the edges, or at the gaze inside. The sphere's point opposite of
-    // the gaze may lie inside as well.
-    RhoRange range{std::numeric_limits<double>::infinity(), 0.0};
+std::optional<GazeFrame::RhoRange> GazeFrame::rho_in_wedge(std::span<const glm::dvec2> polygon,
+                                                           double from_rad, double to_rad) const {
+    // A row's directions are a half-plane through the gaze. It cuts the picture in a line, so that
+    // the wedge between two of them is cut out of the polygon by two lines.
+    const bool all_directions = is_every_direction(from_rad, to_rad);
+    const glm::dvec3 after_first{-std::sin(from_rad), std::cos(from_rad), 0.0};
+    const glm::dvec3 before_last{std::sin(to_rad), -std::cos(to_rad), 0.0};
+
+    // Eccentricity has no extreme on the sphere but at the gaze and opposite of it, and none along
+    // the wedge's sides, so over the part in the wedge its extremes lie on the polygon's edges, or
+    // at the gaze inside. The sphere's point opposite of the gaze may lie inside as well.
+    RhoRange range{std::numeric_limits<double>::infinity(), -1.0};
     const auto include = [&](const glm::dvec3& at) {
         const double rho = rho_of(at);
         range.min = std::min(range.min, rho);
@@ -136,30 +101,63 @@ std::optional<GazeFrame::RhoRange> GazeFrame::on_screen(double from_rad, double 
     };
     bool gaze_inside = true;
     bool opposite_inside = true;
-    for (std::size_t i = 0; i < polygon.size; ++i) {
-        const glm::dvec3& a = polygon.rays[i];
-        const glm::dvec3 b = polygon.after(i) - a;
-        include(a);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2& from = polygon[i];
+        const glm::dvec2& to = polygon[(i + 1) % polygon.size()];
+        const glm::dvec3 a = ray(from.x, from.y);
+        const glm::dvec3 end = ray(to.x, to.y);
+        const glm::dvec3 b = end - a;
+        // The side of the edge's plane that the gaze is on; corners go round as angles do.
+        const double side = a.x * b.y - a.y * b.x;
+        gaze_inside = gaze_inside && side >= 0.0;
+        opposite_inside = opposite_inside && side <= 0.0;
+        SegmentPart part;
+        if (!all_directions) {
+            part.clip(glm::dot(after_first, a), glm::dot(after_first, end));
+            part.clip(glm::dot(before_last, a), glm::dot(before_last, end));
+        }
+        if (part.empty()) {
+            continue;
+        }
+        include(a + part.from * b);
+        include(a + part.to * b);
         // Along a straight edge, which is an arc of a great circle, the cosine of eccentricity has
         // one extreme: a.z, b.z are components along the gaze.
         const double aa = glm::dot(a, a);
         const double ab = glm::dot(a, b);
         const double bb = glm::dot(b, b);
         const double t = (b.z * aa - a.z * ab) / (a.z * bb - b.z * ab);
-        if (t > 0.0 && t < 1.0) {
+        if (t > part.from && t < part.to) {
             include(a + t * b);
         }
-        // The side of the edge's plane that the gaze is on; corners go round as angles do.
-        const double side = a.x * b.y - a.y * b.x;
-        gaze_inside = gaze_inside && side >= 0.0;
-        opposite_inside = opposite_inside && side <= 0.0;
+    }
+    if (range.max < 0.0) {
+        return std::nullopt;
     }
     if (gaze_inside) {
         range.min = 0.0;
-    } else if (opposite_inside) {
+    }
+    if (opposite_inside) {
         range.max = std::numeric_limits<double>::infinity();
     }
     return range;
+}
+
+std::optional<GazeFrame::RhoRange> GazeFrame::on_screen(double from_rad, double to_rad) const {
+    const double right = view_.width_px - 0.5;
+    const double bottom = view_.height_px - 0.5;
+    const std::array<glm::dvec2, 4> corners{glm::dvec2{0.5, 0.5}, glm::dvec2{right, 0.5},
+                                            glm::dvec2{right, bottom}, glm::dvec2{0.5, bottom}};
+    return rho_in_wedge(corners, from_rad, to_rad);
+}
+
+GazeFrame::RhoRange GazeFrame::rho_over(const gaze::PixelPosition& corner,
+                                        const gaze::PixelPosition& opposite) const {
+    const auto [x0, x1] = std::minmax(corner.x_px, opposite.x_px);
+    const auto [y0, y1] = std::minmax(corner.y_px, opposite.y_px);
+    const std::array<glm::dvec2, 4> corners{glm::dvec2{x0, y0}, glm::dvec2{x1, y0},
+                                            glm::dvec2{x1, y1}, glm::dvec2{x0, y1}};
+    return *rho_in_wedge(corners, 0.0, 2.0 * kPi);
 }
 
 std::optional<GazeFrame::RowSpan> GazeFrame::row_within(double y_px,
@@ -202,10 +200,16 @@ std::optional<GazeFrame::RowSpan> GazeFrame::row_within(double y_px,
     return RowSpan{from, to};
 }
 
-PixelsPerDegree pixels_per_degree(const gaze::EyeView& view, const glm::dvec3& direction) {
+glm::dvec2 px_per_tangent(const gaze::EyeView& view) {
     const gaze::FieldOfView& fov = view.fov;
-    const double per_x = view.width_px / (std::tan(fov.right_rad) - std::tan(fov.left_rad));
-    const double per_y = view.height_px / (std::tan(fov.up_rad) - std::tan(fov.down_rad));
+    return {view.width_px / (std::tan(fov.right_rad) - std::tan(fov.left_rad)),
+            view.height_px / (std::tan(fov.down_rad) - std::tan(fov.up_rad))};
+}
+
+PixelsPerDegree pixels_per_degree(const gaze::EyeView& view, const glm::dvec3& direction) {
+    const glm::dvec2 scale_px = px_per_tangent(view);
+    const double per_x = scale_px.x;
+    const double per_y = -scale_px.y;
     const double x = direction.x / -direction.z;
     const double y = direction.y / -direction.z;
     // The metric of directions, pulled back to tangents x, y, has the inverse

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 
 #include "runtime/foveation/radial_map.h"
 #include "runtime/gaze/view.h"
@@ -40,13 +42,20 @@ class GazeFrame {
     /// in the view frame.
     [[nodiscard]] glm::dvec3 nearest_in_view() const;
 
-    /// The range of rho over the rectangle that the pixel centres span, within the wedge of angles;
-    /// exact. Nothing: the wedge misses the screen.
     struct RhoRange {
         double min = 0.0;
         double max = 0.0;
     };
+    /// The range of rho over a convex polygon of the picture, within the wedge of angles from
+    /// `from_rad` to `to_rad` (to > from); exact. Its corners, px, in the order in which angles
+    /// grow. Nothing: the wedge misses it, or it has no corner.
+    [[nodiscard]] std::optional<RhoRange> rho_in_wedge(std::span<const glm::dvec2> polygon,
+                                                       double from_rad, double to_rad) const;
+    /// The same of the rectangle that the pixel centres span.
     [[nodiscard]] std::optional<RhoRange> on_screen(double from_rad, double to_rad) const;
+    /// The same of any rectangle, in every direction.
+    [[nodiscard]] RhoRange rho_over(const gaze::PixelPosition& corner,
+                                    const gaze::PixelPosition& opposite) const;
 
     /// The pixel centres of one row of the picture that lie within an eccentricity of the gaze:
     /// from .. to, px, clipped to the row; nothing if there are none. Exact up to 90 degrees;
@@ -66,6 +75,10 @@ class GazeFrame {
     glm::dmat3 view_from_gaze_{1.0};
     glm::dmat3 gaze_from_picture_{1.0};
 };
+
+/// How far a unit of tangent reaches in the view's picture, pixels: to the right and, negative,
+/// upward.
+[[nodiscard]] glm::dvec2 px_per_tangent(const gaze::EyeView& view);
 
 /// Pixels per degree of the view's picture, at a position: along the finest direction, and the
 /// geometric mean of the finest and the coarsest (whose square is pixels per square degree).

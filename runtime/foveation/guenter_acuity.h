@@ -8,15 +8,6 @@
 
 namespace gazeloop::foveation {
 
-/// The slopes and foveal angles that can be computed with; the paper's are .022 to .034 and 1/48.
-inline constexpr double kMinMarSlope = 1e-6;
-inline constexpr double kMaxMarSlope = 1.0;
-inline constexpr double kMinOmega0Deg = 1e-4;
-inline constexpr double kMaxOmega0Deg = 10.0;
-
-/// Errors (Usage): slope or omega0 out of range or not a number.
-Expected<void> check_mar_line(const MarLine& line);
-
 /// Guenter et al. 2012: the cut-off is 1 / omega(e), omega(e) = m e + omega0.
 class GuenterAcuity final : public AcuityModel {
   public:

@@ -3,12 +3,11 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "runtime/foveation/band_tiles.h"
-#include "runtime/foveation/screen_wedge.h"
+#include "runtime/foveation/lp_size.h"
 #include "runtime/foveation/tile.h"
 #include "runtime/gaze/hidden_mesh.h"
 #include "runtime/gaze/view.h"
@@ -48,12 +47,9 @@ class HiddenArea {
         return groups_[first_row / kGroupRows];
     }
 
-    /// The distances from the fovea at which centres of visible pixels can lie, within a wedge (see
-    /// screen_radii_in_wedge). Exact for the convex hull of these centres.
-    [[nodiscard]] std::optional<RadiusRange> visible_radii_in_wedge(
-        const gaze::PixelPosition& fovea, double from_rad, double to_rad) const {
-        return radii_in_wedge(outline_, fovea, from_rad, to_rad);
-    }
+    /// The convex hull of the visible pixels' centres, px: its corners in the order in which angles
+    /// from x to y grow. For what is bounded by it (screen_wedge.h, GazeFrame::rho_in_wedge).
+    [[nodiscard]] std::span<const glm::dvec2> outline() const { return outline_; }
 
   private:
     void add_tile(const Tile& tile);
@@ -61,7 +57,7 @@ class HiddenArea {
 
     std::vector<Columns> groups_;
     std::vector<Tile> tiles_;
-    std::vector<glm::dvec2> outline_;  ///< convex hull of the visible pixels' centres
+    std::vector<glm::dvec2> outline_;
     std::uint64_t hidden_pixels_ = 0;
 };
 

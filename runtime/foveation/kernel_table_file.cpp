@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -106,6 +108,22 @@ Expected<TableKernel> read_kernel_table(std::istream& in, const std::string& nam
         return refuse(name, read->lines.empty() ? 1 : read->lines[sample], kernel.error().message);
     }
     return std::move(*kernel);
+}
+
+std::string kernel_samples(const TableKernel& kernel) {
+    std::string line;
+    for (std::size_t i = 0; i < kernel.samples(); ++i) {
+        const Sample at = kernel.sample(i);
+        line += fmt::format("{}{},{}", i == 0 ? "" : ";", at.x, at.y);
+    }
+    return line;
+}
+
+Expected<TableKernel> read_kernel_samples(std::string_view samples, const std::string& name) {
+    std::string lines(samples);
+    std::ranges::replace(lines, ';', '\n');
+    std::istringstream in(lines);
+    return read_kernel_table(in, name, false);
 }
 
 Expected<TableKernel> load_kernel_table(const std::filesystem::path& file) {

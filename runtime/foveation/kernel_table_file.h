@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <istream>
 #include <string>
+#include <string_view>
 
 #include "runtime/foveation/table_kernel.h"
 
@@ -14,6 +15,11 @@ namespace gazeloop::foveation {
 /// Errors (BadInput): what cannot be read, is no number, or breaks TableKernel's rules, with
 /// "name:line".
 Expected<TableKernel> read_kernel_table(std::istream& in, const std::string& name, bool toml);
+
+/// A kernel's samples in one line, "x,y;x,y;...": each number as short as gives the same double
+/// again. And back; errors (BadInput) as above, with "name:pair".
+std::string kernel_samples(const TableKernel& kernel);
+Expected<TableKernel> read_kernel_samples(std::string_view samples, const std::string& name);
 
 /// From a file: TOML if its name ends in .toml.
 Expected<TableKernel> load_kernel_table(const std::filesystem::path& file);

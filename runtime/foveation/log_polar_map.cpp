@@ -1,5 +1,5 @@
-#include "runtime/foveation/hidden_area.h"
 #include "runtime/foveation/log_polar_map.h"
+#include "runtime/foveation/hidden_area.h"
 
 #include <fmt/core.h>
 
@@ -113,7 +113,7 @@ std::optional<ColumnRange> LogPolarMap::on_screen(double from_rad, double to_rad
 
 std::optional<ColumnRange> LogPolarMap::visible(const HiddenArea& hidden, double from_rad,
                                                 double to_rad) const {
-    const auto radii = hidden.visible_radii_in_wedge(fovea_, from_rad, to_rad);
+    const auto radii = radii_in_wedge(hidden.outline(), fovea_, from_rad, to_rad);
     if (!radii) {
         return std::nullopt;
     }

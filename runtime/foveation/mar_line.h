@@ -1,17 +1,32 @@
 #pragma once
 
+#include "runtime/error.h"
+
 namespace gazeloop::foveation {
 
 /// The line that the minimum angle of resolution follows with eccentricity, in degrees per cycle:
 ///     omega(e) = m e + omega0
 /// (Guenter et al. 2012, section 3).
 struct MarLine {
-    double slope = 0.022;            ///< m, degrees per cycle and degree; > 0, usable .022 to .034
-    double omega0_deg = 1.0 / 48.0;  ///< at the fovea, degrees per cycle; > 0
+    /// The lines that are computed with. The least slope is flat (over 180 degrees it rises by less
+    /// than a hundredth of 1/48), the greatest leaves a cycle in a field as wide as it is far off;
+    /// 1e-4 degrees per cycle are a hundred times finer than an eye's optics, 10 a few blobs in the
+    /// field. Whether a line asks for more texels than a device holds is another matter
+    /// (AcuityProfile).
+    static constexpr double kMinSlope = 1e-6;
+    static constexpr double kMaxSlope = 1.0;
+    static constexpr double kMinOmega0Deg = 1e-4;
+    static constexpr double kMaxOmega0Deg = 10.0;
+
+    double slope = 0.022;            ///< m, degrees per cycle and degree; usable .022 to .034
+    double omega0_deg = 1.0 / 48.0;  ///< at the fovea, degrees per cycle
 
     [[nodiscard]] double omega_deg(double eccentricity_deg) const {
         return slope * eccentricity_deg + omega0_deg;
     }
 };
+
+/// Errors (Usage): slope or omega0 out of range or not a number; with the value and the range.
+Expected<void> check_mar_line(const MarLine& line);
 
 }  // namespace gazeloop::foveation

@@ -53,12 +53,10 @@ class RadialMap {
     [[nodiscard]] virtual std::optional<ColumnRange> on_screen(double from_rad,
                                                                double to_rad) const = 0;
 
-    /// The part of on_screen() that visible pixel centres lie in; may be more, and is all of it
-    /// unless the map knows better.
-    [[nodiscard]] virtual std::optional<ColumnRange> visible(const HiddenArea& /*hidden*/,
-                                                             double from_rad, double to_rad) const {
-        return on_screen(from_rad, to_rad);
-    }
+    /// The part of on_screen() that visible pixel centres lie in. Exact for their convex hull.
+    [[nodiscard]] virtual std::optional<ColumnRange> visible(const HiddenArea& hidden,
+                                                             double from_rad,
+                                                             double to_rad) const = 0;
 };
 
 }  // namespace gazeloop::foveation

@@ -23,12 +23,6 @@ Columns columns_between(LpSize lp, double from_u, double to_u) {
             static_cast<std::uint32_t>(std::clamp(high, 0.0, last_column)) + 1};
 }
 
-/// What both have; all zero where they have nothing in common.
-Columns common(const Columns& a, const Columns& b) {
-    const Columns both{std::max(a.first, b.first), std::min(a.end, b.end)};
-    return both.empty() ? Columns{} : both;
-}
-
 }  // namespace
 
 void plan_lp_tiles(const RadialMap& map, double core_u, const HiddenArea* hidden,

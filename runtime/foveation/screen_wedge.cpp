@@ -5,7 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
+
+#include "runtime/foveation/segment_part.h"
 
 namespace gazeloop::foveation {
 namespace {
@@ -37,31 +38,13 @@ class Reach {
     RadiusRange range_{std::numeric_limits<double>::infinity(), -1.0};
 };
 
-/// Where a segment lies in the half-plane of the points p with sign * cross(direction, p) >= 0.
-struct Part {
-    double from = 0.0;
-    double to = 1.0;
-
-    void clip(double at_a, double at_b) {
-        if (at_a < 0.0 && at_b < 0.0) {
-            to = -1.0;
-        } else if (at_a < 0.0) {
-            from = std::max(from, at_a / (at_a - at_b));
-        } else if (at_b < 0.0) {
-            to = std::min(to, at_a / (at_a - at_b));
-        }
-    }
-    [[nodiscard]] bool empty() const { return from > to; }
-};
-
 }  // namespace
 
 std::optional<RadiusRange> radii_in_wedge(std::span<const glm::dvec2> polygon,
                                           const gaze::PixelPosition& fovea, double from_rad,
                                           double to_rad) {
     const glm::dvec2 origin{fovea.x_px, fovea.y_px};
-    // Half a turn or more is not convex any more: take every direction.
-    const bool all_directions = to_rad - from_rad >= std::numbers::pi * 0.999;
+    const bool all_directions = is_every_direction(from_rad, to_rad);
     const glm::dvec2 first{std::cos(from_rad), std::sin(from_rad)};
     const glm::dvec2 last{std::cos(to_rad), std::sin(to_rad)};
 
@@ -75,7 +58,7 @@ std::optional<RadiusRange> radii_in_wedge(std::span<const glm::dvec2> polygon,
         const double side = cross(a, b);
         left_of_all = left_of_all && side >= 0.0;
         right_of_all = right_of_all && side <= 0.0;
-        Part part;
+        SegmentPart part;
         if (!all_directions) {
             part.clip(cross(first, a), cross(first, b));
             part.clip(cross(a, last), cross(b, last));

@@ -37,6 +37,7 @@ class TableKernel {
     [[nodiscard]] double inverse(double y) const;
     [[nodiscard]] double derivative(double x) const;
     [[nodiscard]] std::size_t samples() const { return knots_->size(); }
+    [[nodiscard]] Sample sample(std::size_t i) const { return {(*knots_)[i].x, (*knots_)[i].y}; }
 
   private:
     struct Knot {

@@ -8,16 +8,10 @@
 namespace gazeloop::numerics {
 namespace {
 
-double cpu_px(const EnvelopeRow& row) { return std::max(row.cpu.forward_px, row.cpu.inverse_px); }
-
-double device_px(const EnvelopeRow& row) {
-    return std::max(row.device.forward_px, row.device.inverse_px);
-}
-
 /// Useful parameters first, then how close the row comes to its target.
 std::pair<bool, double> closeness(const EnvelopeRow& row) {
-    return {row.useless.empty(),
-            std::max(cpu_px(row) / row.target_px, device_px(row) / row.device_target_px)};
+    return {row.useless.empty(), std::max(row.cpu.largest_px() / row.target_px,
+                                          row.device.largest_px() / row.device_target_px)};
 }
 
 EnvelopeGroup group_of(const std::vector<const EnvelopeRow*>& rows) {
@@ -27,8 +21,8 @@ EnvelopeGroup group_of(const std::vector<const EnvelopeRow*>& rows) {
                         .image = closest.image,
                         .on_screen = closest.on_screen,
                         .rows = rows.size(),
-                        .cpu_px = cpu_px(closest),
-                        .device_px = device_px(closest),
+                        .cpu_px = closest.cpu.largest_px(),
+                        .device_px = closest.device.largest_px(),
                         .bound_px = std::max(closest.forward_bound_px, closest.inverse_bound_px),
                         .conditioning_px = closest.conditioning_px,
                         .target_px = closest.target_px};

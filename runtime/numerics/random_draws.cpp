@@ -15,6 +15,7 @@ namespace {
 using foveation::FloatMap;
 using foveation::LpSize;
 using foveation::MapTables;
+using foveation::MarLine;
 
 constexpr std::uint64_t kDrawsPerMap = 10'000;
 
@@ -92,7 +93,9 @@ class Draws {
                                  .width_px = image_.width_px,
                                  .height_px = image_.height_px};
         const auto profile = foveation::AcuityProfile::create(
-            {.mar = {.slope = scaled(0.001, 1.0), .omega0_deg = scaled(0.001, 1.0)}}, view);
+            {.mar = {.slope = scaled(MarLine::kMinSlope, MarLine::kMaxSlope),
+                     .omega0_deg = scaled(MarLine::kMinOmega0Deg, MarLine::kMaxOmega0Deg)}},
+            view);
         if (!profile) {
             return false;
         }

@@ -39,6 +39,10 @@ std::vector<Figure> loop(const Options& options);
 /// Speed of the acuity-derived map over full resolution and over KFR, gaze in the middle.
 std::vector<Figure> acuity(const Options& options);
 
+/// What maps cost the processor: building the tables of every kernel and of the acuity-derived map,
+/// once, and following the gaze, which needs no new ones.
+std::vector<Figure> maps(const Options& options);
+
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.
 [[nodiscard]] double median(std::vector<double> values);
 

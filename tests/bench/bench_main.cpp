@@ -18,7 +18,7 @@ struct Named {
     std::vector<Figure> (*run)(const Options&);
 };
 constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast}, Named{"acuity", acuity},
-                              Named{"loop", loop}};
+                              Named{"loop", loop}, Named{"maps", maps}};
 
 void print(const std::vector<Figure>& figures) {
     fmt::print("{:12} {:18} {:28} {:>10} {:5} {:>8} {:>8}\n", "bench", "case", "metric", "value",

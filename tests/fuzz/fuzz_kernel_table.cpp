@@ -32,6 +32,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 kernel.error().message.starts_with("fuzz:"));
         return 0;
     }
+    const std::string line = foveation::kernel_samples(*kernel);
+    const auto again = foveation::read_kernel_samples(line, "fuzz");
+    require(again.has_value() && foveation::kernel_samples(*again) == line);
     double before = 0.0;
     for (int i = 0; i <= 64; ++i) {
         const double x = i / 64.0;

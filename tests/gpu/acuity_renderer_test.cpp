@@ -113,31 +113,64 @@ INSTANTIATE_TEST_SUITE_P(Views, AcuityRenderer,
 
 using AcuityRendererOnce = FrameRendererTest;
 
-TEST_F(AcuityRendererOnce, FollowsAFieldOfViewThatChanges) {
-    const RendererConfig acuity = config(Method::Acuity, kWidth, kHeight);
-    FrameRequest at = request(acuity, {100.0, 120.0});
-    FrameRenderer renderer(context(), acuity);
+/// A renderer with pictures to draw into.
+struct Drawing {
+    RendererConfig config;
     gaze::PerEye<ColorImage> images;
-    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-        images[e] = ColorImage(
-            context(), acuity.extents[e], acuity.format,
-            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
-        at.targets[e] = {images[e].image(), images[e].view()};
+    FrameRenderer renderer;  // waits for its frames before the images go
+
+    Drawing(const VulkanContext& context, const RendererConfig& drawn)
+        : config(drawn), renderer(context, drawn) {
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            images[e] = ColorImage(
+                context, config.extents[e], config.format,
+                vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
+        }
     }
-    const auto draw = [&] {
+
+    void draw(FrameRequest request) {
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            request.targets[e] = {images[e].image(), images[e].view()};
+        }
         renderer.wait_for_slot();
         while (renderer.next_finished()) {
         }
-        renderer.render(at);
-    };
-    draw();
+        renderer.render(request);
+    }
+};
+
+TEST_F(AcuityRendererOnce, FollowsAFieldOfViewThatChanges) {
+    const RendererConfig acuity = config(Method::Acuity, kWidth, kHeight);
+    FrameRequest at = request(acuity, {100.0, 120.0});
+    Drawing drawing(context(), acuity);
+    drawing.draw(at);
+    const LogPolarEye* const first = drawing.renderer.log_polar_eye(gaze::Eye::Left);
     at.views[0].fov.right_rad = 0.5;
     at.gaze_directions[0] = gaze::unproject(at.foveae[0], at.views[0]);
-    draw();
-    renderer.wait_idle();
-    const Picture changed = read_back(context(), images[0].image(), acuity.extents[0],
+    drawing.draw(at);
+    EXPECT_NE(drawing.renderer.log_polar_eye(gaze::Eye::Left), first);
+    drawing.renderer.wait_idle();
+    const Picture changed = read_back(context(), drawing.images[0].image(), acuity.extents[0],
                                       acuity.format, vk::ImageLayout::eColorAttachmentOptimal);
     EXPECT_EQ(largest_difference(changed, render(acuity, at).pictures[0]), 0);
+}
+
+// A late latch costs a plan and a few uniforms: what is built for an eye, tables, buffers, stays.
+TEST_F(AcuityRendererOnce, ANewGazeBuildsNothing) {
+    for (const Method method : {Method::Acuity, Method::Kfr}) {
+        const RendererConfig log_polar = config(method, kWidth, kHeight);
+        Drawing drawing(context(), log_polar);
+        drawing.draw(request(log_polar, {160.0, 120.0}));
+        const LogPolarEye* const eye = drawing.renderer.log_polar_eye(gaze::Eye::Left);
+        ASSERT_NE(eye, nullptr);
+        const vk::Buffer tables = eye->map_buffers().map_tables();
+        for (const gaze::PixelPosition& gaze :
+             {gaze::PixelPosition{0, 0}, {320, 7}, {-200, 500}, {160.25, 120}, {1e6, 0}}) {
+            drawing.draw(request(log_polar, gaze));
+            EXPECT_EQ(drawing.renderer.log_polar_eye(gaze::Eye::Left), eye);
+            EXPECT_EQ(eye->map_buffers().map_tables(), tables);
+        }
+    }
 }
 
 }  // namespace

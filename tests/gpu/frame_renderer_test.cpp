@@ -82,6 +82,35 @@ TEST_F(FrameRendererTest, ShowsNoSeamInASmoothPicture) {
     }
 }
 
+// The angle wraps on a line from the fovea to the right. Rows of 45 degrees differ much, and
+// wherever they meet, the picture goes on: there too, where the last row meets the first.
+TEST_F(FrameRendererTest, JoinsTheLastRowToTheFirst) {
+    for (const Method method : {Method::Kfr, Method::Acuity}) {
+        RendererConfig coarse = config(method, 256, 256);
+        coarse.kfr.lp_height = 8;
+        coarse.kfr.disc = false;
+        coarse.acuity.lp_height = 8;
+        coarse.acuity.disc = false;
+        const Picture picture = render(coarse, request(coarse, {128.0, 128.0})).pictures[0];
+        const auto step = [&](std::uint32_t y) {
+            int largest = 0;
+            for (std::uint32_t x = 200; x < 256; ++x) {
+                for (std::size_t c = 0; c < 3; ++c) {
+                    largest = std::max(largest, std::abs(picture.pixels[y * 256 + x][c] -
+                                                         picture.pixels[(y - 1) * 256 + x][c]));
+                }
+            }
+            return largest;
+        };
+        int elsewhere = 0;
+        for (std::uint32_t y = 110; y < 127; ++y) {
+            elsewhere = std::max(elsewhere, step(y));
+        }
+        EXPECT_GT(elsewhere, 0);
+        EXPECT_LE(step(128), elsewhere + 1);
+    }
+}
+
 TEST_F(FrameRendererTest, CountsAddUp) {
     const RendererConfig kfr = config(Method::Kfr);
     const Rendered foveated = render(kfr, request(kfr, {0, 60}));

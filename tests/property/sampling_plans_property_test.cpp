@@ -69,7 +69,7 @@ RC_GTEST_PROP(GazeFieldProperty, PolarAndPixelFormsAgreeAnywhere, ()) {
 
 RC_GTEST_PROP(AcuityProperty, NeverRisesWithEccentricity, ()) {
     const auto guenter =
-        GuenterAcuity::create({.slope = between(kMinMarSlope, kMaxMarSlope)}).value();
+        GuenterAcuity::create({.slope = between(MarLine::kMinSlope, MarLine::kMaxSlope)}).value();
     const auto stela = StelaAcuity::create({.luminance_cd_m2 = std::pow(10.0, between(-3, 4)),
                                             .temporal_hz = between(0, 60),
                                             .area_deg2 = std::pow(10.0, between(-4, 4))},

@@ -86,6 +86,35 @@ TEST(Plan, FollowsItsSettings) {
     EXPECT_EQ(blue.at("methods")[0].at("samples"), 92160);
 }
 
+TEST(Plan, SaysWhereParametersAreUseless) {
+    const auto useless = [](const std::vector<std::string>& options) {
+        return plan(options).at("methods")[0].at("useless").get<std::string>();
+    };
+    EXPECT_EQ(useless({"--method", "kfr"}), "");
+    EXPECT_NE(
+        useless({"--method", "kfr", "--sigma", "32", "--alpha", "16", "--set", "kfr.disc=false"})
+            .find("the first column reaches"),
+        std::string::npos);
+}
+
+// A gaze that the picture's plane has no point for: straight behind.
+TEST(Plan, FollowsAGazeBehindTheHead) {
+    const json behind = plan({"--method", "acuity", "--gaze", "180,0"});
+    const double samples = behind.at("methods")[0].at("samples").get<double>();
+    // An eye sees little there. Rows converge behind as they do ahead: some more than it needs.
+    EXPECT_LT(samples, 0.01 * behind.at("display_pixels").get<double>());
+    EXPECT_TRUE(
+        by_name(behind.at("methods")[0].at("sufficiency"), "model", "guenter").at("sufficient"));
+    EXPECT_EQ(behind.at("methods")[0].at("figures").at("disc_pixels"), 0);
+}
+
+TEST(Plan, WritesJsonToStdoutWithoutAFile) {
+    const ProgramResult result =
+        run_gazeloop({"plan", "--display", "fove0", "--method", "acuity", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out).at("display"), "fove0");
+}
+
 TEST(Plan, KnowsTheGazeAndItsError) {
     const auto fewest = [](const json& report) {
         return by_name(report.at("models"), "model", "guenter").at("fewest_samples").get<double>();
@@ -152,7 +181,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"method", {"plan", "--method", "ring"}, 2, "did you mean 'rings'"},
         Refused{"model", {"plan", "--model", "gunter"}, 2, "did you mean 'guenter'"},
         Refused{"gaze", {"plan", "--gaze", "nan,0"}, 2, "gaze"},
-        Refused{"mar_zero", {"plan", "--mar", "0"}, 2, "acuity.mar = 0: must lie in [0.001, 1]"},
+        Refused{"mar_zero", {"plan", "--mar", "0"}, 2, "acuity.mar = 0: must lie in [1e-06, 1]"},
         Refused{"mar_nan", {"plan", "--mar", "nan"}, 2, "acuity.mar = nan"},
         Refused{"widen", {"plan", "--widen", "181"}, 2, "[0, 180]"},
         Refused{"eye", {"plan", "--eye", "third"}, 2, "--eye"},

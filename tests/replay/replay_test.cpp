@@ -136,6 +136,50 @@ TEST_F(Replay, NeedsNoProfileThatTheSessionWasRecordedWith) {
     EXPECT_NE(replayed.out.find("pictures equal in 4 of 4"), std::string::npos) << replayed.out;
 }
 
+TEST_F(Replay, NeedsNoKernelTableThatTheSessionWasRecordedWith) {
+    const std::string session = folder_.file("session.gaze");
+    const std::string table = folder_.write("kernel.csv", "x,y\n0,0\n0.4,0.05\n0.7,0.3\n1,1\n");
+    const std::string another = folder_.write("another.csv", "0,0\n0.5,0.4\n1,1\n");
+    ASSERT_EQ(
+        run_gazeloop({"replay", trace(), "--frames", "4", "--record", session, "--set", kSmall,
+                      "--set", "kfr.kernel=table", "--set", "kfr.kernel_table=" + table, "--hash"})
+            .exit_code,
+        0);
+    const auto recorded = value_or_throw(session::read_session(session));
+    EXPECT_EQ(recorded.config("kfr.kernel_samples"), "0,0;0.4,0.05;0.7,0.3;1,1");
+    // The file may be another by then, or gone.
+    std::filesystem::copy_file(another, table, std::filesystem::copy_options::overwrite_existing);
+    for (int round = 0; round < 2; ++round) {
+        const ProgramResult replayed = run_gazeloop({"replay", session, "--hash"});
+        EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+        EXPECT_NE(replayed.out.find("pictures equal in 4 of 4"), std::string::npos) << replayed.out;
+        std::filesystem::remove(table);
+    }
+    // A table that is stated now is another one, and is said to be.
+    const ProgramResult other =
+        run_gazeloop({"replay", session, "--hash", "--set", "kfr.kernel_table=" + another});
+    EXPECT_EQ(other.exit_code, 0) << other.err;
+    EXPECT_NE(other.out.find("settings differ"), std::string::npos) << other.out;
+    // What print-config says is a configuration again, without the file.
+    const ProgramResult config = run_gazeloop({"run", "--print-config", "--set", "kfr.kernel=table",
+                                               "--set", "kfr.kernel_table=" + another});
+    EXPECT_NE(config.out.find("0,0;0.5,0.4;1,1"), std::string::npos) << config.out;
+}
+
+// The map is another, so the pictures are no longer comparable.
+TEST_F(Replay, SaysThatAnotherAcuityLineIsAnotherPicture) {
+    const std::string session = folder_.file("session.gaze");
+    ASSERT_EQ(run_gazeloop({"replay", trace(), "--frames", "4", "--record", session, "--set",
+                            kSmall, "--method", "acuity", "--hash"})
+                  .exit_code,
+              0);
+    const ProgramResult same = run_gazeloop({"replay", session, "--hash"});
+    EXPECT_NE(same.out.find("pictures equal in 4 of 4"), std::string::npos) << same.out;
+    const ProgramResult other = run_gazeloop({"replay", session, "--hash", "--mar", "0.05"});
+    EXPECT_EQ(other.exit_code, 0) << other.err;
+    EXPECT_NE(other.out.find("settings differ"), std::string::npos) << other.out;
+}
+
 TEST_F(Replay, KeepsJsonAlone) {
     const ProgramResult result = run_gazeloop(
         {"replay", trace(), "--frames", "2", "--hash", "--json", "-", "--set", kSmall});

@@ -11,6 +11,7 @@
 
 #include "runtime/foveation/acuity_plan.h"
 #include "tests/unit/foveation/cells_drawn.h"
+#include "tests/unit/foveation/masks.h"
 
 namespace gazeloop::foveation {
 namespace {
@@ -53,9 +54,13 @@ TEST(AcuityProfile, HasThePublishedSize) {
 
 TEST(AcuityProfile, IsSmoothAndInverts) {
     for (const double p : {5.0, 15.8, 60.0, 200.0}) {
-        for (const double slope : {0.001, 0.022, 1.0}) {
+        for (const double slope : {1e-6, 0.001, 0.022, 1.0}) {
             const auto profile = value_or_throw(AcuityProfile::create(
-                {.mar = {.slope = slope}, .pixels_per_degree = p}, square_view(1000)));
+                {.mar = {.slope = slope},
+                 .pixels_per_degree = p,
+                 .lp_width = 100,  // the flattest line asks for more than a device holds
+                 .lp_height = 100},
+                square_view(1000)));
             for (double e = 1e-6; e < 179.0; e *= 1.3) {
                 EXPECT_NEAR(profile.eccentricity_deg(profile.columns(e)) / e, 1.0, 1e-12);
                 const double h = 1e-6 * e;
@@ -92,16 +97,20 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 INSTANTIATE_TEST_SUITE_P(
     BadInput, AcuityRefuses,
     testing::Values(
-        Refused{"slope_zero", {.mar = {.slope = 0}}, square_view(100), "acuity.mar = 0: must lie"},
-        Refused{"slope_negative", {.mar = {.slope = -0.02}}, square_view(100), "[0.001, 1]"},
-        Refused{"slope_nan", {.mar = {.slope = kNan}}, square_view(100), "acuity.mar = nan"},
-        Refused{"omega", {.mar = {.omega0_deg = 0}}, square_view(100), "acuity.omega0_deg = 0"},
+        Refused{"slope_zero", {.mar = {.slope = 0}}, square_view(100), "slope m = 0: must lie"},
+        Refused{"slope_negative", {.mar = {.slope = -0.02}}, square_view(100), "[1e-06, 1]"},
+        Refused{"slope_nan", {.mar = {.slope = kNan}}, square_view(100), "slope m = nan"},
+        Refused{"omega", {.mar = {.omega0_deg = 0}}, square_view(100), "omega0 = 0 degrees"},
         Refused{"density", {.pixels_per_degree = kNan}, square_view(100), "per_degree = nan"},
         Refused{"border", {.border_px = 65}, square_view(100), "acuity.border_px = 65"},
         Refused{"one_pixel", {}, square_view(1), "1x1 px"},
         Refused{"no_pixels", {}, square_view(0), "0x0 px"},
         Refused{"no_view", {}, square_view(100, 0.0), "a field of view"},
         Refused{"half_a_turn", {}, square_view(100, 90.0), "a field of view"},
+        Refused{"flat",
+                {.mar = {.slope = 1e-6}, .pixels_per_degree = 60},
+                square_view(100),
+                "10740x21600 texels"},
         Refused{"too_wide", {.lp_width = 20000}, square_view(100), "20000x"},
         Refused{"too_low", {.lp_height = 3}, square_view(100), "it must have 2x4"}),
     [](const auto& instance) { return instance.param.name; });
@@ -220,16 +229,26 @@ TEST(GazeFrame, FindsTheRowsOfADisc) {
     }
 }
 
-class AcuityPlans : public testing::TestWithParam<bool> {};
+struct Planned {
+    const char* name;
+    bool disc;
+    gaze::HiddenMesh mask;
+};
+void PrintTo(const Planned& at, std::ostream* out) { *out << at.name; }
+class AcuityPlans : public testing::TestWithParam<Planned> {};
 
 TEST_P(AcuityPlans, ShadeWhatIsReadAndLittleElse) {
     const gaze::EyeView view = lopsided_view();
-    const AcuityParameters parameters{.disc = GetParam()};
+    const AcuityParameters parameters{.disc = GetParam().disc};
     const auto profile = value_or_throw(AcuityProfile::create(parameters, view));
+    const HiddenArea hidden(GetParam().mask, view);
+    const std::vector<bool> visible =
+        tests::visible_pixels(hidden, {view.width_px, view.height_px});
     for (const glm::dvec3& gaze : gazes()) {
         SCOPED_TRACE(testing::Message() << gaze.x << ' ' << gaze.y << ' ' << gaze.z);
         SamplingPlan plan;
-        plan_acuity(parameters, profile, view, gaze, plan);
+        plan_acuity(parameters, profile, view, gaze, plan,
+                    GetParam().mask.empty() ? nullptr : &hidden);
         ASSERT_TRUE(plan.in_gaze_frame.has_value());
         const double disc = plan.in_gaze_frame->disc_half_sine;
         const double core = disc - plan.in_gaze_frame->border_half_sine;
@@ -245,6 +264,10 @@ TEST_P(AcuityPlans, ShadeWhatIsReadAndLittleElse) {
                 const double half_sine = std::sin(0.5 * map.frame().eccentricity_rad(at));
                 const int count = direct[std::size_t{y} * view.width_px + x];
                 ASSERT_LE(count, 1);
+                if (!visible[std::size_t{y} * view.width_px + x]) {
+                    ASSERT_EQ(count, 0);
+                    continue;
+                }
                 if (parameters.disc && half_sine < disc) {
                     ASSERT_EQ(count, 1) << x << ' ' << y;
                 }
@@ -277,12 +300,48 @@ TEST_P(AcuityPlans, ShadeWhatIsReadAndLittleElse) {
             covered += static_cast<std::uint64_t>(shaded[i]);
         }
         EXPECT_EQ(covered, plan.texels_shaded);
-        EXPECT_EQ(plan.texels_shaded + plan.texels_off_screen + plan.texels_under_disc, w * h);
+        EXPECT_EQ(plan.texels_shaded + plan.texels_off_screen + plan.texels_under_disc +
+                      plan.texels_hidden,
+                  w * h);
+        if (!GetParam().mask.empty()) {
+            SamplingPlan whole;
+            plan_acuity(parameters, profile, view, gaze, whole);
+            EXPECT_EQ(whole.texels_hidden, 0U);
+            EXPECT_LE(plan.texels_shaded, whole.texels_shaded);
+            EXPECT_EQ(plan.texels_off_screen, whole.texels_off_screen);
+        }
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Disc, AcuityPlans, testing::Bool(),
-                         [](const auto& instance) { return instance.param ? "with" : "without"; });
+INSTANTIATE_TEST_SUITE_P(Masks, AcuityPlans,
+                         testing::Values(Planned{"disc", true, {}}, Planned{"no_disc", false, {}},
+                                         Planned{"disc_in_an_ellipse", true,
+                                                 tests::outside_ellipse(0.7, 32)},
+                                         Planned{"ellipse", false, tests::outside_ellipse(0.7, 32)},
+                                         Planned{"left_half", true, tests::left_of(0.0)}),
+                         [](const auto& instance) { return instance.param.name; });
+
+// As for KFR: the corners are 21.5 % of the pixels, and the texels out there are few.
+TEST(AcuityPlan, LeavesOutWhatOnlyHiddenPixelsRead) {
+    const gaze::EyeView view = square_view(2160, 45.0);
+    const AcuityParameters parameters;
+    const auto profile = value_or_throw(AcuityProfile::create(parameters, view));
+    const HiddenArea hidden(tests::outside_ellipse(1.0, 64), view);
+    SamplingPlan whole;
+    plan_acuity(parameters, profile, view, {0, 0, -1}, whole);
+    SamplingPlan plan;
+    plan_acuity(parameters, profile, view, {0, 0, -1}, plan, &hidden);
+    EXPECT_EQ(plan.texels_shaded + plan.texels_hidden, whole.texels_shaded);
+    const double share =
+        static_cast<double>(plan.texels_hidden) / static_cast<double>(whole.texels_shaded);
+    EXPECT_GT(share, 0.02);
+    EXPECT_LT(share, 0.215);
+    // Looking at a corner that nobody sees: most of what is dear is hidden.
+    plan_acuity(parameters, profile, view, {1, 1, -1}, whole);
+    plan_acuity(parameters, profile, view, {1, 1, -1}, plan, &hidden);
+    EXPECT_LT(plan.texels_shaded + plan.pixels_direct,
+              0.8 * static_cast<double>(whole.texels_shaded + whole.pixels_direct));
+}
 
 // The figures a prototype reached: 149910 of 154860 texels on screen without the disc.
 TEST(AcuityPlan, NeedsAFewPercentOfThePixels) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "runtime/foveation/screen_wedge.h"
 #include "tests/unit/foveation/masks.h"
 
 namespace gazeloop::foveation {
@@ -174,10 +175,10 @@ TEST(HiddenArea, TakesEveryPictureSize) {
         const HiddenArea whole(left_of(2.0), square_view(side, side));
         EXPECT_EQ(whole.hidden_pixels(), std::uint64_t{side} * side);
         EXPECT_TRUE(whole.visible_tiles().empty());
-        EXPECT_FALSE(whole.visible_radii_in_wedge({1, 1}, 0.0, 1.0).has_value());
+        EXPECT_FALSE(radii_in_wedge(whole.outline(), {1, 1}, 0.0, 1.0).has_value());
         const HiddenArea none(left_of(-1.0), square_view(side, side));
         EXPECT_EQ(none.hidden_pixels(), 0U);
-        const auto radii = none.visible_radii_in_wedge({0, 0}, 0.0, 7.0);
+        const auto radii = radii_in_wedge(none.outline(), {0, 0}, 0.0, 7.0);
         ASSERT_TRUE(radii.has_value());
         EXPECT_NEAR(radii->max_px, (side - 0.5) * std::sqrt(2.0), 1e-9);
         EXPECT_NEAR(radii->min_px, 0.5 * std::sqrt(2.0), 1e-9);
@@ -201,7 +202,7 @@ TEST(HiddenArea, BoundsTheVisiblePixelsDistances) {
         const gaze::PixelPosition fovea{x(random), y(random)};
         const double from = angle(random);
         const double to = from + width(random);
-        const auto range = area.visible_radii_in_wedge(fovea, from, to);
+        const auto range = radii_in_wedge(area.outline(), fovea, from, to);
         for (std::uint32_t row = 0; row < kImage.height_px; ++row) {
             for (std::uint32_t column = 0; column < kImage.width_px; ++column) {
                 const double dx = column + 0.5 - fovea.x_px;

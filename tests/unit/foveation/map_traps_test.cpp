@@ -9,6 +9,7 @@
 #include "runtime/foveation/float_map.h"
 #include "runtime/foveation/map_error.h"
 #include "runtime/foveation/sampling_plan.h"
+#include "runtime/foveation/useless_map.h"
 
 namespace gazeloop::foveation {
 namespace {
@@ -184,12 +185,26 @@ TEST(MapTrap, TheHoleIsClosedOnRequest) {
     EXPECT_EQ(plan.pixels_direct, 0U);
     const std::uint64_t texels = plan.texels_shaded;
     plan_kfr(closed, lp, image, {640, 720}, plan);
-    EXPECT_GT(plan.disc_radius_px, 0.0);
+    ASSERT_GT(plan.disc_radius_px, plan.disc_border_px);
     EXPECT_LT(plan.pixels_direct, 400U);  // no full pass: a thousandth of the texels
     for (double r = plan.disc_radius_px - plan.disc_border_px; r < 100.0; r *= 1.01) {
         EXPECT_GE(map.density(r, lp).radial, 0.999) << r;
     }
     EXPECT_LE(plan.texels_shaded, texels);
+}
+
+// Parameters that leave nothing to draw, however exact the arithmetic.
+TEST(MapTrap, AMapThatShowsNothingIsCalledUseless) {
+    const ImageSize image{1280, 1440};
+    const LpSize coarse{40, 45};  // sigma 32
+    EXPECT_EQ(why_useless(LogPolarMap(16.0, image, {1280, 1440}), coarse, 0.0),
+              "the first column reaches 406 px from the fovea");
+    EXPECT_EQ(why_useless(LogPolarMap(PrintedPowerKernel{16.0}, image, {1280, 1440}), coarse, 0.0)
+                  .substr(0, 18),
+              "the last column is");
+    EXPECT_EQ(why_useless(LogPolarMap(4.0, image, {640, 720}), {711, 800}, 0.0), "");
+    // What the disc covers is not shown.
+    EXPECT_EQ(why_useless(LogPolarMap(16.0, image, {1280, 1440}), coarse, 407.0), "");
 }
 
 TEST(MapError, BoundsWhatTheMirrorDoes) {

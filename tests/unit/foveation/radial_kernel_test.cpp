@@ -170,6 +170,19 @@ INSTANTIATE_TEST_SUITE_P(
         TableText{"toml_broken", true, "kernel = [\n[0", "k:2"}),
     [](const auto& instance) { return instance.param.name; });
 
+TEST(KernelTableFile, IsTheSameToTheBitAsSamplesInALine) {
+    std::istringstream in("0,0\n0.1,1e-05\n0.30000000000000004,0.3333333333333333\n1,1\n");
+    const TableKernel kernel = read_kernel_table(in, "k", false).value();
+    const std::string line = kernel_samples(kernel);
+    EXPECT_EQ(line, "0,0;0.1,1e-05;0.30000000000000004,0.3333333333333333;1,1");
+    const TableKernel again = read_kernel_samples(line, "line").value();
+    for (double x = 0.0; x <= 1.0; x += 1.0 / 64.0) {
+        EXPECT_EQ(again(x), kernel(x)) << x;
+    }
+    EXPECT_EQ(read_kernel_samples("0,0;1", "line").error().message,
+              "line:2: '1': two numbers x,y are expected");
+}
+
 TEST(KernelTableFile, NamesAFileThatIsNotThere) {
     const auto kernel = load_kernel_table("/nowhere/kernel.csv");
     ASSERT_FALSE(kernel.has_value());

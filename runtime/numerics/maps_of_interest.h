@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/foveation/lp_size.h"
+#include "runtime/foveation/radial_kernel.h"
+#include "runtime/gaze/view.h"
+
+namespace gazeloop::numerics {
+
+struct NamedKernel {
+    std::string name;
+    foveation::RadialKernel kernel;
+};
+
+/// A kernel of every kind, the power kernels from end to end of alpha's range; `quick`: few.
+std::vector<NamedKernel> kernels_under_test(bool quick);
+
+/// Asymmetric, as headsets are.
+gaze::EyeView headset_view(foveation::ImageSize image);
+
+}  // namespace gazeloop::numerics
