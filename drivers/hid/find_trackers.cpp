@@ -1,13 +1,10 @@
 #include "drivers/hid/find_trackers.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <charconv>
 #include <fstream>
 #include <iterator>
-#include <system_error>
 #include <utility>
 
 #include "drivers/device/udev.h"
@@ -30,28 +27,7 @@ std::uint16_t id_part(const std::string& hid_id, std::size_t begin) {
     return static_cast<std::uint16_t>(value);
 }
 
-void check_access(FoundTracker& tracker) {
-    if (access(tracker.path.c_str(), R_OK | W_OK) == 0) {
-        return;
-    }
-    const int why = errno;
-    tracker.needs_rule = why == EACCES;
-    tracker.access_problem =
-        tracker.needs_rule
-            ? fmt::format(
-                  "{} may not be opened (permission denied): gazeloop devices shows the "
-                  "udev rule that cures it",
-                  tracker.path)
-            : fmt::format("{} cannot be opened: {}", tracker.path,
-                          std::generic_category().message(why));
-}
-
 }  // namespace
-
-std::string FoundTracker::text() const {
-    return fmt::format("{} ({:04x}:{:04x}) at {}", name.empty() ? "HID eye tracker" : name, vendor,
-                       product, path);
-}
 
 std::vector<FoundTracker> find_trackers() {
     constexpr std::size_t kVendorBegin = 5;
@@ -64,13 +40,14 @@ std::vector<FoundTracker> find_trackers() {
             continue;
         }
         const std::string id = device.property("HID_ID");
-        FoundTracker tracker{.path = device.node,
-                             .name = device.property("HID_NAME"),
-                             .vendor = id_part(id, kVendorBegin),
-                             .product = id_part(id, kProductBegin),
-                             .layout = find_eye_tracker(*descriptor),
-                             .access_problem = std::nullopt};
-        check_access(tracker);
+        const std::string name = device.property("HID_NAME");
+        FoundTracker tracker;
+        tracker.device.path = device.node;
+        tracker.device.name = name.empty() ? "HID eye tracker" : name;
+        tracker.device.vendor = id_part(id, kVendorBegin);
+        tracker.device.product = id_part(id, kProductBegin);
+        tracker.layout = find_eye_tracker(*descriptor);
+        check_access(tracker.device, udev_rule(tracker.device.vendor, tracker.device.product));
         trackers.push_back(std::move(tracker));
     }
     return trackers;

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,18 +9,22 @@
 
 #include "runtime/error.h"
 
-struct hid_device_;
-
 namespace gazeloop::drivers::hid {
 
-/// An open /dev/hidrawN, through hidapi.
+/// An open /dev/hidrawN (linux/hidraw.h).
+///
+/// Without hidapi, each of whose calls would stand for one system call here: up to 0.13 its
+/// hid_open_path() uses freed memory where a node does not answer HIDIOCGRDESCSIZE, which a tracker
+/// that is pulled out just then does not, and it cannot be given a node that is open already.
 class HidrawDevice {
   public:
     /// Errors (NoDevice): it cannot be opened, or is no HID device (any more).
-    ///
-    /// hidapi up to 0.13 uses freed memory where a node does not answer HIDIOCGRDESCSIZE, so that
-    /// the node is asked before it is opened with it, and kept open meanwhile.
     [[nodiscard]] static Expected<HidrawDevice> open(const std::string& path);
+    HidrawDevice(HidrawDevice&& other) noexcept;
+    HidrawDevice(const HidrawDevice&) = delete;
+    HidrawDevice& operator=(HidrawDevice&&) = delete;
+    HidrawDevice& operator=(const HidrawDevice&) = delete;
+    ~HidrawDevice();
 
     /// Waits for an input report; its size with the id, 0 after the time. Errors (NoDevice): the
     /// device was unplugged, or failed.
@@ -36,15 +39,11 @@ class HidrawDevice {
     [[nodiscard]] Expected<void> send_feature(std::span<const std::uint8_t> report);
 
   private:
-    struct Close {
-        void operator()(hid_device_* device) const;
-    };
-    explicit HidrawDevice(std::string path, hid_device_* device)
-        : path_(std::move(path)), device_(device) {}
+    HidrawDevice(std::string path, int fd) : path_(std::move(path)), fd_(fd) {}
     [[nodiscard]] std::unexpected<Error> error(const std::string& what) const;
 
     std::string path_;
-    std::unique_ptr<hid_device_, Close> device_;
+    int fd_;  ///< -1: moved from
 };
 
 }  // namespace gazeloop::drivers::hid

@@ -33,7 +33,7 @@ std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_
         return std::nullopt;
     }
     ++counts_.samples;
-    counts_.truncated += tracking->truncated ? 1 : 0;
+    counts_.damaged += tracking->truncated ? 1 : 0;
     gaze::GazeSample sample;
     sample.eyes = eye_rays(*tracking, geometry_);
     sample.arrived = {arrived_ns, latency::StampKind::Measured};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/device/sample_clock.h"
+#include "drivers/device/tracker_device.h"
 #include "drivers/hid/eye_tracker_reports.h"
 #include "drivers/hid/screen_gaze.h"
 
@@ -19,13 +20,6 @@ class TrackerSamples {
     TrackerSamples(EyeTrackerLayout layout, const ScreenGeometry& geometry,
                    const TrackerDelay& delay);
 
-    struct Counts {
-        std::uint64_t samples = 0;
-        std::uint64_t truncated = 0;  ///< of them: reports that were cut short
-        std::uint64_t others = 0;     ///< reports of something else
-        std::uint64_t lost = 0;       ///< reports that were certainly lost on the way
-    };
-
     /// The sample of a report that had arrived by `arrived_ns`, all but its number; none where the
     /// report is of something else.
     [[nodiscard]] std::optional<gaze::GazeSample> take(std::span<const std::uint8_t> report,
@@ -36,7 +30,8 @@ class TrackerSamples {
     /// A line about what the last report changed: the device's status, its clock.
     [[nodiscard]] std::optional<std::string> take_change();
 
-    [[nodiscard]] const Counts& counts() const { return counts_; }
+    /// Reports that were cut short are damaged, and samples nevertheless.
+    [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
     /// Of the report that came last; null before, and for a tracker without timestamps.
     [[nodiscard]] const latency::ClockFit* clock() const;
 
@@ -49,7 +44,7 @@ class TrackerSamples {
     std::uint64_t lost_before_last_ = 0;
     std::optional<StatusReport> status_;
     bool status_changed_ = false;
-    Counts counts_;
+    TrackerCounts counts_;
 };
 
 }  // namespace gazeloop::drivers::hid

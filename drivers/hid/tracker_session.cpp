@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <utility>
+
+#include "runtime/latency/clock.h"
 
 namespace gazeloop::drivers::hid {
 namespace {
@@ -32,9 +34,10 @@ ScreenGeometry merged(const ScreenGeometry& configured, const TrackerFeatures& f
 
 }  // namespace
 
-TrackerSession::TrackerSession(HidrawDevice device, const EyeTrackerLayout& layout,
-                               const HidOptions& options)
-    : device_(std::move(device)),
+TrackerSession::TrackerSession(std::string text, HidrawDevice device,
+                               const EyeTrackerLayout& layout, const HidOptions& options)
+    : text_(std::move(text)),
+      device_(std::move(device)),
       features_(read_features(device_, layout)),
       samples_(layout, merged(options.geometry, features_), options.delay) {
     describe(layout, merged(options.geometry, features_));
@@ -80,23 +83,82 @@ Expected<TrackerSession> TrackerSession::open(const FoundTracker& tracker,
     if (!tracker.layout) {
         return std::unexpected(
             Error{tracker.layout.error().code,
-                  fmt::format("{}: {}", tracker.text(), tracker.layout.error().message)});
+                  fmt::format("{}: {}", tracker.device.text(), tracker.layout.error().message)});
     }
-    if (tracker.access_problem) {
-        return std::unexpected(Error{ExitCode::NoDevice, *tracker.access_problem});
+    if (tracker.device.access_problem) {
+        return std::unexpected(Error{ExitCode::NoDevice, *tracker.device.access_problem});
     }
-    auto device = HidrawDevice::open(tracker.path);
+    auto device = HidrawDevice::open(tracker.device.path);
     if (!device) {
         return std::unexpected(std::move(device.error()));
     }
-    return TrackerSession(std::move(*device), *tracker.layout, options);
+    return TrackerSession(tracker.device.text(), std::move(*device), *tracker.layout, options);
 }
 
-const FoundTracker* chosen(const std::vector<FoundTracker>& trackers, const HidOptions& options) {
-    const auto found = std::ranges::find_if(trackers, [&](const FoundTracker& tracker) {
-        return options.path.empty() || tracker.path == options.path;
-    });
-    return found == trackers.end() ? nullptr : &*found;
+TrackerFacts TrackerSession::facts() const {
+    TrackerFacts facts;
+    facts.sampling_hz = features_.status.sampling_hz;
+    facts.screen_width_m = features_.screen_width_m;
+    facts.screen_height_m = features_.screen_height_m;
+    facts.minimum_distance_m = features_.minimum_distance_m;
+    facts.optimum_distance_m = features_.optimum_distance_m;
+    facts.maximum_distance_m = features_.maximum_distance_m;
+    if (features_.status.status) {
+        facts.status = text_of(*features_.status.status);
+    }
+    return facts;
+}
+
+Expected<void> TrackerSession::read(std::chrono::milliseconds longest, DeviceFeed& feed) {
+    std::array<std::uint8_t, kLongestReport + 1> report;
+    const Expected<std::size_t> bytes = device_.read(report, longest);
+    const std::int64_t arrived_ns = latency::monotonic_ns();
+    if (!bytes) {
+        return std::unexpected(bytes.error());
+    }
+    if (*bytes == 0) {
+        return {};
+    }
+    if (auto sample = samples_.take({report.data(), *bytes}, arrived_ns)) {
+        feed.push(*sample, samples_.lost_before_last());
+    }
+    if (auto change = samples_.take_change()) {
+        feed.tell({arrived_ns, latency::StampKind::Measured}, std::move(*change));
+    }
+    return {};
+}
+
+namespace {
+
+Expected<std::unique_ptr<TrackerDevice>> opened(const FoundTracker& tracker,
+                                                const HidOptions& options) {
+    auto session = TrackerSession::open(tracker, options);
+    if (!session) {
+        return std::unexpected(std::move(session.error()));
+    }
+    return std::make_unique<TrackerSession>(std::move(*session));
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<TrackerDevice>> open_tracker(const HidOptions& options) {
+    for (const FoundTracker& tracker : find_trackers()) {
+        if (options.path.empty() || tracker.device.path == options.path) {
+            return opened(tracker, options);
+        }
+    }
+    return nullptr;
+}
+
+std::vector<TrackerProbe> probe_trackers(const HidOptions& options,
+                                         std::chrono::milliseconds listen,
+                                         const std::function<bool()>& stop) {
+    std::vector<TrackerProbe> probes;
+    for (const FoundTracker& tracker : find_trackers()) {
+        probes.push_back(probe_tracker(
+            kSupport, tracker.device, [&] { return opened(tracker, options); }, listen, stop));
+    }
+    return probes;
 }
 
 }  // namespace gazeloop::drivers::hid

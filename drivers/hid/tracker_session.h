@@ -1,9 +1,12 @@
 #pragma once
 
-#include <optional>
+#include <chrono>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "drivers/device/tracker_device.h"
+#include "drivers/device/tracker_probe.h"
 #include "drivers/hid/find_trackers.h"
 #include "drivers/hid/hidraw_device.h"
 #include "drivers/hid/tracker_samples.h"
@@ -18,7 +21,7 @@ struct HidOptions {
 };
 
 /// An eye tracker that was opened and asked to send. Stops it when it goes.
-class TrackerSession {
+class TrackerSession final : public TrackerDevice {
   public:
     /// Errors: NoDevice where it cannot be opened, BadInput where its descriptor is no good.
     [[nodiscard]] static Expected<TrackerSession> open(const FoundTracker& tracker,
@@ -27,18 +30,22 @@ class TrackerSession {
     TrackerSession(const TrackerSession&) = delete;
     TrackerSession& operator=(TrackerSession&&) = delete;
     TrackerSession& operator=(const TrackerSession&) = delete;
-    ~TrackerSession();
+    ~TrackerSession() override;
 
     [[nodiscard]] const TrackerFeatures& features() const { return features_; }
-    /// What the device stated, and what keeps gaze from coming, one line each.
-    [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
-    [[nodiscard]] TrackerSamples& samples() { return samples_; }
-    [[nodiscard]] HidrawDevice& device() { return device_; }
+    [[nodiscard]] const std::string& text() const override { return text_; }
+    [[nodiscard]] const std::vector<std::string>& remarks() const override { return remarks_; }
+    [[nodiscard]] TrackerFacts facts() const override;
+    [[nodiscard]] Expected<void> read(std::chrono::milliseconds longest, DeviceFeed& feed) override;
+    [[nodiscard]] TrackerCounts counts() const override { return samples_.counts(); }
+    [[nodiscard]] const latency::ClockFit* clock() const override { return samples_.clock(); }
 
   private:
-    TrackerSession(HidrawDevice device, const EyeTrackerLayout& layout, const HidOptions& options);
+    TrackerSession(std::string text, HidrawDevice device, const EyeTrackerLayout& layout,
+                   const HidOptions& options);
     void describe(const EyeTrackerLayout& layout, const ScreenGeometry& geometry);
 
+    std::string text_;
     HidrawDevice device_;
     TrackerFeatures features_;
     std::vector<std::string> remarks_;
@@ -46,8 +53,15 @@ class TrackerSession {
     TrackerSamples samples_;
 };
 
-/// The tracker that the options ask for among those found; null where it is not there.
-[[nodiscard]] const FoundTracker* chosen(const std::vector<FoundTracker>& trackers,
-                                         const HidOptions& options);
+/// Opens the tracker that the options ask for.
+[[nodiscard]] Expected<std::unique_ptr<TrackerDevice>> open_tracker(const HidOptions& options);
+
+inline constexpr TrackerSupport kSupport{
+    "hid", "HID usage page 0x12: verified with emulated devices, not tried on hardware"};
+
+/// Listens to each tracker that is plugged in.
+[[nodiscard]] std::vector<TrackerProbe> probe_trackers(const HidOptions& options,
+                                                       std::chrono::milliseconds listen,
+                                                       const std::function<bool()>& stop);
 
 }  // namespace gazeloop::drivers::hid

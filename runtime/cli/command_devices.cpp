@@ -1,20 +1,25 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "drivers/hid/hid_source.h"
+#include "drivers/psvr2/psvr2_source.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/device_report.h"
 #include "runtime/cli/gaze_sources.h"
 #include "runtime/cli/interrupt.h"
+#include "runtime/cli/openxr_gaze_report.h"
 #include "runtime/cli/profiles.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/doctor/checks.h"
 #include "runtime/latency/clock.h"
 
 namespace gazeloop::cli {
@@ -39,10 +44,9 @@ std::string eye_text(const gaze::EyeRay& ray) {
 }
 
 /// Live gaze, ten lines a second, in one line of a terminal.
-ExitCode watch(const drivers::hid::HidOptions& options, const DevicesCommand& command) {
+ExitCode watch(const std::vector<drivers::GazeSource*>& sources, const DevicesCommand& command) {
     constexpr std::int64_t kEvery_ns = 100'000'000;
     const bool terminal = isatty(STDOUT_FILENO) != 0;
-    drivers::hid::HidSource source(options);
     std::vector<gaze::GazeSample> samples;
     bool any = false;
     const std::int64_t begin_ns = latency::monotonic_ns();
@@ -54,9 +58,11 @@ ExitCode watch(const drivers::hid::HidOptions& options, const DevicesCommand& co
         }
         latency::sleep_until_ns(now_ns);
         samples.clear();
-        source.poll(now_ns, samples);
-        for (const drivers::SourceEvent& event : source.take_events()) {
-            fmt::print("{}{}\n", terminal ? "\r\x1b[K" : "", event.text);
+        for (drivers::GazeSource* const source : sources) {
+            source->poll(now_ns, samples);
+            for (const drivers::SourceEvent& event : source->take_events()) {
+                fmt::print("{}{}\n", terminal ? "\r\x1b[K" : "", event.text);
+            }
         }
         if (!samples.empty()) {
             const gaze::GazeSample& last = samples.back();
@@ -76,6 +82,15 @@ ExitCode watch(const drivers::hid::HidOptions& options, const DevicesCommand& co
     return any ? ExitCode::Ok : ExitCode::NoDevice;
 }
 
+doctor::Findings listen_to_openxr(const Settings& settings, double seconds) {
+    constexpr std::chrono::seconds kPatience{20};
+    const auto listening = std::chrono::milliseconds(std::llround(seconds * 1e3));
+    return doctor::check_eye_gaze(
+        {.display = value_or_throw(load_display(settings.values().profile.display)),
+         .is_target = false},
+        seconds, {.patience = kPatience + listening, .stop = [] { return interrupted(); }});
+}
+
 ExitCode devices(const DevicesCommand& command) {
     Settings settings;
     RunOptions configured;
@@ -83,22 +98,29 @@ ExitCode devices(const DevicesCommand& command) {
     configured.assignments = command.assignments;
     value_or_throw(configured.apply_to(settings, true));
     const TrackerProfile profile = value_or_throw(load_tracker(settings.values().profile.tracker));
-    const drivers::hid::HidOptions options = hid_options(profile, settings.values());
+    const drivers::hid::HidOptions hid = hid_options(profile, settings.values());
+    value_or_throw(default_tracker("psvr2", settings));
+    const drivers::psvr2::Psvr2Options psvr2 =
+        psvr2_options(value_or_throw(load_tracker(settings.values().profile.tracker)));
     if (command.watch) {
-        return watch(options, command);
+        drivers::hid::HidSource hid_source(hid);
+        drivers::psvr2::Psvr2Source psvr2_source(psvr2);
+        return watch({&hid_source, &psvr2_source}, command);
     }
-    std::vector<drivers::hid::TrackerProbe> probes;
-    for (const drivers::hid::FoundTracker& tracker : drivers::hid::find_trackers()) {
-        probes.push_back(drivers::hid::probe_tracker(
-            tracker, options, std::chrono::milliseconds(std::llround(command.seconds * 1e3)),
-            [] { return interrupted(); }));
-    }
+    const doctor::Findings openxr = listen_to_openxr(settings, command.seconds);
+    const std::chrono::milliseconds listen(std::llround(command.seconds * 1e3));
+    const auto stop = [] { return interrupted(); };
+    std::vector<drivers::TrackerProbe> probes = drivers::hid::probe_trackers(hid, listen, stop);
+    std::ranges::move(drivers::psvr2::probe_headsets(psvr2, listen, stop),
+                      std::back_inserter(probes));
     if (command.json) {
-        fmt::print("{}\n", devices_json(probes).dump(2));
+        nlohmann::ordered_json list = devices_json(probes);
+        list.push_back(openxr_gaze_json(openxr));
+        fmt::print("{}\n", list.dump(2));
     } else {
-        fmt::print("{}", devices_text(probes));
+        fmt::print("{}{}", devices_text(probes), openxr_gaze_text(openxr));
     }
-    return any_gaze(probes) ? ExitCode::Ok : ExitCode::NoDevice;
+    return any_gaze(probes) || any_gaze(openxr) ? ExitCode::Ok : ExitCode::NoDevice;
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct RunCommand {
 ExitCode run(const RunCommand& command, const std::string& command_line) {
     Settings settings;
     value_or_throw(command.options.apply_to(settings, true));
+    value_or_throw(default_tracker(command.gaze, settings));
     const TrackerProfile tracker = value_or_throw(tracker_in_force(settings));
     if (command.options.print_config) {
         fmt::print("{}", settings.describe());
@@ -28,8 +29,12 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
     FrameRunRequest request;
     request.settings = &settings;
     request.command_line = command_line;
-    request.make_source =
-        value_or_throw(gaze_source_named(command.gaze, tracker, settings.values()));
+    if (command.gaze == "openxr") {
+        request.openxr_gaze = {.distance_m = settings.values().gaze.fixation_distance_m};
+    } else {
+        request.make_source =
+            value_or_throw(gaze_source_named(command.gaze, tracker, settings.values()));
+    }
     request.clock = command.clock == "wall" ? RunClock::Wall : RunClock::Virtual;
     command.options.fill(request);
     request.loop.end_with_source = !command.options.frames && !command.options.seconds;
@@ -42,7 +47,7 @@ void add_run_command(CLI::App& program, const std::string& command_line, Action&
     CLI::App* const app = program.add_subcommand("run", "run the gaze-contingent frame loop");
     const auto command = std::make_shared<RunCommand>();
     app->add_option("--gaze", command->gaze,
-                    "hid, trace:FILE, fixed:AZ,EL (degrees, right, up), or sim")
+                    "hid, psvr2, openxr, trace:FILE, fixed:AZ,EL (degrees, right, up), or sim")
         ->type_name("SOURCE");
     app->add_option("--clock", command->clock,
                     "wall: in real time; virtual: the same result on every run")

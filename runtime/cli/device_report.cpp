@@ -10,13 +10,12 @@
 namespace gazeloop::cli {
 namespace {
 
-using drivers::hid::TrackerProbe;
+using drivers::TrackerProbe;
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kVerified =
-    "HID usage page 0x12: verified with emulated devices, not tried on hardware";
 constexpr std::string_view kNone =
-    "No eye tracker was found.\n"
+    "No eye tracker was found on HID or USB.\n"
+    "  PlayStation VR2: none on USB. Is it plugged in, powered, and not asleep?\n"
     "  HID: no device declares an eye tracker (usage page 0x12). Is it plugged in and powered? "
     "Most\n"
     "  trackers speak a protocol of their maker's instead, and only his driver makes them HID "
@@ -33,19 +32,18 @@ std::vector<std::string> diagnosis(const TrackerProbe& probe) {
     if (probe.problem) {
         lines.push_back(*probe.problem);
     }
-    if (probe.tracker.needs_rule) {
-        lines.push_back(
+    if (!probe.device.missing_rule.empty()) {
+        lines.emplace_back(
             "as root, write this line to /etc/udev/rules.d/70-gazeloop.rules and plug the tracker "
             "in again:");
-        lines.push_back("  " +
-                        drivers::hid::udev_rule(probe.tracker.vendor, probe.tracker.product));
+        lines.push_back("  " + probe.device.missing_rule);
     }
     if (!probe.problem && probe.counts.samples == 0) {
-        lines.push_back(
+        lines.emplace_back(
             "it sends nothing: it may see no eyes (some trackers are then silent), or want its "
             "maker's calibration");
     } else if (!probe.problem && probe.with_gaze == 0) {
-        lines.push_back("it sends reports, but none with valid gaze");
+        lines.emplace_back("it sends reports, but none with valid gaze");
     }
     return lines;
 }
@@ -55,13 +53,12 @@ Json or_null(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
-void append_range(std::string& text, const drivers::hid::TrackerFeatures& features) {
-    if (features.minimum_distance_m && features.maximum_distance_m) {
+void append_range(std::string& text, const drivers::TrackerFacts& facts) {
+    if (facts.minimum_distance_m && facts.maximum_distance_m) {
         fmt::format_to(std::back_inserter(text), "  distance  {:.2f} to {:.2f} m",
-                       *features.minimum_distance_m, *features.maximum_distance_m);
-        if (features.optimum_distance_m) {
-            fmt::format_to(std::back_inserter(text), ", best {:.2f} m",
-                           *features.optimum_distance_m);
+                       *facts.minimum_distance_m, *facts.maximum_distance_m);
+        if (facts.optimum_distance_m) {
+            fmt::format_to(std::back_inserter(text), ", best {:.2f} m", *facts.optimum_distance_m);
         }
         text += "\n";
     }
@@ -76,11 +73,11 @@ std::string devices_text(const std::vector<TrackerProbe>& probes) {
     std::string text;
     auto out = std::back_inserter(text);
     for (const TrackerProbe& probe : probes) {
-        fmt::format_to(out, "{}\n  support   {}\n", probe.tracker.text(), kVerified);
+        fmt::format_to(out, "{}\n  support   {}\n", probe.device.text(), probe.support.verified);
         for (const std::string& remark : probe.remarks) {
             fmt::format_to(out, "  device    {}\n", remark);
         }
-        append_range(text, probe.features);
+        append_range(text, probe.facts);
         if (probe.seconds > 0.0) {
             fmt::format_to(out, "  samples   {} in {:.1f} s", probe.counts.samples, probe.seconds);
             if (probe.rate_hz) {
@@ -88,6 +85,9 @@ std::string devices_text(const std::vector<TrackerProbe>& probes) {
             }
             if (probe.counts.samples > 0) {
                 fmt::format_to(out, ", gaze in {}", percent(probe.with_gaze, probe.counts.samples));
+            }
+            if (probe.counts.damaged > 0) {
+                fmt::format_to(out, ", {} reports damaged", probe.counts.damaged);
             }
             text += "\n";
         }
@@ -106,37 +106,34 @@ std::string devices_text(const std::vector<TrackerProbe>& probes) {
 Json devices_json(const std::vector<TrackerProbe>& probes) {
     Json list = Json::array();
     for (const TrackerProbe& probe : probes) {
-        const drivers::hid::TrackerFeatures& features = probe.features;
+        const drivers::TrackerFacts& facts = probe.facts;
         const bool clocked = probe.counts.samples > 0 && probe.clock;
-        list.push_back(
-            {{"source", "hid"},
-             {"name", probe.tracker.name},
-             {"path", probe.tracker.path},
-             {"vendor", fmt::format("{:04x}", probe.tracker.vendor)},
-             {"product", fmt::format("{:04x}", probe.tracker.product)},
-             {"tried_on_hardware", false},
-             {"accessible", !probe.tracker.access_problem.has_value()},
-             {"udev_rule",
-              probe.tracker.needs_rule
-                  ? Json(drivers::hid::udev_rule(probe.tracker.vendor, probe.tracker.product))
-                  : Json(nullptr)},
-             {"status", features.status.status ? Json(std::string(text_of(*features.status.status)))
-                                               : Json(nullptr)},
-             {"stated_hz", or_null(features.status.sampling_hz)},
-             {"screen_width_m", or_null(features.screen_width_m)},
-             {"screen_height_m", or_null(features.screen_height_m)},
-             {"minimum_distance_m", or_null(features.minimum_distance_m)},
-             {"optimum_distance_m", or_null(features.optimum_distance_m)},
-             {"maximum_distance_m", or_null(features.maximum_distance_m)},
-             {"seconds", probe.seconds},
-             {"samples", probe.counts.samples},
-             {"samples_with_gaze", probe.with_gaze},
-             {"samples_lost", probe.counts.lost},
-             {"reports_truncated", probe.counts.truncated},
-             {"measured_hz", or_null(probe.rate_hz)},
-             {"clock", clocked ? Json(*probe.clock) : Json(nullptr)},
-             {"remarks", probe.remarks},
-             {"problems", diagnosis(probe)}});
+        const std::string& rule = probe.device.missing_rule;
+        list.push_back({{"source", probe.support.source},
+                        {"name", probe.device.name},
+                        {"path", probe.device.path},
+                        {"vendor", fmt::format("{:04x}", probe.device.vendor)},
+                        {"product", fmt::format("{:04x}", probe.device.product)},
+                        {"tried_on_hardware", false},
+                        {"support", probe.support.verified},
+                        {"accessible", !probe.device.access_problem.has_value()},
+                        {"udev_rule", rule.empty() ? Json(nullptr) : Json(rule)},
+                        {"status", or_null(facts.status)},
+                        {"stated_hz", or_null(facts.sampling_hz)},
+                        {"screen_width_m", or_null(facts.screen_width_m)},
+                        {"screen_height_m", or_null(facts.screen_height_m)},
+                        {"minimum_distance_m", or_null(facts.minimum_distance_m)},
+                        {"optimum_distance_m", or_null(facts.optimum_distance_m)},
+                        {"maximum_distance_m", or_null(facts.maximum_distance_m)},
+                        {"seconds", probe.seconds},
+                        {"samples", probe.counts.samples},
+                        {"samples_with_gaze", probe.with_gaze},
+                        {"samples_lost", probe.counts.lost},
+                        {"reports_damaged", probe.counts.damaged},
+                        {"measured_hz", or_null(probe.rate_hz)},
+                        {"clock", clocked ? Json(*probe.clock) : Json(nullptr)},
+                        {"remarks", probe.remarks},
+                        {"problems", diagnosis(probe)}});
     }
     return list;
 }

@@ -4,18 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "drivers/hid/probe_tracker.h"
+#include "drivers/device/tracker_probe.h"
 
 namespace gazeloop::cli {
 
 /// What `gazeloop devices` found, for people: each tracker with what it states, does, and lacks.
-[[nodiscard]] std::string devices_text(const std::vector<drivers::hid::TrackerProbe>& probes);
+[[nodiscard]] std::string devices_text(const std::vector<drivers::TrackerProbe>& probes);
 
 /// The same for programs; what is unknown is null.
-[[nodiscard]] nlohmann::ordered_json devices_json(
-    const std::vector<drivers::hid::TrackerProbe>& probes);
+[[nodiscard]] nlohmann::ordered_json devices_json(const std::vector<drivers::TrackerProbe>& probes);
 
 /// Whether gaze came from any of them.
-[[nodiscard]] bool any_gaze(const std::vector<drivers::hid::TrackerProbe>& probes);
+[[nodiscard]] bool any_gaze(const std::vector<drivers::TrackerProbe>& probes);
 
 }  // namespace gazeloop::cli

@@ -70,15 +70,22 @@ gaze::PerEye<vk::Extent2D> scaled_extents(const present::DisplayProfile& display
     return {extent, extent};
 }
 
-std::unique_ptr<present::FrameTarget> make_target(const FrameRunRequest& request,
-                                                  const present::DisplayProfile& display) {
+std::unique_ptr<present::OpenXrTarget> make_openxr_target(const FrameRunRequest& request,
+                                                          const present::DisplayProfile& display) {
     const SettingValues& values = request.settings->values();
-    if (values.target.name == "openxr") {
-        return present::make_openxr_target({.display = display,
-                                            .scale = values.render.scale,
-                                            .validation = values.target.validation,
-                                            .depth = values.render.depth});
+    present::OpenXrOptions options{.display = display,
+                                   .scale = values.render.scale,
+                                   .validation = values.target.validation,
+                                   .depth = values.render.depth};
+    if (request.openxr_gaze) {
+        options.extensions.push_back(drivers::kEyeGazeExtension);
     }
+    return present::make_openxr_target(options);
+}
+
+std::unique_ptr<present::FrameTarget> make_headless_target(const FrameRunRequest& request,
+                                                           const present::DisplayProfile& display) {
+    const SettingValues& values = request.settings->values();
     present::HeadlessTarget::Options options{
         .display = display,
         .extents = scaled_extents(display, values.render.scale),
@@ -178,12 +185,23 @@ class FrameRun {
         if (request_.preview_eyes != 0) {
             window_ = std::make_unique<preview::WindowProcess>(request_.preview_eyes);
         }
-        target_ = make_target(request_, display_);
+        present::OpenXrTarget* openxr = nullptr;
+        if (values_.target.name == "openxr") {
+            auto target = make_openxr_target(request_, display_);
+            openxr = target.get();
+            target_ = std::move(target);
+        } else {
+            target_ = make_headless_target(request_, display_);
+        }
         context_ = std::make_unique<render::VulkanContext>(
             render::VulkanOptions{.validation = values_.vulkan.validation,
                                   .device = values_.vulkan.device},
             target_->vulkan_factory());
         target_->start(*context_);
+        if (request_.openxr_gaze) {
+            openxr_gaze_ =
+                std::make_unique<drivers::OpenXrSource>(openxr->session(), *request_.openxr_gaze);
+        }
         config_ = renderer_config();
         check_recorded_target();
         render::FrameRenderer renderer(*context_, config_);
@@ -211,6 +229,12 @@ class FrameRun {
   private:
     /// Before the set-up, which takes seconds, and before a run that takes longer.
     void check_outputs() const {
+        if (request_.openxr_gaze &&
+            (values_.target.name != "openxr" || request_.clock != RunClock::Wall)) {
+            throw SetupError(ExitCode::Usage,
+                             "--gaze openxr: the gaze comes with the session that the pictures go "
+                             "to, as it happens: use it with --target openxr and --clock wall");
+        }
         if (request_.record) {
             value_or_throw(session::SessionRecorder::check(*request_.record));
         }
@@ -316,21 +340,22 @@ class FrameRun {
         if (request_.session != nullptr && request_.clock == RunClock::Recorded) {
             check_.emplace(*request_.session, request_.same_gaze, request_.same_rendering);
         }
-        LoopParts parts{.target = *target_,
-                        .renderer = renderer,
-                        .gaze = gaze,
-                        .make_timeline = [this] { return make_timeline(); },
-                        .make_source =
-                            [this](std::int64_t start_ns) {
-                                auto source = request_.make_source(start_ns);
-                                spdlog::info("gaze: {}", source->description());
-                                if (recorder_ != nullptr) {
-                                    recorder_->event(latency::Stamp{}, "gaze-source",
-                                                     source->description());
-                                }
-                                return source;
-                            },
-                        .observers = {&summing, &logging}};
+        LoopParts parts{
+            .target = *target_,
+            .renderer = renderer,
+            .gaze = gaze,
+            .make_timeline = [this] { return make_timeline(); },
+            .make_source =
+                [this](std::int64_t start_ns) {
+                    auto source = openxr_gaze_ != nullptr ? std::move(openxr_gaze_)
+                                                          : request_.make_source(start_ns);
+                    spdlog::info("gaze: {}", source->description());
+                    if (recorder_ != nullptr) {
+                        recorder_->event(latency::Stamp{}, "gaze-source", source->description());
+                    }
+                    return source;
+                },
+            .observers = {&summing, &logging}};
         if (recording_ != nullptr) {
             parts.observers.push_back(recording_.get());
         }
@@ -522,6 +547,7 @@ class FrameRun {
     // The target's swapchains live on the context's device: they go first.
     std::unique_ptr<render::VulkanContext> context_;
     std::unique_ptr<present::FrameTarget> target_;
+    std::unique_ptr<drivers::GazeSource> openxr_gaze_;  // of the target's session; until the loop's
     std::unique_ptr<preview::WindowProcess> window_;
     std::unique_ptr<preview::PreviewFeed> preview_;  // writes into the window's memory
     bool window_broken_ = false;

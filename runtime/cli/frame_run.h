@@ -7,6 +7,7 @@
 #include <string>
 
 #include "drivers/gaze_source.h"
+#include "drivers/openxr/openxr_source.h"
 #include "runtime/cli/settings.h"
 #include "runtime/error.h"
 #include "runtime/frame_loop.h"
@@ -27,6 +28,8 @@ struct FrameRunRequest {
     std::string command_line;
     RunClock clock = RunClock::Wall;
     std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)> make_source;
+    /// The gaze of the target's own OpenXR session, in place of make_source.
+    std::optional<drivers::OpenXrGazeOptions> openxr_gaze;
     const session::SessionFile* session = nullptr;  ///< with Recorded, and to be compared with
     bool same_gaze = true;                          ///< settings as the session's
     bool same_rendering = true;                     ///< settings as the session's

@@ -7,6 +7,7 @@
 
 #include "drivers/fixed/fixed_source.h"
 #include "drivers/hid/hid_source.h"
+#include "drivers/psvr2/psvr2_source.h"
 #include "drivers/simulated/simulated_source.h"
 #include "drivers/trace/read_trace.h"
 #include "drivers/trace/trace_source.h"
@@ -19,6 +20,15 @@ drivers::hid::HidOptions hid_options(const TrackerProfile& tracker, const Settin
             .delay = {tracker.delay_ns, tracker.delay_uncertainty_ns},
             .geometry = {values.hid.screen_width_m, values.hid.screen_height_m,
                          values.hid.viewing_distance_m, values.hid.eye_distance_m}};
+}
+
+drivers::psvr2::Psvr2Options psvr2_options(const TrackerProfile& tracker) {
+    return {.delay = {tracker.delay_ns, tracker.delay_uncertainty_ns}};
+}
+
+Expected<void> default_tracker(std::string_view gaze, Settings& settings) {
+    return gaze == "psvr2" ? settings.set_default("profile.tracker", "psvr2", "--gaze psvr2")
+                           : Expected<void>();
 }
 
 Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfile& tracker,
@@ -54,8 +64,13 @@ Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfi
             return std::make_unique<drivers::hid::HidSource>(options);
         };
     }
-    const std::vector<std::string> known{"hid", "hid:/dev/hidrawN", "trace:FILE", "fixed:AZ,EL",
-                                         "sim"};
+    if (text == "psvr2") {
+        return [options = psvr2_options(tracker)](std::int64_t) {
+            return std::make_unique<drivers::psvr2::Psvr2Source>(options);
+        };
+    }
+    const std::vector<std::string> known{"hid",        "hid:/dev/hidrawN", "psvr2", "openxr",
+                                         "trace:FILE", "fixed:AZ,EL",      "sim"};
     return std::unexpected(
         Error{ExitCode::Usage, "--gaze: " + unknown_name("source", text, known)});
 }

@@ -6,6 +6,7 @@
 
 #include "drivers/gaze_source.h"
 #include "drivers/hid/tracker_session.h"
+#include "drivers/psvr2/headset.h"
 #include "drivers/trace/trace.h"
 #include "runtime/cli/profiles.h"
 #include "runtime/cli/settings.h"
@@ -16,13 +17,21 @@ namespace gazeloop::cli {
 
 using MakeSource = std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)>;
 
-/// What --gaze names: hid, hid:/dev/hidrawN, trace:FILE, fixed:AZ,EL or sim. Reads a trace at once;
-/// a device may come later. Errors: Usage for an unknown source, otherwise the source's own.
+/// What --gaze names: hid, hid:/dev/hidrawN, psvr2, trace:FILE, fixed:AZ,EL or sim. Reads a trace
+/// at once; a device may come later. Errors: Usage for an unknown source, otherwise the source's
+/// own.
 Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfile& tracker,
                                        const SettingValues& values);
 
 /// The options of HID trackers (node not chosen) as configured.
 drivers::hid::HidOptions hid_options(const TrackerProfile& tracker, const SettingValues& values);
+
+/// The options of a PlayStation VR2 as configured.
+drivers::psvr2::Psvr2Options psvr2_options(const TrackerProfile& tracker);
+
+/// A source that is one certain tracker brings that tracker's profile along, unless another one is
+/// configured.
+Expected<void> default_tracker(std::string_view gaze, Settings& settings);
 
 /// Plays a trace, `speed` times as fast as it was recorded; every sample arrives `delay_ns` after
 /// it was taken, later by as much as the trace says.

@@ -31,12 +31,13 @@ struct OpenXrChecks {
 /// processes of their own.
 Findings check_openxr(const OpenXrChecks& asked, const ProbeLimits& limits);
 
+/// The eye gaze of the OpenXR runtime, gate by gate, listened to for `seconds` in a session that
+/// shows nothing; that only if the runtime and the headset have it. In a process of its own. The
+/// last finding, openxr.eye_gaze.samples, has what came as facts.
+Findings check_eye_gaze(const OpenXrChecks& asked, double seconds, const ProbeLimits& limits);
+
 /// Trackers on HID: who may read their nodes. `root` is where /sys and /dev are.
 Findings check_hid(const std::filesystem::path& root);
-
-/// Whether a HID report descriptor has the usage page 0x12, Eye and Head Trackers, in a collection.
-/// Takes any bytes.
-[[nodiscard]] bool describes_eye_tracker(std::string_view report_descriptor);
 
 /// CLOCK_MONOTONIC and what it is read from.
 Findings check_clocks(const std::filesystem::path& root);

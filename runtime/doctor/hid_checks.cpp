@@ -7,8 +7,10 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <system_error>
 
+#include "drivers/hid/find_trackers.h"
 #include "runtime/doctor/checks.h"
 
 namespace gazeloop::doctor {
@@ -19,8 +21,8 @@ namespace fs = std::filesystem;
 struct Node {
     std::string name;  ///< hidraw0
     std::string device;
-    unsigned vendor = 0;
-    unsigned product = 0;
+    std::uint16_t vendor = 0;
+    std::uint16_t product = 0;
     bool eye_tracker = false;
     bool readable = false;
 };
@@ -51,73 +53,20 @@ Node look_at(const fs::path& root, const std::string& name) {
     node.device = uevent_value(uevent, "HID_NAME");
     // Bus, vendor, product: "0003:0000054C:00000CDE".
     unsigned bus = 0;
-    std::sscanf(uevent_value(uevent, "HID_ID").c_str(), "%x:%x:%x", &bus, &node.vendor,
-                &node.product);
-    node.eye_tracker = describes_eye_tracker(text_of(device / "report_descriptor"));
+    unsigned vendor = 0;
+    unsigned product = 0;
+    std::sscanf(uevent_value(uevent, "HID_ID").c_str(), "%x:%x:%x", &bus, &vendor, &product);
+    node.vendor = static_cast<std::uint16_t>(vendor);
+    node.product = static_cast<std::uint16_t>(product);
+    const std::string bytes = text_of(device / "report_descriptor");
+    const auto descriptor = drivers::hid::parse_report_descriptor(
+        std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
+    node.eye_tracker = descriptor && drivers::hid::describes_eye_tracker(*descriptor);
     node.readable = faccessat(AT_FDCWD, (root / "dev" / name).c_str(), R_OK, AT_EACCESS) == 0;
     return node;
 }
 
 }  // namespace
-
-/// HID 1.11, 6.2.2: short items are a prefix (size, type, tag) and 0, 1, 2 or 4 bytes.
-bool describes_eye_tracker(std::string_view descriptor) {
-    constexpr unsigned kEyeAndHeadTrackers = 0x12;
-    constexpr unsigned kUsagePage = 0x04;
-    constexpr unsigned kUsage = 0x08;
-    constexpr unsigned kCollection = 0xA0;
-    constexpr unsigned kInput = 0x80;
-    constexpr unsigned kOutput = 0x90;
-    constexpr unsigned kFeature = 0xB0;
-    constexpr unsigned kLongItem = 0xFE;
-    const auto byte = [&](std::size_t i) {
-        return static_cast<unsigned>(static_cast<unsigned char>(descriptor[i]));
-    };
-    unsigned page = 0;
-    unsigned page_of_usage = 0;
-    for (std::size_t at = 0; at < descriptor.size();) {
-        const unsigned prefix = byte(at);
-        if (prefix == kLongItem) {
-            if (at + 1 >= descriptor.size()) {
-                return false;
-            }
-            at += std::size_t{3} + byte(at + 1);
-            continue;
-        }
-        const unsigned code = prefix & 3U;
-        const std::size_t size = code == 3 ? 4 : code;
-        if (at + size >= descriptor.size() && size > 0) {
-            return false;
-        }
-        std::uint32_t value = 0;
-        for (std::size_t i = 0; i < size; ++i) {
-            value |= static_cast<std::uint32_t>(byte(at + 1 + i)) << (8 * i);
-        }
-        switch (prefix & 0xFCU) {
-            case kUsagePage:
-                page = value;
-                break;
-            case kUsage:
-                page_of_usage = size == 4 ? value >> 16U : page;
-                break;
-            case kCollection:
-                if (page_of_usage == kEyeAndHeadTrackers) {
-                    return true;
-                }
-                page_of_usage = 0;
-                break;
-            case kInput:
-            case kOutput:
-            case kFeature:
-                page_of_usage = 0;  // a main item ends the local ones
-                break;
-            default:
-                break;
-        }
-        at += 1 + size;
-    }
-    return false;
-}
 
 Findings check_hid(const fs::path& root) {
     std::vector<std::string> names;
@@ -146,10 +95,9 @@ Findings check_hid(const fs::path& root) {
             finding.verdict = Verdict::Failure;
             // Before 73-seat-late.rules, which is what acts on uaccess.
             finding.remedy = fmt::format(
-                "as root, write KERNEL==\"hidraw*\", KERNELS==\"*:{:04X}:{:04X}.*\", "
-                "TAG+=\"uaccess\" into /etc/udev/rules.d/70-gazeloop.rules, run udevadm control "
+                "as root, write {} into /etc/udev/rules.d/70-gazeloop.rules, run udevadm control "
                 "--reload && udevadm trigger, and log in at this machine's seat",
-                node.vendor, node.product);
+                drivers::hid::udev_rule(node.vendor, node.product));
         }
         findings.push_back(std::move(finding));
     }

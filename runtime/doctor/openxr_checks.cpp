@@ -8,24 +8,24 @@
 #include <iterator>
 #include <optional>
 
+#include "drivers/openxr/openxr_source.h"
 #include "runtime/doctor/checks.h"
+#include "runtime/doctor/eye_gaze_findings.h"
 #include "runtime/doctor/probe.h"
 #include "runtime/latency/clock.h"
+#include "runtime/openxr/required_extensions.h"
+#include "runtime/openxr/runtime_choice.h"
 #include "runtime/present/openxr/openxr_target.h"
-#include "runtime/present/openxr/required_extensions.h"
-#include "runtime/present/openxr/runtime_choice.h"
 
 namespace gazeloop::doctor {
 namespace {
 
-using present::typed;
-using present::xr_check;
+using openxr::typed;
+using openxr::xr_check;
 
 constexpr const char* kOtherRuntime =
     "use another runtime (XR_RUNTIME_JSON), the Monado that ./dev setup builds, or --target "
     "headless";
-constexpr const char* kEyeGaze = XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME;
-constexpr const char* kGazeWithoutIt = "use a headset with an eye tracker, or --gaze with a trace";
 
 /// What the runtime's manifest says of its library.
 std::string library_of(const std::string& manifest) {
@@ -46,7 +46,7 @@ class RuntimeProbe {
 
     void run() {
         report_.step("choosing an OpenXR runtime");
-        const present::RuntimeChoice choice = present::choose_runtime(asked_.display);
+        const openxr::RuntimeChoice choice = openxr::choose_runtime(asked_.display);
         const std::string library = library_of(choice.manifest);
         report_.add(
             {.check = "openxr.runtime",
@@ -82,7 +82,7 @@ class RuntimeProbe {
             extensions_.emplace_back(one.extensionName);
         }
         std::vector<std::string> missing;
-        for (const char* name : present::kRequiredXrExtensions) {
+        for (const char* name : openxr::kRequiredXrExtensions) {
             if (!offers(name)) {
                 missing.emplace_back(name);
             }
@@ -91,7 +91,7 @@ class RuntimeProbe {
                      .verdict = missing.empty() ? Verdict::Ok : Verdict::Failure,
                      .found = missing.empty()
                                   ? fmt::format("{} offered, among them {}", extensions_.size(),
-                                                fmt::join(present::kRequiredXrExtensions, ", "))
+                                                fmt::join(openxr::kRequiredXrExtensions, ", "))
                                   : fmt::format("the runtime lacks {}", fmt::join(missing, ", ")),
                      .remedy = missing.empty() ? "" : kOtherRuntime,
                      .facts = {{"offered", extensions_}, {"missing", missing}},
@@ -100,13 +100,13 @@ class RuntimeProbe {
 
     void create_instance() {
         std::vector<const char*> enabled;
-        for (const char* name : present::kRequiredXrExtensions) {
+        for (const char* name : openxr::kRequiredXrExtensions) {
             if (offers(name)) {
                 enabled.push_back(name);
             }
         }
-        if (offers(kEyeGaze)) {
-            enabled.push_back(kEyeGaze);
+        if (offers(drivers::kEyeGazeExtension)) {
+            enabled.push_back(drivers::kEyeGazeExtension);
         }
         auto info = typed<XrInstanceCreateInfo>(XR_TYPE_INSTANCE_CREATE_INFO);
         std::strcpy(info.applicationInfo.applicationName, "gazeloop doctor");
@@ -152,77 +152,19 @@ class RuntimeProbe {
                                {"recommended_height_px", view.recommendedImageRectHeight}}});
     }
 
-    /// Each gate opens the next.
+    /// As far as gates can be seen without a session.
     void check_eye_gaze() {
-        const auto gate = [&](const char* name, bool open, std::string found) {
-            report_.add({.check = fmt::format("openxr.eye_gaze.{}", name),
-                         .verdict = open ? Verdict::Ok : Verdict::Warning,
-                         .found = std::move(found),
-                         .remedy = open ? "" : kGazeWithoutIt});
-            return open;
-        };
-        const auto not_reached = [&](const char* name) {
-            report_.add({.check = fmt::format("openxr.eye_gaze.{}", name),
-                         .verdict = Verdict::NotApplicable,
-                         .found = "not reached: a gate before it is shut"});
-        };
-        const bool listed = offers(kEyeGaze);
-        gate("extension", listed, fmt::format("{} is {}offered", kEyeGaze, listed ? "" : "not "));
-        bool supported = false;
-        if (listed) {
-            auto gaze = typed<XrSystemEyeGazeInteractionPropertiesEXT>(
-                XR_TYPE_SYSTEM_EYE_GAZE_INTERACTION_PROPERTIES_EXT);
-            auto properties = typed<XrSystemProperties>(XR_TYPE_SYSTEM_PROPERTIES);
-            properties.next = &gaze;
-            xr_check(xrGetSystemProperties(instance_, system_, &properties),
-                     "xrGetSystemProperties");
-            supported = gaze.supportsEyeGazeInteraction == XR_TRUE;
-            gate("system", supported,
-                 fmt::format("supportsEyeGazeInteraction is {}", supported ? "true" : "false"));
-        } else {
-            not_reached("system");
+        drivers::GazeGates gates;
+        if (drivers::check_instance_gates(instance_, system_, offers(drivers::kEyeGazeExtension),
+                                          gates)) {
+            const XrResult suggested = drivers::EyeGazeAction(instance_).suggested();
+            gates.set(drivers::GazeGate::Binding,
+                      {XR_SUCCEEDED(suggested), openxr::xr_name(suggested)},
+                      latency::monotonic_ns());
         }
-        bool bound = false;
-        if (supported) {
-            const XrResult result = suggest_gaze();
-            bound = XR_SUCCEEDED(result);
-            gate("bindings", bound,
-                 fmt::format("/user/eyes_ext/input/gaze_ext/pose: {}", present::xr_name(result)));
-        } else {
-            not_reached("bindings");
+        for (const Finding& finding : eye_gaze_findings(gates)) {
+            report_.add(finding);
         }
-        if (bound) {
-            report_.add({.check = "openxr.eye_gaze.session",
-                         .verdict = Verdict::NotApplicable,
-                         .found = "consent, calibration and sample times show only in a running "
-                                  "session with a wearer"});
-        } else {
-            not_reached("session");
-        }
-    }
-
-    XrResult suggest_gaze() {
-        auto set_info = typed<XrActionSetCreateInfo>(XR_TYPE_ACTION_SET_CREATE_INFO);
-        std::strcpy(set_info.actionSetName, "doctor");
-        std::strcpy(set_info.localizedActionSetName, "Doctor");
-        XrActionSet set = XR_NULL_HANDLE;
-        xr_check(xrCreateActionSet(instance_, &set_info, &set), "xrCreateActionSet");
-        auto action_info = typed<XrActionCreateInfo>(XR_TYPE_ACTION_CREATE_INFO);
-        action_info.actionType = XR_ACTION_TYPE_POSE_INPUT;
-        std::strcpy(action_info.actionName, "gaze");
-        std::strcpy(action_info.localizedActionName, "Gaze");
-        XrActionSuggestedBinding binding{};
-        xr_check(xrCreateAction(set, &action_info, &binding.action), "xrCreateAction");
-        xr_check(xrStringToPath(instance_, "/user/eyes_ext/input/gaze_ext/pose", &binding.binding),
-                 "xrStringToPath");
-        auto suggested = typed<XrInteractionProfileSuggestedBinding>(
-            XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
-        xr_check(xrStringToPath(instance_, "/interaction_profiles/ext/eye_gaze_interaction",
-                                &suggested.interactionProfile),
-                 "xrStringToPath");
-        suggested.countSuggestedBindings = 1;
-        suggested.suggestedBindings = &binding;
-        return xrSuggestInteractionProfileBindings(instance_, &suggested);
     }
 
     /// There and back again: what a stamp loses on its way through the runtime's clock.
@@ -230,9 +172,9 @@ class RuntimeProbe {
         if (!offers(XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME)) {
             return;  // already a failure
         }
-        const auto to_xr = present::xr_function<PFN_xrConvertTimespecTimeToTimeKHR>(
+        const auto to_xr = openxr::xr_function<PFN_xrConvertTimespecTimeToTimeKHR>(
             instance_, "xrConvertTimespecTimeToTimeKHR");
-        const auto from_xr = present::xr_function<PFN_xrConvertTimeToTimespecTimeKHR>(
+        const auto from_xr = openxr::xr_function<PFN_xrConvertTimeToTimespecTimeKHR>(
             instance_, "xrConvertTimeToTimespecTimeKHR");
         constexpr int kTrips = 100;
         constexpr std::int64_t kLargestErrorNs = 1000;

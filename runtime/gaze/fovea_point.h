@@ -43,6 +43,7 @@ struct FoveaPoint {
     latency::Stamp arrived;
     latency::Stamp ready;                        ///< of that sample, as in GazeSample
     std::optional<std::int64_t> uncertainty_ns;  ///< of `sampled`
+    std::optional<double> parallax_rad;          ///< of that sample, as in GazeSample
 };
 
 /// The foveae of one frame: written once, before the frame's first gaze-dependent submit.

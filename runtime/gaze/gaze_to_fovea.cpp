@@ -106,6 +106,7 @@ void GazeToFovea::add(const GazeSample& sample) {
     }
     ValidSample valid{.direction_in_head = {},
                       .borrowed = {},
+                      .parallax_rad = sample.parallax_rad,
                       .head = usable_pose(sample.head),
                       .sequence = sample.sequence,
                       .times = times};
@@ -158,6 +159,7 @@ FoveaPoint GazeToFovea::fovea_of(std::size_t eye, const Condition& condition, co
         point.arrived = valid.times.arrived;
         point.ready = valid.times.ready;
         point.uncertainty_ns = valid.times.uncertainty_ns;
+        point.parallax_rad = valid.parallax_rad;
         if (condition.state == FoveaState::Tracking && valid.borrowed[eye]) {
             point.state = FoveaState::OtherEye;
         }

@@ -64,6 +64,7 @@ class GazeToFovea {
     struct ValidSample {
         PerEye<glm::dvec3> direction_in_head;
         PerEye<bool> borrowed;
+        std::optional<double> parallax_rad;
         std::optional<Pose> head;
         std::uint64_t sequence = 0;
         Times times;

@@ -27,6 +27,8 @@ constexpr std::uint64_t kFewestToJudge = 16;
 /// With so many, what is still wrong is not for lack of samples.
 constexpr std::uint64_t kManySamples = 100;
 constexpr std::size_t kEarlyRunToStep = 3;
+/// So many samples after an early one may be late ones of a clock that was set.
+constexpr std::size_t kCalmAfterEarly = 2;
 /// Two samples may come early within this and still be of the same clock.
 constexpr double kLeastEarly_ns = 200e3;
 constexpr double kLateHeights = 2.5;
@@ -57,11 +59,19 @@ ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
     if (!started_ || difference(last_arrived_ns_, arrived_ns) > kLongestGap_ns) {
         restart(device_ns, arrived_ns);
     }
-    const Point point{device_ns,
-                      saturated(static_cast<__int128>(arrived_ns) - device_ns - offset_)};
-    const std::int64_t increment_ns = received_ == 0 ? 0 : difference(last_device_ns_, device_ns);
+    std::int64_t increment_ns = received_ == 0 ? 0 : difference(last_device_ns_, device_ns);
     const std::int64_t arrival_increment_ns =
         received_ == 0 ? 0 : difference(last_arrived_ns_, arrived_ns);
+    // One that came right after its predecessor has waited with it, and tells nothing more.
+    const bool queued = increment_ns > 0 && arrival_increment_ns < increment_ns / 2;
+    if (backlog_ && queued) {
+        restart(device_ns, arrived_ns);
+        increment_ns = 0;
+    } else {
+        backlog_ = received_ == 0;
+    }
+    const Point point{device_ns,
+                      saturated(static_cast<__int128>(arrived_ns) - device_ns - offset_)};
     recent_[received_ % kRunToStep] = point;
     ++received_;
     last_device_ns_ = device_ns;
@@ -77,6 +87,8 @@ ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
     }
     held_since_ns_ = arrived_ns;
     const bool jumped = received_ > 1 && note_increment(increment_ns);
+    const bool jumped_once = jumped && regular_run_ >= kRecentIncrements;
+    regular_run_ = jumped ? 0 : regular_run_ + 1;
 
     if (bucket_count_ > 0) {
         const double height = static_cast<double>(point.lag_ns) - line_.at(device_ns);
@@ -84,6 +96,7 @@ ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
         const bool judged = samples_ >= kFewestToJudge;
         if (judged && -height > std::max(kLeastEarly_ns, uncertainty)) {
             late_run_ = 0;
+            calm_run_ = 0;
             if (++early_run_ < kEarlyRunToStep) {
                 return last_ = in_question(arrived_ns);
             }
@@ -92,11 +105,13 @@ ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
             last_.stepped = true;
             return last_;
         }
+        // Not early. But a clock that was set shows so too while a sample is late by as much.
+        if (early_run_ > 0 && ++calm_run_ <= kCalmAfterEarly) {
+            return last_ = in_question(arrived_ns);
+        }
         early_run_ = 0;
         const bool late = (judged || increment_ns < 0) &&
                           height > kLateHeights * mean_height_ns_ + uncertainty + kLeastLate_ns;
-        // One that came right after its predecessor has waited with it, and tells nothing more.
-        const bool queued = increment_ns > 0 && arrival_increment_ns < increment_ns / 2;
         if (!late) {
             late_run_ = 0;
             jumped_in_run_ = false;
@@ -115,8 +130,9 @@ ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
             last_.stepped = true;
             return last_;
         }
-        if (device_ns <= buckets_[bucket_count_ - 1].lowest.device_ns) {
-            return last_ = in_question(arrived_ns);  // it was overtaken
+        if (device_ns <= buckets_[bucket_count_ - 1].lowest.device_ns || (judged && jumped_once)) {
+            return last_ =
+                       in_question(arrived_ns);  // overtaken, or perhaps set and late by as much
         }
         if (!queued) {
             // A host that slept says little about the usual jitter.
@@ -137,9 +153,11 @@ void ClockFit::restart(std::int64_t device_ns, std::int64_t arrived_ns) {
     bucket_count_ = 0;
     samples_ = 0;
     received_ = 0;
+    backlog_ = true;
     early_run_ = 0;
     late_run_ = 0;
     jumped_in_run_ = false;
+    regular_run_ = 0;
     increment_count_ = 0;
     period_ns_ = 0;
     increment_divisor_ns_ = 0;

@@ -81,6 +81,7 @@ void visit_sample(Visitor& visit, Frame& frame, Sample& sample) {
         sample.head = has_head ? std::optional(head) : std::nullopt;
     }
     visit_clocked(visit, sample);
+    visit("parallax", "_rad", sample.parallax_rad);  // files have it not that were written before
 }
 
 /// A count that the first files of this schema version lack: 0 there (see kLaterColumns).
@@ -164,6 +165,7 @@ void visit_fovea(Visitor& visit, Frame& frame, Eye& eye, Fovea& fovea) {
     visit_stamp(visit, "sampled", fovea.sampled);
     visit_stamp(visit, "arrived", fovea.arrived);
     visit_clocked(visit, fovea);
+    visit("parallax", "_rad", fovea.parallax_rad);
 }
 
 template <typename Visitor, typename Frame, typename Eye, typename Triangle>

@@ -58,7 +58,8 @@ CREATE TABLE gaze (
     head_y_m          ANY,
     head_z_m          ANY,
     ready_ns          INTEGER,
-    uncertainty_ns    INTEGER
+    uncertainty_ns    INTEGER,
+    parallax_rad      ANY
 ) STRICT;
 
 CREATE TABLE frame (
@@ -146,6 +147,7 @@ CREATE TABLE fovea (
     arrived_kind    INTEGER NOT NULL,
     ready_ns        INTEGER,
     uncertainty_ns  INTEGER,
+    parallax_rad    ANY,
     PRIMARY KEY (frame, eye)
 ) STRICT, WITHOUT ROWID;
 

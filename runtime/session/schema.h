@@ -15,8 +15,8 @@ inline constexpr int kOldestSchemaVersion = 1;
 extern const char* const kCreateTables;
 
 /// Columns and tables that the first files of this version lack, in whichever table they are.
-inline constexpr std::array<std::string_view, 4> kLaterColumns{"texels_hidden", "pixels_hidden",
-                                                               "ready_ns", "uncertainty_ns"};
+inline constexpr std::array<std::string_view, 5> kLaterColumns{
+    "texels_hidden", "pixels_hidden", "ready_ns", "uncertainty_ns", "parallax_rad"};
 inline constexpr std::string_view kHiddenTable = "hidden_area";
 
 /// Names in `meta` that the recorder itself keeps.

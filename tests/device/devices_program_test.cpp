@@ -78,7 +78,8 @@ TEST_F(DevicesProgram, ListsWhatATrackerStatesAndDoes) {
     const ProgramResult result = run_gazeloop({"devices", "--seconds", "1", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
     const auto list = nlohmann::json::parse(result.out);
-    ASSERT_EQ(list.size(), 1U);
+    ASSERT_EQ(list.size(), 2U);
+    EXPECT_EQ(list[1]["source"], "openxr");
     EXPECT_EQ(list[0]["path"], "/dev/hidraw0");
     EXPECT_EQ(list[0]["status"], "ready");
     EXPECT_EQ(list[0]["stated_hz"], 200);

@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <thread>
 
 #include "drivers/hid/hid_source.h"
 #include "runtime/latency/clock.h"
 #include "tests/device/emulated_tracker.h"
+#include "tests/device/thread_time.h"
 #include "tests/unit/drivers/hid/descriptor_items.h"
 
 namespace gazeloop::drivers::hid {
@@ -84,10 +83,10 @@ TEST_F(HidDevice, IsFoundOnceAndByItsDescriptor) {
     tracker_->plug_in();
     const std::vector<FoundTracker> found = find_trackers();
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].path, "/dev/hidraw0");
-    EXPECT_EQ(found[0].text(), "Emulated Eye Tracker (1209:e7e7) at /dev/hidraw0");
+    EXPECT_EQ(found[0].device.path, "/dev/hidraw0");
+    EXPECT_EQ(found[0].device.text(), "Emulated Eye Tracker (1209:e7e7) at /dev/hidraw0");
     EXPECT_TRUE(found[0].layout.has_value());
-    EXPECT_FALSE(found[0].access_problem.has_value());
+    EXPECT_FALSE(found[0].device.access_problem.has_value());
     tracker_->unplug();
     EXPECT_TRUE(find_trackers().empty());
 }
@@ -205,22 +204,6 @@ TEST_F(HidDevice, GivesTimesOnceItsClockIsKnown) {
     EXPECT_GE(last.ready.ns, start_ns + 199 * 5'000'000LL - *last.uncertainty_ns);
 }
 
-/// Time on a processor of this process's thread of that name, seconds.
-double thread_seconds(const std::string& name) {
-    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
-        std::ifstream comm(entry.path() / "comm");
-        std::string found;
-        std::getline(comm, found);
-        if (found == name) {
-            std::ifstream schedstat(entry.path() / "schedstat");
-            double ns = 0.0;
-            schedstat >> ns;
-            return ns * 1e-9;
-        }
-    }
-    return 0.0;
-}
-
 // Nothing is lost; what it takes is printed, and an upper bound, because every read goes through
 // umockdev's own thread.
 TEST_F(HidDevice, KeepsUpWithAThousandReportsASecond) {
@@ -228,7 +211,7 @@ TEST_F(HidDevice, KeepsUpWithAThousandReportsASecond) {
     tracker_->plug_in();
     HidSource source({});
     until_event(source, "plugged in");
-    const double cpu_before_s = thread_seconds(kHidThreadName);
+    const double cpu_before_s = tests::thread_seconds(kHidThreadName);
     const std::int64_t start_ns = latency::monotonic_ns();
     std::thread sender([&] {
         for (int i = 0; i < kReports; ++i) {
@@ -261,7 +244,7 @@ TEST_F(HidDevice, KeepsUpWithAThousandReportsASecond) {
     fmt::print(
         "reader {:.2f} % of a core; read to polled p50 {:.0f} us, p99 {:.0f} us (polled every "
         "20 us and more)\n",
-        100.0 * (thread_seconds(kHidThreadName) - cpu_before_s) / seconds,
+        100.0 * (tests::thread_seconds(kHidThreadName) - cpu_before_s) / seconds,
         published_us.at(published_us.size() / 2), published_us.at(published_us.size() * 99 / 100));
 }
 
@@ -271,8 +254,9 @@ TEST_F(HidDevice, SaysWhenItMayNotBeOpened) {
     }
     tracker_->plug_in();
     tracker_->set_mode(0);
-    const FoundTracker found = find_trackers().at(0);
+    const FoundDevice found = find_trackers().at(0).device;
     EXPECT_NE(found.access_problem.value_or("").find("permission denied"), std::string::npos);
+    EXPECT_EQ(found.missing_rule, udev_rule(0x1209, 0xE7E7));
 }
 
 }  // namespace

@@ -3,11 +3,11 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 
 #include "runtime/session/session_file.h"
+#include "tests/support/openxr_validation.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::tests {
@@ -26,10 +26,9 @@ class OpenXrLoop : public testing::Test {
     /// A run on the runtime with the validation layers of both APIs.
     [[nodiscard]] ProgramResult run(std::vector<std::string> arguments,
                                     ProgramOptions options = {}) const {
-        options.environment.insert(
-            options.environment.end(),
-            {{"XR_CORE_VALIDATION_EXPORT_TYPE", "text"},
-             {"XR_CORE_VALIDATION_FILE_NAME", folder_.file("openxr-validation.txt")}});
+        for (const auto& variable : openxr_validation_to(validation_file())) {
+            options.environment.push_back(variable);
+        }
         for (const char* setting : {"target.name=openxr", "target.validation=true",
                                     "vulkan.validation=true", "render.scale=0.05"}) {
             arguments.insert(arguments.end(), {"--set", setting});
@@ -37,21 +36,14 @@ class OpenXrLoop : public testing::Test {
         return run_gazeloop(arguments, options);
     }
 
-    /// What the OpenXR validation layer had to say: it makes its file with its first message.
     [[nodiscard]] std::string validation_messages(const ProgramResult& result) const {
-        EXPECT_NE((result.out + result.err).find("Core Validation output type: text"),
-                  std::string::npos)
+        EXPECT_NE((result.out + result.err).find(kOpenXrValidationIsOn), std::string::npos)
             << "the validation layer was not loaded: " << result.err;
-        std::ifstream file(folder_.file("openxr-validation.txt"));
-        std::string messages;
-        for (std::string line; std::getline(file, line);) {
-            if (line.find("VUID") != std::string::npos ||
-                line.find("[ERROR") != std::string::npos ||
-                line.find("[WARNING") != std::string::npos) {
-                messages += line + "\n";
-            }
-        }
-        return messages;
+        return openxr_validation_messages(validation_file());
+    }
+
+    [[nodiscard]] std::string validation_file() const {
+        return folder_.file("openxr-validation.txt");
     }
 
     ScratchFolder folder_;

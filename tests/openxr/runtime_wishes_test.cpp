@@ -1,26 +1,29 @@
 // What a runtime may ask for while frames go on: an end, another mask. A layer of our own between
-// the program and Monado asks for it (scripted_layer.cpp).
+// the program and Monado asks for it (tests/support/openxr_layer).
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 
 #include "runtime/session/session_file.h"
+#include "tests/support/faults/injected.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::tests {
 namespace {
 
+/// Before, the corners are hidden: two views, asked how much and what.
+constexpr std::string_view kMaskChanges =
+    "xrWaitFrame@10=event:VISIBILITY_MASK_CHANGED;xrGetVisibilityMaskKHR@5+99=";
+
 class RuntimeWishes : public testing::Test {
   protected:
     /// A recorded run of up to 30 frames.
-    ProgramResult run(const std::string& script, const std::vector<std::string>& more = {}) {
+    ProgramResult run(const std::string& plan, const std::vector<std::string>& more = {}) {
         std::vector<std::string> words{"run",   "--frames",         "30",    "--record", session(),
                                        "--set", "render.scale=0.2", "--hash"};
         words.insert(words.end(), more.begin(), more.end());
-        return run_gazeloop(words, {.environment = {{"XR_ENABLE_API_LAYERS", "gazeloop_scripted"},
-                                                    {"XR_API_LAYER_PATH", GAZELOOP_LAYER_FOLDER},
-                                                    {"GAZELOOP_TEST_SCRIPT", script}}});
+        return run_gazeloop(words, {.environment = openxr_faults(plan)});
     }
 
     [[nodiscard]] session::SessionFile recorded() const {
@@ -33,7 +36,7 @@ class RuntimeWishes : public testing::Test {
 };
 
 TEST_F(RuntimeWishes, AnEndIsAnOrderlyEnd) {
-    const ProgramResult result = run("exit");
+    const ProgramResult result = run("xrWaitFrame@10=exit");
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.err.find("ended by the runtime"), std::string::npos) << result.err;
     const session::SessionFile session = recorded();
@@ -49,7 +52,7 @@ TEST_F(RuntimeWishes, AnEndIsAnOrderlyEnd) {
 }
 
 TEST_F(RuntimeWishes, ALossIsSaidAndLosesNothing) {
-    const ProgramResult result = run("loss");
+    const ProgramResult result = run("xrWaitFrame@10=event:LOSS_PENDING");
     EXPECT_EQ(result.exit_code, 5) << result.err;
     EXPECT_NE(result.err.find("session loss pending"), std::string::npos) << result.err;
     const session::SessionFile session = recorded();
@@ -59,7 +62,7 @@ TEST_F(RuntimeWishes, ALossIsSaidAndLosesNothing) {
 }
 
 TEST_F(RuntimeWishes, AnotherMaskIsFollowedAndReplayed) {
-    ASSERT_EQ(run("mask").exit_code, 0);
+    ASSERT_EQ(run(std::string(kMaskChanges) + "half").exit_code, 0);
     const session::SessionFile session = recorded();
     ASSERT_EQ(session.hidden.size(), 2U);
     EXPECT_EQ(session.hidden[0].frame, 0U);
@@ -87,7 +90,7 @@ TEST_F(RuntimeWishes, AnotherMaskIsFollowedAndReplayed) {
 }
 
 TEST_F(RuntimeWishes, AMaskMayGo) {
-    ASSERT_EQ(run("no-mask").exit_code, 0);
+    ASSERT_EQ(run(std::string(kMaskChanges) + "none").exit_code, 0);
     const session::SessionFile session = recorded();
     ASSERT_EQ(session.hidden.size(), 2U);
     EXPECT_TRUE((*session.hidden[1].meshes)[0].empty());
@@ -111,7 +114,7 @@ TEST_F(RuntimeWishes, EveryMethodLeavesOutTheSame) {
 }
 
 TEST_F(RuntimeWishes, AMaskThatIsNoneIsRefused) {
-    const ProgramResult result = run("odd-mask");
+    const ProgramResult result = run("xrGetVisibilityMaskKHR@1+99=odd");
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.err.find("no list of triangles"), std::string::npos) << result.err;
     EXPECT_TRUE(recorded().hidden.empty());

@@ -62,6 +62,7 @@ class AnyRecord {
                      stamp(),
                      stamp(),
                      {},
+                     {},
                      {}};
             clocked(fovea);
         }
@@ -108,6 +109,9 @@ class AnyRecord {
         }
         if (coin()) {
             timed.uncertainty_ns = signed_integer();
+        }
+        if (coin()) {
+            timed.parallax_rad = coin() ? 1e-300 : 3.0;
         }
     }
 
@@ -182,6 +186,8 @@ void append_clocked(Bits& bits, const Timed& timed) {
     append(bits, timed.ready);
     append(bits, std::uint64_t{timed.uncertainty_ns.has_value()});
     append(bits, timed.uncertainty_ns.value_or(0));
+    append(bits, std::uint64_t{timed.parallax_rad.has_value()});
+    append(bits, timed.parallax_rad.value_or(0.0));
 }
 
 Bits bits_of(const gaze::GazeSample& sample) {

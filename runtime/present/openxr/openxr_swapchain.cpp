@@ -9,6 +9,10 @@
 
 namespace gazeloop::present {
 
+using openxr::typed;
+using openxr::xr_check;
+using openxr::xr_check_session;
+
 OpenXrSwapchain::OpenXrSwapchain(const render::VulkanContext& context, XrSession session,
                                  vk::Extent2D extent, vk::Format format, SwapchainContent content)
     : extent_(extent) {

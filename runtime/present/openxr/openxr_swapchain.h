@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "runtime/present/openxr/xr_check.h"
+#include "runtime/openxr/xr_check.h"
 #include "runtime/render/frame_renderer.h"
 
 namespace gazeloop::present {

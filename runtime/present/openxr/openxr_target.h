@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
+#include "runtime/openxr/session.h"
 #include "runtime/present/display_profile.h"
 #include "runtime/present/frame_target.h"
 
@@ -13,10 +15,19 @@ struct OpenXrOptions {
     bool validation = false;  ///< the core validation layer; its findings go to the log
     /// Give depth images along, where the runtime takes them (XR_KHR_composition_layer_depth).
     bool depth = false;
+    /// Extensions for who shares the session, enabled where the runtime offers them.
+    std::vector<const char*> extensions{};
 };
 
 /// A stereo session: vulkan_enable2, one swapchain an eye, a projection layer in LOCAL space.
+class OpenXrTarget : public FrameTarget {
+  public:
+    [[nodiscard]] virtual const openxr::Instance& instance() const = 0;
+    /// For a gaze source that shares it. Precondition: start() was called.
+    [[nodiscard]] virtual const openxr::Session& session() const = 0;
+};
+
 /// Throws SetupError (NoDevice) with the remedy when there is no runtime, or it lacks what we need.
-std::unique_ptr<FrameTarget> make_openxr_target(const OpenXrOptions& options);
+std::unique_ptr<OpenXrTarget> make_openxr_target(const OpenXrOptions& options);
 
 }  // namespace gazeloop::present

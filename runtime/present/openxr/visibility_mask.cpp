@@ -6,6 +6,10 @@
 
 namespace gazeloop::present {
 
+using openxr::typed;
+using openxr::xr_check;
+using openxr::xr_function;
+
 VisibilityMask::VisibilityMask(XrInstance instance)
     : get_(xr_function<PFN_xrGetVisibilityMaskKHR>(instance, "xrGetVisibilityMaskKHR")) {}
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "runtime/gaze/hidden_mesh.h"
-#include "runtime/present/openxr/xr_check.h"
+#include "runtime/openxr/xr_check.h"
 
 namespace gazeloop::present {
 

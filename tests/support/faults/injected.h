@@ -10,7 +10,7 @@ namespace gazeloop::tests {
 
 inline std::string faults_folder() { return std::string(GAZELOOP_BINARY_DIR) + "/faults"; }
 
-/// `plan`: see openxr_fault_layer.cpp.
+/// `plan`: see tests/support/openxr_layer.
 inline Environment openxr_faults(const std::string& plan) {
     return {{"XR_API_LAYER_PATH", faults_folder() + "/openxr"},
             {"XR_ENABLE_API_LAYERS", "XR_APILAYER_GAZELOOP_faults"},

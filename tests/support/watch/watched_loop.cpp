@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "drivers/openxr/openxr_source.h"
 #include "drivers/trace/trace_source.h"
 #include "runtime/cli/profiles.h"
 #include "runtime/cli/run_observers.h"
@@ -44,6 +45,9 @@ class MarkingSource final : public drivers::GazeSource {
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override {
         mark_gaze();
         source_->poll(now_ns, samples);
+    }
+    [[nodiscard]] std::vector<drivers::SourceEvent> take_events() override {
+        return source_->take_events();
     }
     [[nodiscard]] const gaze::HeadMotion* head_track() const override {
         return source_->head_track();
@@ -85,11 +89,20 @@ class FrameWatch final : public FrameObserver {
     std::size_t seen_ = 0;
 };
 
-std::unique_ptr<present::FrameTarget> make_target(const WatchedLoop& options,
-                                                  const present::DisplayProfile& display) {
-    if (options.openxr) {
-        return present::make_openxr_target({.display = display, .scale = options.scale});
+std::unique_ptr<present::OpenXrTarget> make_openxr(const WatchedLoop& options,
+                                                   const present::DisplayProfile& display) {
+    if (!options.openxr) {
+        return nullptr;
     }
+    present::OpenXrOptions target{.display = display, .scale = options.scale};
+    if (options.openxr_gaze) {
+        target.extensions.push_back(drivers::kEyeGazeExtension);
+    }
+    return present::make_openxr_target(target);
+}
+
+std::unique_ptr<present::FrameTarget> make_headless(const WatchedLoop& options,
+                                                    const present::DisplayProfile& display) {
     const auto scaled = [&](std::uint32_t side) {
         return std::max(2U, static_cast<std::uint32_t>(std::lround(side * options.scale)));
     };
@@ -104,7 +117,10 @@ std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
     const present::DisplayProfile display = value_or_throw(cli::load_display("fove0"));
     // In this order, because the context is the last to go but for the runtime's instance.
     std::unique_ptr<render::VulkanContext> context;
-    const std::unique_ptr<present::FrameTarget> target = make_target(options, display);
+    std::unique_ptr<present::OpenXrTarget> openxr = make_openxr(options, display);
+    const present::OpenXrTarget* const shared = openxr.get();
+    const std::unique_ptr<present::FrameTarget> target =
+        openxr != nullptr ? std::move(openxr) : make_headless(options, display);
     context =
         std::make_unique<render::VulkanContext>(render::VulkanOptions{}, target->vulkan_factory());
     watch_vulkan(*context);
@@ -130,9 +146,16 @@ std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
         .gaze = gaze,
         .make_timeline = [] { return std::make_unique<LiveTimeline>(latency::measured_now().ns); },
         .make_source =
-            [](std::int64_t start_ns) {
-                return std::make_unique<MarkingSource>(std::make_unique<drivers::TraceSource>(
-                    sim::generate_gaze({}, 300.0), start_ns, 10'000'000));
+            [&](std::int64_t start_ns) {
+                std::unique_ptr<drivers::GazeSource> source;
+                if (options.openxr_gaze) {
+                    source = std::make_unique<drivers::OpenXrSource>(shared->session(),
+                                                                     drivers::OpenXrGazeOptions{});
+                } else {
+                    source = std::make_unique<drivers::TraceSource>(sim::generate_gaze({}, 300.0),
+                                                                    start_ns, 10'000'000);
+                }
+                return std::make_unique<MarkingSource>(std::move(source));
             },
         .observers = {&summing, &logging}};
     if (!options.record.empty()) {

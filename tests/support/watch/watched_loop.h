@@ -20,8 +20,9 @@ struct WatchedFrame {
 };
 
 struct WatchedLoop {
-    bool openxr = false;  ///< else headless
-    bool paced = true;    ///< headless: at the display's rate
+    bool openxr = false;       ///< else headless
+    bool openxr_gaze = false;  ///< with openxr: its eye gaze, else simulated gaze with blinks
+    bool paced = true;         ///< headless: at the display's rate
     bool hash = false;
     double scale = 0.05;  ///< of the display's size
     std::size_t frames = 200;
@@ -30,8 +31,8 @@ struct WatchedLoop {
     std::filesystem::path record{};  ///< empty: no recording
 };
 
-/// Runs the frame loop as `gazeloop run` puts it together, on simulated gaze with blinks, and
-/// watches its thread. Throws SetupError.
+/// Runs the frame loop as `gazeloop run` puts it together, and watches its thread. Throws
+/// SetupError.
 std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options);
 
 }  // namespace gazeloop::tests

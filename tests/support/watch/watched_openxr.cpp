@@ -26,6 +26,13 @@ GAZELOOP_WATCH(xrLocateViews,
                (session, info, state, capacity, count, views))
 GAZELOOP_WATCH(xrLocateSpace, (XrSpace space, XrSpace base, XrTime time, XrSpaceLocation* location),
                (space, base, time, location))
+GAZELOOP_WATCH(xrSyncActions, (XrSession session, const XrActionsSyncInfo* info), (session, info))
+GAZELOOP_WATCH(xrGetActionStatePose,
+               (XrSession session, const XrActionStateGetInfo* info, XrActionStatePose* state),
+               (session, info, state))
+GAZELOOP_WATCH(xrGetCurrentInteractionProfile,
+               (XrSession session, XrPath user, XrInteractionProfileState* state),
+               (session, user, state))
 GAZELOOP_WATCH(xrAcquireSwapchainImage,
                (XrSwapchain swapchain, const XrSwapchainImageAcquireInfo* info, uint32_t* index),
                (swapchain, info, index))

@@ -169,10 +169,10 @@ TEST_F(ReadSession, KnowsWhatWasHiddenFromWhichFrameOn) {
     EXPECT_THAT(error(), HasSubstr("table hidden_area, row 3: is of an earlier frame"));
 }
 
-TEST_F(ReadSession, ReadsFilesFromBeforeClocksWereFitted) {
+TEST_F(ReadSession, ReadsFilesFromBeforeTheseColumns) {
     record();
     for (const char* const table : {"gaze", "fovea"}) {
-        for (const char* const column : {"ready_ns", "uncertainty_ns"}) {
+        for (const char* const column : {"ready_ns", "uncertainty_ns", "parallax_rad"}) {
             change(std::string("ALTER TABLE ") + table + " DROP COLUMN " + column);
         }
     }

@@ -1,0 +1,122 @@
+#include "drivers/device/device_source.h"
+
+#include <poll.h>
+#include <pthread.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "drivers/device/udev.h"
+#include "runtime/latency/clock.h"
+
+namespace gazeloop::drivers {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// A tracker may become accessible without an event (a changed permission).
+constexpr milliseconds kLookAgainAfter{1000};
+/// A tracker that is there but fails is not asked again at once.
+constexpr milliseconds kRetryAfter{200};
+
+}  // namespace
+
+class DeviceSource::Reader {
+  public:
+    explicit Reader(DeviceKind kind)
+        : kind_(std::move(kind)),
+          wake_fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+          thread_([this] { run(); }) {
+        pthread_setname_np(thread_.native_handle(), kind_.thread_name.c_str());
+    }
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
+    ~Reader() {
+        stop_.store(true, std::memory_order_relaxed);
+        eventfd_write(wake_fd_, 1);
+        thread_.join();
+        close(wake_fd_);
+    }
+
+    [[nodiscard]] DeviceFeed& feed() { return feed_; }
+
+  private:
+    [[nodiscard]] bool stopped() const { return stop_.load(std::memory_order_relaxed); }
+
+    void run() {
+        DeviceWatch watch(kind_.subsystem);  // before the first look: nothing comes unseen
+        std::string told;
+        while (!stopped()) {
+            auto tracker = kind_.open();
+            milliseconds pause = kLookAgainAfter;
+            if (!tracker) {
+                tell_once(told, tracker.error().message);
+                pause = kRetryAfter;
+            } else if (*tracker == nullptr) {
+                tell_once(told, kind_.absence);
+            } else {
+                told.clear();
+                read(**tracker);
+                tracker->reset();
+                let_settle();
+                continue;
+            }
+            if (!stopped()) {
+                watch.wait(pause, wake_fd_);
+            }
+        }
+    }
+
+    /// After a loss the node may be there for a moment longer, and events of its coming may still
+    /// wait: neither is a reason to take it for plugged in again.
+    void let_settle() const {
+        pollfd wake{.fd = wake_fd_, .events = POLLIN, .revents = 0};
+        ::poll(&wake, 1, static_cast<int>(kRetryAfter.count()));
+    }
+
+    void tell_once(std::string& told, const std::string& text) {
+        if (told != text) {
+            told = text;
+            feed_.tell(latency::measured_now(), text);
+        }
+    }
+
+    void read(TrackerDevice& tracker) {
+        feed_.tell(latency::measured_now(), "plugged in: " + tracker.text());
+        for (const std::string& remark : tracker.remarks()) {
+            feed_.tell(latency::measured_now(), remark);
+        }
+        while (!stopped()) {
+            if (const auto read = tracker.read(kLongestRead, feed_); !read) {
+                const latency::Stamp now = latency::measured_now();
+                feed_.push_loss(now);
+                feed_.tell(now, "gone: " + read.error().message);
+                return;
+            }
+        }
+    }
+
+    DeviceKind kind_;
+    DeviceFeed feed_;
+    std::atomic<bool> stop_{false};
+    int wake_fd_;
+    std::thread thread_;  // last: it uses the others
+};
+
+DeviceSource::DeviceSource(DeviceKind kind) : reader_(std::make_unique<Reader>(std::move(kind))) {}
+
+DeviceSource::~DeviceSource() = default;
+
+void DeviceSource::poll(std::int64_t /*now_ns*/, std::vector<gaze::GazeSample>& samples) {
+    reader_->feed().poll(samples);
+}
+
+std::vector<SourceEvent> DeviceSource::take_events() { return reader_->feed().take_events(); }
+
+std::uint64_t DeviceSource::dropped() const { return reader_->feed().dropped(); }
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/device/device_feed.h"
+#include "runtime/error.h"
+#include "runtime/latency/clock_fit.h"
+
+namespace gazeloop::drivers {
+
+/// What a tracker says of itself; what it does not is absent.
+struct TrackerFacts {
+    std::optional<std::string> status;
+    std::optional<std::uint32_t> sampling_hz;
+    std::optional<double> screen_width_m;  ///< that it is calibrated to
+    std::optional<double> screen_height_m;
+    std::optional<double> minimum_distance_m;
+    std::optional<double> optimum_distance_m;
+    std::optional<double> maximum_distance_m;
+};
+
+/// What came from a tracker.
+struct TrackerCounts {
+    std::uint64_t samples = 0;
+    std::uint64_t damaged = 0;  ///< reports that were cut short or make no sense
+    std::uint64_t others = 0;   ///< reports of something else
+    std::uint64_t lost = 0;     ///< reports that were certainly lost on the way
+};
+
+/// A tracker that was opened and asked to send, read by one thread. It is stopped when this goes.
+class TrackerDevice {
+  public:
+    virtual ~TrackerDevice() = default;
+
+    /// "NAME (054c:0cde) at /dev/hidraw0".
+    [[nodiscard]] virtual const std::string& text() const = 0;
+    /// What it stated, and what keeps gaze from coming, one line each.
+    [[nodiscard]] virtual const std::vector<std::string>& remarks() const = 0;
+    [[nodiscard]] virtual TrackerFacts facts() const { return {}; }
+
+    /// Waits for at most so long, and hands over what came. Errors (NoDevice): it was unplugged, or
+    /// failed; nothing else can be done with it then.
+    [[nodiscard]] virtual Expected<void> read(std::chrono::milliseconds longest,
+                                              DeviceFeed& feed) = 0;
+
+    [[nodiscard]] virtual TrackerCounts counts() const = 0;
+    /// Of the samples' timestamps; null before, and for a tracker without them.
+    [[nodiscard]] virtual const latency::ClockFit* clock() const = 0;
+
+  protected:
+    TrackerDevice() = default;
+    TrackerDevice(const TrackerDevice&) = default;
+    TrackerDevice& operator=(const TrackerDevice&) = default;
+};
+
+/// Opens a tracker of some kind: null where none is plugged in. Errors: one is, but it fails.
+using OpenTracker = std::function<Expected<std::unique_ptr<TrackerDevice>>()>;
+
+/// How long the end of the program may wait for a silent tracker.
+inline constexpr std::chrono::milliseconds kLongestRead{50};
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drivers/device/found_device.h"
+#include "drivers/device/tracker_device.h"
+
+namespace gazeloop::drivers {
+
+/// A kind of tracker, for people and programs.
+struct TrackerSupport {
+    std::string_view source;    ///< what --gaze calls it
+    std::string_view verified;  ///< how well it is known to work
+};
+
+/// What a tracker did while it was listened to.
+struct TrackerProbe {
+    TrackerSupport support;
+    FoundDevice device;
+    std::optional<std::string> problem;  ///< why it could not be listened to, or ceased
+    TrackerFacts facts;
+    std::vector<std::string> remarks;  ///< of the device, when it was opened and later
+    double seconds = 0.0;
+    TrackerCounts counts;
+    std::uint64_t with_gaze = 0;       ///< samples in which at least one eye is valid
+    std::optional<double> rate_hz;     ///< samples a second, between the first and the last
+    std::optional<std::string> clock;  ///< the verdict on its timestamps
+};
+
+/// Opens a tracker, listens for so long or until `stop` says so, and stops it again.
+[[nodiscard]] TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& device,
+                                         const OpenTracker& open, std::chrono::milliseconds listen,
+                                         const std::function<bool()>& stop);
+
+}  // namespace gazeloop::drivers

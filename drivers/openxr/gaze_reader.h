@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "drivers/openxr/gaze_gates.h"
+#include "drivers/openxr/sample_time.h"
+#include "runtime/gaze/combined_gaze.h"
+
+namespace gazeloop::drivers {
+
+/// What a runtime answered when it was asked for the gaze: where the gates stand. Pure data.
+struct GazeAnswer {
+    bool focused = false;
+    bool bound = false;
+    bool active = false;
+    bool valid = false;              ///< of the pose, as the runtime says
+    bool tracked = false;            ///< false with valid: sub-nominal
+    std::optional<gaze::Pose> pose;  ///< in the head frame; none: not valid, or not a pose
+    GivenTime time;
+};
+
+/// Makes samples of a runtime's answers, in their order. Pure.
+class GazeReader {
+  public:
+    /// The eyes' rays meet at `distance_m` (gaze::eye_rays).
+    explicit GazeReader(double distance_m) : distance_m_(distance_m) {}
+
+    /// Where the eyes are in the head, from here on; ignored where one is no place in a head.
+    void place_eyes(const gaze::PerEye<glm::dvec3>& eyes_m) {
+        if (gaze::is_in_the_head(eyes_m[0]) && gaze::is_in_the_head(eyes_m[1])) {
+            eyes_m_ = eyes_m;
+        }
+    }
+    [[nodiscard]] const gaze::PerEye<glm::dvec3>& eyes_m() const { return eyes_m_; }
+
+    /// The sample of an answer. None where the runtime had nothing new. Where there is no gaze, one
+    /// sample without a valid eye, so that the policy for lost gaze takes over with this frame; and
+    /// one more for each answer while the runtime tracks, but sees no eyes.
+    ///
+    /// A pose that the runtime calls sub-nominal has confidence 0: it counts only for who sets
+    /// gaze.minimum_confidence to 0.
+    [[nodiscard]] std::optional<gaze::GazeSample> take(const GazeAnswer& answer, GazeGates& gates);
+
+    /// Of the sample returned last: what time its pose is for, on the runtime's time line; 0:
+    /// unknown.
+    [[nodiscard]] std::int64_t pose_time() const { return pose_time_; }
+
+  private:
+    /// A gaze whose time stands still for so long while it moves has no time.
+    static constexpr std::int64_t kStandstill_ns = 100'000'000;
+
+    [[nodiscard]] std::optional<gaze::GazeSample> lost(std::int64_t now_ns, bool sees_no_eyes);
+    [[nodiscard]] gaze::GazeSample next(std::int64_t now_ns);
+
+    double distance_m_;
+    /// Half of the mean distance between adults' pupils to each side (Dodgson 2004: 63 mm), until
+    /// the runtime says.
+    gaze::PerEye<glm::dvec3> eyes_m_{glm::dvec3{-0.0315, 0.0, 0.0}, glm::dvec3{0.0315, 0.0, 0.0}};
+    std::uint64_t sequence_ = 0;
+    std::int64_t pose_time_ = 0;
+    std::int64_t device_ns_ = 0;
+    std::optional<gaze::Pose> last_pose_;  ///< of the last sample with gaze; none after a loss
+    std::int64_t last_given_ = 0;
+    std::int64_t advanced_ns_ = 0;  ///< when a newer time came, in host time
+    bool told_loss_ = true;
+};
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/device/found_device.h"
+#include "drivers/device/tracker_device.h"
+#include "drivers/device/tracker_probe.h"
+#include "drivers/psvr2/gaze_samples.h"
+
+namespace gazeloop::drivers::psvr2 {
+
+struct Psvr2Options {
+    TrackerDelay delay;
+};
+
+inline constexpr TrackerSupport kSupport{
+    "psvr2", "PlayStation VR2 over USB: verified with emulated devices, not tried on hardware"};
+
+/// The headsets that are plugged in.
+[[nodiscard]] std::vector<FoundDevice> find_headsets();
+
+/// Claims a headset's gaze interface, asks for gaze, and reads it: by libusb, with several
+/// transfers under way, so that none is missed while one is taken.
+///
+/// A halted endpoint is cleared and gaze asked for again; several failures in a row without data
+/// between them end it. While the headset is silent it is asked again (stream_keeper.h), and each
+/// change is told.
+///
+/// Errors (NoDevice): it may not be opened, has no gaze interface, or somebody else has claimed
+/// that, with who it may be and what helps.
+[[nodiscard]] Expected<std::unique_ptr<TrackerDevice>> open_headset(const FoundDevice& found,
+                                                                    const Psvr2Options& options);
+
+/// Opens the first headset that is plugged in; null where there is none.
+[[nodiscard]] Expected<std::unique_ptr<TrackerDevice>> open_any_headset(
+    const Psvr2Options& options);
+
+/// Listens to each headset that is plugged in.
+[[nodiscard]] std::vector<TrackerProbe> probe_headsets(const Psvr2Options& options,
+                                                       std::chrono::milliseconds listen,
+                                                       const std::function<bool()>& stop);
+
+}  // namespace gazeloop::drivers::psvr2

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drivers/psvr2/headset.h"
+#include "drivers/psvr2/stream_keeper.h"
+
+struct libusb_context;
+struct libusb_device_handle;
+struct libusb_transfer;
+
+namespace gazeloop::drivers::psvr2 {
+
+/// A libusb context of its own, which knows what is plugged in at the moment it is made.
+class UsbContext {
+  public:
+    [[nodiscard]] static Expected<UsbContext> create();
+    [[nodiscard]] libusb_context* get() const { return context_.get(); }
+
+  private:
+    struct Exit {
+        void operator()(libusb_context* context) const;
+    };
+    explicit UsbContext(libusb_context* context) : context_(context) {}
+
+    std::unique_ptr<libusb_context, Exit> context_;
+};
+
+/// A device that was opened, and whose gaze interface is claimed as long as this lives.
+class UsbHandle {
+  public:
+    /// Errors (NoDevice): as open_headset().
+    [[nodiscard]] static Expected<UsbHandle> open(const UsbContext& context,
+                                                  const FoundDevice& found);
+    [[nodiscard]] libusb_device_handle* get() const { return handle_.get(); }
+    [[nodiscard]] std::uint8_t endpoint() const { return endpoint_; }
+
+  private:
+    struct Close {
+        void operator()(libusb_device_handle* handle) const;
+    };
+    UsbHandle(libusb_device_handle* handle, std::uint8_t endpoint)
+        : handle_(handle), endpoint_(endpoint) {}
+
+    std::unique_ptr<libusb_device_handle, Close> handle_;
+    std::uint8_t endpoint_;
+};
+
+/// A headset that is being read (open_headset). All of it happens in read(), on the caller's
+/// thread.
+class UsbHeadset final : public TrackerDevice {
+  public:
+    UsbHeadset(UsbContext context, UsbHandle handle, const FoundDevice& found,
+               const Psvr2Options& options);
+    UsbHeadset(const UsbHeadset&) = delete;
+    UsbHeadset& operator=(const UsbHeadset&) = delete;
+    ~UsbHeadset() override;
+
+    [[nodiscard]] const std::string& text() const override { return text_; }
+    [[nodiscard]] const std::vector<std::string>& remarks() const override { return remarks_; }
+    [[nodiscard]] Expected<void> read(std::chrono::milliseconds longest, DeviceFeed& feed) override;
+    [[nodiscard]] TrackerCounts counts() const override { return samples_.counts(); }
+    [[nodiscard]] const latency::ClockFit* clock() const override { return samples_.clock(); }
+
+  private:
+    static constexpr std::size_t kTransfers = 4;
+    /// Of whole USB packets, and room for more than a gaze packet: what is too long is seen as
+    /// such.
+    static constexpr std::size_t kTransferBytes = 4096;
+    static constexpr std::size_t kRequestBytes = 8;
+
+    enum class Asking : std::uint8_t { Start = 1, Stop = 2 };
+
+    /// One libusb transfer and its memory.
+    struct Transfer {
+        struct Free {
+            void operator()(libusb_transfer* transfer) const;
+        };
+        UsbHeadset* owner = nullptr;
+        std::unique_ptr<libusb_transfer, Free> transfer;
+        std::array<std::uint8_t, kTransferBytes> bytes{};
+        bool under_way = false;
+    };
+
+    static void on_data(libusb_transfer* transfer);
+    static void on_asked(libusb_transfer* transfer);
+    void take(Transfer& transfer, std::int64_t arrived_ns);
+    void submit(Transfer& transfer);
+    void submit_all();
+    void cancel_all();
+    [[nodiscard]] bool any_under_way() const;
+    void ask(Asking what, std::int64_t now_ns);
+    void keep_alive(std::int64_t now_ns);
+    void recover();
+    void note(int result, std::string_view doing);
+    void wait(std::chrono::microseconds longest);
+
+    std::string text_;
+    std::string path_;
+    std::vector<std::string> remarks_;
+    UsbContext context_;
+    UsbHandle handle_;
+    GazeSamples samples_;
+    StreamKeeper keeper_;
+    std::array<Transfer, kTransfers> data_;
+    Transfer request_;
+
+    DeviceFeed* feed_ = nullptr;  ///< of the read() that runs
+    bool halted_ = false;         ///< what is under way has to end first
+    bool gone_ = false;
+    std::string failure_;
+    int failures_in_a_row_ = 0;
+    bool told_silent_ = false;
+    bool told_refused_ = false;
+};
+
+}  // namespace gazeloop::drivers::psvr2

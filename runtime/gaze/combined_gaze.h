@@ -1,0 +1,43 @@
+#pragma once
+
+#include "runtime/gaze/gaze_sample.h"
+
+namespace gazeloop::gaze {
+
+/// One ray for both eyes, in the head frame: what a tracker gives that does not tell them apart.
+struct CombinedGaze {
+    glm::dvec3 origin_m{0.0};  ///< somewhere between the eyes
+    glm::dvec3 direction{0.0, 0.0, -1.0};
+};
+
+/// The nearest that headsets' content is taken to be when the error of a combined gaze is stated:
+/// nearer than this, most people cannot look for long.
+inline constexpr double kNearestContent_m = 0.5;
+
+/// Rays from both eyes that meet where the combined ray is `distance_m` from its origin; the eyes
+/// are at `eyes_m`. They are parallel for an infinite distance. A distance that is not a number or
+/// less than kLeastMeeting_m counts as that. An origin or an eye that is no place in the head
+/// counts as the head's own origin. A ray is valid if the direction is finite and not zero; it may
+/// point behind the head.
+[[nodiscard]] PerEye<EyeRay> eye_rays(const CombinedGaze& gaze, const PerEye<glm::dvec3>& eyes_m,
+                                      double distance_m);
+inline constexpr double kLeastMeeting_m = 0.05;
+
+/// Whether a position is finite and lies within kFarthestEye_m of the head's origin.
+[[nodiscard]] bool is_in_the_head(const glm::dvec3& place_m);
+inline constexpr double kFarthestEye_m = 0.25;
+
+/// By how much an eye may look elsewhere than `eye_rays` says, because what it looks at is not
+/// `distance_m` away but anything from `nearest_m` to infinity. An eye at h, half the distance
+/// between the eyes, turns by phi to see a point at z. With u = h / z and the gaze at an angle t to
+/// straight ahead, dphi / du = cos t / (1 - 2 u sin t + u^2), which is at most 1 / (1 - u^2) for
+/// any t, so that with the greatest u of the range
+///
+///     error <= h / (1 - u^2) max(1 / nearest - 1 / distance, 1 / distance)
+///
+/// Radians; pi where u is 1 or more, or an eye is no place in the head. Preconditions: as eye_rays,
+/// for an origin midway between the eyes; nearest_m > 0.
+[[nodiscard]] double parallax_error_rad(const PerEye<glm::dvec3>& eyes_m, double distance_m,
+                                        double nearest_m);
+
+}  // namespace gazeloop::gaze

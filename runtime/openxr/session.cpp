@@ -1,0 +1,184 @@
+#include "runtime/openxr/session.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <cstring>
+#include <thread>
+
+#include "runtime/error.h"
+
+namespace gazeloop::openxr {
+namespace {
+
+constexpr auto kIdleWait = std::chrono::milliseconds(5);
+constexpr int kPollsBeforeWarning = 1000;  // 5 s
+constexpr auto kPatienceAtExit = std::chrono::seconds(5);
+
+std::string_view state_name(XrSessionState state) {
+    constexpr std::array<std::string_view, 9> kNames{"UNKNOWN",      "IDLE",         "READY",
+                                                     "SYNCHRONIZED", "VISIBLE",      "FOCUSED",
+                                                     "STOPPING",     "LOSS_PENDING", "EXITING"};
+    const auto index = static_cast<std::size_t>(state);
+    return index < kNames.size() ? kNames[index] : "?";
+}
+
+/// What a later step leaves behind when it throws goes with the instance.
+XrSession create_session(const Instance& instance, const render::VulkanContext& context) {
+    auto binding = typed<XrGraphicsBindingVulkan2KHR>(XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR);
+    binding.instance = *context.instance();
+    binding.physicalDevice = *context.physical();
+    binding.device = *context.device();
+    binding.queueFamilyIndex = context.queue_family();
+    binding.queueIndex = 0;
+    auto info = typed<XrSessionCreateInfo>(XR_TYPE_SESSION_CREATE_INFO);
+    info.next = &binding;
+    info.systemId = instance.system();
+    XrSession session = XR_NULL_HANDLE;
+    xr_check(xrCreateSession(instance.handle(), &info, &session), "xrCreateSession");
+    return session;
+}
+
+XrSpace create_space(XrSession session, XrReferenceSpaceType type) {
+    auto info = typed<XrReferenceSpaceCreateInfo>(XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
+    info.referenceSpaceType = type;
+    info.poseInReferenceSpace = to_xr({});
+    XrSpace space = XR_NULL_HANDLE;
+    xr_check(xrCreateReferenceSpace(session, &info, &space), "xrCreateReferenceSpace");
+    return space;
+}
+
+}  // namespace
+
+Session::Session(const Instance& instance, const XrClock& clock,
+                 const render::VulkanContext& context)
+    : instance_(instance),
+      clock_(clock),
+      session_(create_session(instance, context)),
+      local_space_(create_space(session_, XR_REFERENCE_SPACE_TYPE_LOCAL)),
+      view_space_(create_space(session_, XR_REFERENCE_SPACE_TYPE_VIEW)) {}
+
+Session::~Session() {
+    xrDestroySpace(view_space_);
+    xrDestroySpace(local_space_);
+    xrDestroySession(session_);
+}
+
+Session::Activity Session::poll() {
+    auto event = typed<XrEventDataBuffer>(XR_TYPE_EVENT_DATA_BUFFER);
+    while (xr_check_session(xrPollEvent(instance_.handle(), &event), "xrPollEvent") == XR_SUCCESS) {
+        handle_event(event);
+        event = typed<XrEventDataBuffer>(XR_TYPE_EVENT_DATA_BUFFER);
+    }
+    if (ended_) {
+        return Activity::Ended;
+    }
+    if (!running_) {
+        if (exit_requested_ && !exit_sent_) {
+            return Activity::Ended;  // no session runs that could be asked to end
+        }
+        if (++idle_polls_ == kPollsBeforeWarning) {
+            spdlog::warn("{} wants no frames (yet): waiting; Ctrl-C ends",
+                         instance_.runtime_name());
+        }
+        std::this_thread::sleep_for(kIdleWait);
+        return Activity::Idle;
+    }
+    idle_polls_ = 0;
+    if (exit_sent_ && std::chrono::steady_clock::now() > exit_deadline_) {
+        tell("the runtime does not end the session: it was left");
+        spdlog::warn("{} does not end the session, which it was asked to: leaving it",
+                     instance_.runtime_name());
+        return Activity::Ended;
+    }
+    return Activity::Running;
+}
+
+void Session::request_exit() {
+    exit_requested_ = true;
+    if (running_ && !exit_sent_) {
+        xr_check_session(xrRequestExitSession(session_), "xrRequestExitSession");
+        exit_sent_ = true;
+        exit_deadline_ = std::chrono::steady_clock::now() + kPatienceAtExit;
+    }
+}
+
+void Session::tell(std::string_view text) { events_.emplace_back(text); }
+
+void Session::handle_event(const XrEventDataBuffer& event) {
+    switch (event.type) {
+        case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
+            throw SetupError(ExitCode::SessionLost,
+                             fmt::format("OpenXR: {} is going away (instance loss pending): start "
+                                         "again when it is back",
+                                         instance_.runtime_name()));
+        case XR_TYPE_EVENT_DATA_EVENTS_LOST:
+            tell("OpenXR events were lost");
+            break;
+        case XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR:
+            ++mask_changes_;
+            tell("visibility mask changed");
+            break;
+        case XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED:
+            ++profile_changes_;
+            break;
+        case XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED: {
+            XrEventDataSessionStateChanged changed{};
+            std::memcpy(&changed, &event, sizeof changed);
+            change_state(changed);
+            break;
+        }
+        default:
+            break;
+    }
+}
+
+void Session::change_state(const XrEventDataSessionStateChanged& changed) {
+    state_ = changed.state;
+    tell(fmt::format("session state: {}", state_name(state_)));
+    switch (state_) {
+        case XR_SESSION_STATE_READY: {
+            if (exit_requested_) {
+                break;
+            }
+            auto begin = typed<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
+            begin.primaryViewConfigurationType = kStereo;
+            xr_check_session(xrBeginSession(session_, &begin), "xrBeginSession");
+            running_ = true;
+            break;
+        }
+        case XR_SESSION_STATE_STOPPING:
+            running_ = false;
+            xr_check_session(xrEndSession(session_), "xrEndSession");
+            break;
+        case XR_SESSION_STATE_EXITING:
+            ended_ = true;
+            break;
+        case XR_SESSION_STATE_LOSS_PENDING:
+            throw SetupError(ExitCode::SessionLost,
+                             fmt::format("OpenXR: {} is losing the session (session loss "
+                                         "pending): see that the headset is connected, then "
+                                         "start again",
+                                         instance_.runtime_name()));
+        default:
+            break;
+    }
+}
+
+std::optional<gaze::Pose> Session::head_at(XrTime time) const {
+    auto location = typed<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
+    const XrResult result = xrLocateSpace(view_space_, local_space_, time, &location);
+    if (result == XR_ERROR_TIME_INVALID) {
+        return std::nullopt;  // so long ago that the runtime does not know any more
+    }
+    xr_check_session(result, "xrLocateSpace");
+    constexpr XrSpaceLocationFlags kNeeded =
+        XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
+    if ((location.locationFlags & kNeeded) != kNeeded) {
+        return std::nullopt;
+    }
+    return from_xr(location.pose);
+}
+
+}  // namespace gazeloop::openxr

@@ -1,0 +1,76 @@
+#include "runtime/openxr/vulkan_objects.h"
+
+#include <fmt/core.h>
+
+#include <vulkan/vulkan_raii.hpp>
+
+#include "runtime/error.h"
+
+namespace gazeloop::openxr {
+namespace {
+
+void check_vulkan(VkResult result, const Instance& instance, std::string_view what) {
+    if (result != VK_SUCCESS) {
+        throw SetupError(
+            ExitCode::NoDevice,
+            fmt::format("{} could not create {} ({}): install a Vulkan 1.3 driver "
+                        "(Debian: mesa-vulkan-drivers); VK_ICD_FILENAMES, if set, "
+                        "must name an existing one",
+                        instance.runtime_name(), what, vk::to_string(vk::Result{result})));
+    }
+}
+
+}  // namespace
+
+VkInstance VulkanObjects::create_instance(PFN_vkGetInstanceProcAddr get_proc,
+                                          const VkInstanceCreateInfo& info) {
+    auto requirements =
+        typed<XrGraphicsRequirementsVulkan2KHR>(XR_TYPE_GRAPHICS_REQUIREMENTS_VULKAN2_KHR);
+    xr_check(xr_function<PFN_xrGetVulkanGraphicsRequirements2KHR>(
+                 instance_.handle(), "xrGetVulkanGraphicsRequirements2KHR")(
+                 instance_.handle(), instance_.system(), &requirements),
+             "xrGetVulkanGraphicsRequirements2KHR");
+    auto create = typed<XrVulkanInstanceCreateInfoKHR>(XR_TYPE_VULKAN_INSTANCE_CREATE_INFO_KHR);
+    create.systemId = instance_.system();
+    create.pfnGetInstanceProcAddr = get_proc;
+    create.vulkanCreateInfo = &info;
+    VkInstance instance = VK_NULL_HANDLE;
+    VkResult vulkan = VK_SUCCESS;
+    xr_check(
+        xr_function<PFN_xrCreateVulkanInstanceKHR>(instance_.handle(), "xrCreateVulkanInstanceKHR")(
+            instance_.handle(), &create, &instance, &vulkan),
+        "xrCreateVulkanInstanceKHR");
+    check_vulkan(vulkan, instance_, "a Vulkan instance");
+    return instance;
+}
+
+VkPhysicalDevice VulkanObjects::choose_physical_device(VkInstance instance) {
+    auto get = typed<XrVulkanGraphicsDeviceGetInfoKHR>(XR_TYPE_VULKAN_GRAPHICS_DEVICE_GET_INFO_KHR);
+    get.systemId = instance_.system();
+    get.vulkanInstance = instance;
+    VkPhysicalDevice device = VK_NULL_HANDLE;
+    xr_check(
+        xr_function<PFN_xrGetVulkanGraphicsDevice2KHR>(
+            instance_.handle(), "xrGetVulkanGraphicsDevice2KHR")(instance_.handle(), &get, &device),
+        "xrGetVulkanGraphicsDevice2KHR");
+    return device;
+}
+
+VkDevice VulkanObjects::create_device(PFN_vkGetInstanceProcAddr get_proc, VkPhysicalDevice physical,
+                                      const VkDeviceCreateInfo& info) {
+    auto create = typed<XrVulkanDeviceCreateInfoKHR>(XR_TYPE_VULKAN_DEVICE_CREATE_INFO_KHR);
+    create.systemId = instance_.system();
+    create.pfnGetInstanceProcAddr = get_proc;
+    create.vulkanPhysicalDevice = physical;
+    create.vulkanCreateInfo = &info;
+    VkDevice device = VK_NULL_HANDLE;
+    VkResult vulkan = VK_SUCCESS;
+    xr_check(
+        xr_function<PFN_xrCreateVulkanDeviceKHR>(instance_.handle(), "xrCreateVulkanDeviceKHR")(
+            instance_.handle(), &create, &device, &vulkan),
+        "xrCreateVulkanDeviceKHR");
+    check_vulkan(vulkan, instance_, "a Vulkan device");
+    return device;
+}
+
+}  // namespace gazeloop::openxr

@@ -1,0 +1,75 @@
+#include "runtime/present/openxr/openxr_views.h"
+
+#include <fmt/core.h>
+
+#include <array>
+
+#include "runtime/error.h"
+
+namespace gazeloop::present {
+
+using openxr::typed;
+
+void OpenXrViews::locate(XrTime display_time) {
+    auto info = typed<XrViewLocateInfo>(XR_TYPE_VIEW_LOCATE_INFO);
+    info.viewConfigurationType = openxr::kStereo;
+    info.displayTime = display_time;
+    info.space = session_.local_space();
+    auto state = typed<XrViewState>(XR_TYPE_VIEW_STATE);
+    std::array<XrView, gaze::kEyeCount> views{typed<XrView>(XR_TYPE_VIEW),
+                                              typed<XrView>(XR_TYPE_VIEW)};
+    std::uint32_t count = 0;
+    openxr::xr_check_session(
+        xrLocateViews(session_.handle(), &info, &state, views.size(), &count, views.data()),
+        "xrLocateViews");
+    bool tracked = true;
+    bool rendered_for = true;
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        const auto pose = openxr::from_xr(views[e].pose);
+        if (pose && (state.viewStateFlags & XR_VIEW_STATE_ORIENTATION_VALID_BIT) != 0) {
+            views_[e].pose.orientation = pose->orientation;
+        } else {
+            tracked = false;
+        }
+        if (pose && (state.viewStateFlags & XR_VIEW_STATE_POSITION_VALID_BIT) != 0) {
+            views_[e].pose.position_m = pose->position_m;
+        } else {
+            tracked = false;
+        }
+        rendered_for = take_field_of_view(e, views[e].fov) && rendered_for;
+    }
+    say_change(tracked, tracked_, "the head is tracked",
+               "the head is not tracked: its last known pose stands");
+    say_change(rendered_for, rendered_for_, "the fields of view can be rendered for",
+               "a field of view that nothing can be rendered for: the last one stands");
+    if (const auto head = session_.head_at(display_time)) {
+        head_ = *head;
+    }
+}
+
+bool OpenXrViews::take_field_of_view(std::size_t eye, const XrFovf& fov) {
+    gaze::EyeView view = views_[eye];
+    view.fov = {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown};
+    view.width_px = extents_[eye].width;
+    view.height_px = extents_[eye].height;
+    if (gaze::is_valid(view)) {
+        views_[eye] = view;
+        return true;
+    }
+    if (!gaze::is_valid(views_[eye])) {
+        throw SetupError(ExitCode::NoDevice,
+                         fmt::format("{} gives the {} eye a field of view that nothing can be "
+                                     "rendered for; use another runtime or --target headless",
+                                     session_.instance().runtime_name(), gaze::kEyeNames[eye]));
+    }
+    return false;
+}
+
+void OpenXrViews::say_change(bool now, bool& before, const char* good, const char* bad) {
+    if (now != before) {
+        session_.tell(now ? good : bad);
+    }
+    before = now;
+}
+
+}  // namespace gazeloop::present

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "runtime/gaze/view.h"
+#include "runtime/openxr/session.h"
+
+namespace gazeloop::present {
+
+/// The head and what the eyes' pictures are rendered from, as the runtime says; where it says what
+/// cannot be (untracked, no numbers, fields of view of nothing), the last good one stands and the
+/// session is told.
+class OpenXrViews {
+  public:
+    /// `session` must outlive this.
+    OpenXrViews(openxr::Session& session, const gaze::PerEye<vk::Extent2D>& extents)
+        : session_(session), extents_(extents) {}
+
+    /// At a display time, in LOCAL space. Throws SetupError: SessionLost when the runtime refuses,
+    /// NoDevice when it never gave a field of view that can be rendered for.
+    void locate(XrTime display_time);
+
+    [[nodiscard]] const gaze::StereoView& views() const { return views_; }
+    [[nodiscard]] const gaze::Pose& head() const { return head_; }
+
+  private:
+    /// False if it cannot be rendered for.
+    [[nodiscard]] bool take_field_of_view(std::size_t eye, const XrFovf& fov);
+    void say_change(bool now, bool& before, const char* good, const char* bad);
+
+    openxr::Session& session_;
+    gaze::PerEye<vk::Extent2D> extents_;
+    gaze::StereoView views_;
+    gaze::Pose head_;
+    bool tracked_ = true;
+    bool rendered_for_ = true;
+};
+
+}  // namespace gazeloop::present

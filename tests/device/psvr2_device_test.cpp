@@ -1,0 +1,284 @@
+// The USB path on an emulated PlayStation VR2: found, claimed, asked, read, halted, pulled out.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "drivers/psvr2/psvr2_source.h"
+#include "runtime/latency/clock.h"
+#include "sim/psvr2_packet.h"
+#include "tests/device/emulated_psvr2.h"
+#include "tests/device/thread_time.h"
+
+namespace gazeloop::drivers::psvr2 {
+namespace {
+
+using tests::EmulatedPsvr2;
+
+/// Both eyes look 10 degrees to the right and a little down.
+gaze::GazeSample looking_right() {
+    gaze::GazeSample sample;
+    for (const gaze::Eye eye : gaze::kEyes) {
+        gaze::EyeRay& ray = sample.eyes[gaze::index(eye)];
+        ray.valid = true;
+        ray.openness = 1.0;
+        ray.origin_m = {eye == gaze::Eye::Left ? -0.031 : 0.031, 0.0, 0.01};
+        ray.direction = {0.17364818, -0.05, -0.98353770};
+    }
+    return sample;
+}
+
+bool contains(const std::vector<std::string>& lines, std::string_view part) {
+    return std::ranges::any_of(
+        lines, [&](const std::string& line) { return line.find(part) != std::string::npos; });
+}
+
+class Psvr2Device : public testing::Test {
+  protected:
+    void SetUp() override {
+        headset_.emplace();
+        if (!headset_->possible()) {
+            GTEST_SKIP() << "not under umockdev's preload library";
+        }
+    }
+
+    /// Sends as many packets as the axes have to be looked at, and more.
+    void send(std::uint32_t packets = 12) {
+        for (std::uint32_t i = 0; i < packets; ++i) {
+            ++frame_;
+            headset_->send(
+                sim::psvr2_packet(looking_right(), std::uint64_t{frame_} * 8333, frame_));
+        }
+    }
+
+    /// Waits for as long as it may take on a busy machine, not for a time that is tested.
+    void until(Psvr2Source& source, const std::function<bool()>& done) {
+        for (int i = 0; i < 4000 && !done(); ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            source.poll(0, samples_);
+            for (SourceEvent& event : source.take_events()) {
+                EXPECT_TRUE(event.time.known());
+                EXPECT_LE(event.text.size(), 240U) << event.text;
+                events_.push_back(std::move(event.text));
+            }
+        }
+        ASSERT_TRUE(done()) << testing::PrintToString(events_);
+    }
+    void until_event(Psvr2Source& source, std::string_view part) {
+        until(source, [&] { return contains(events_, part); });
+    }
+    [[nodiscard]] bool tracking() const {
+        return !samples_.empty() && samples_.back().eyes[0].valid && samples_.back().eyes[1].valid;
+    }
+
+    std::optional<EmulatedPsvr2> headset_;
+    std::uint32_t frame_ = 0;
+    std::vector<gaze::GazeSample> samples_;
+    std::vector<std::string> events_;
+};
+
+TEST_F(Psvr2Device, IsFoundOnUsb) {
+    EXPECT_TRUE(find_headsets().empty());
+    headset_->plug_in();
+    const std::vector<FoundDevice> found = find_headsets();
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].text(), "PlayStation VR2 (054c:0cde) at /dev/bus/usb/001/002");
+    EXPECT_FALSE(found[0].access_problem.has_value());
+    headset_->unplug();
+    EXPECT_TRUE(find_headsets().empty());
+}
+
+TEST_F(Psvr2Device, IsClaimedAskedReadAndLeftAsItWas) {
+    headset_->plug_in();
+    {
+        Psvr2Source source({.delay = {4'000'000, 1'000'000}});
+        until_event(source, "plugged in: PlayStation VR2");
+        until_event(source, "not tried on hardware");
+        until(source, [&] { return headset_->seen().starts > 0; });
+        EXPECT_EQ(headset_->seen().claimed, std::vector<unsigned>{5});
+        EXPECT_EQ(headset_->seen().endpoints, std::vector<int>(4, 0x85)) << "several under way";
+        send();
+        until(source, [&] { return samples_.size() >= 12; });
+        EXPECT_TRUE(tracking());
+        const gaze::GazeSample& last = samples_.back();
+        EXPECT_NEAR(last.eyes[0].direction.x, 0.17364818, 1e-6) << "to the right";
+        EXPECT_NEAR(last.eyes[0].direction.y, -0.05, 1e-6) << "down";
+        EXPECT_LT(last.eyes[0].direction.z, -0.9) << "forward";
+        EXPECT_LT(last.eyes[0].origin_m.x, last.eyes[1].origin_m.x);
+        EXPECT_EQ(last.device_ns, 12 * 8'333'000LL);
+        EXPECT_EQ(last.sequence, samples_.front().sequence + 11);
+        EXPECT_EQ(last.arrived.kind, latency::StampKind::Measured);
+        until_event(source, "axes: as published");
+        EXPECT_EQ(headset_->seen().others, 0);
+    }
+    EXPECT_EQ(headset_->seen().stops, 1);
+    EXPECT_EQ(headset_->seen().releases, 1);
+    EXPECT_EQ(headset_->seen().listening, 0U);
+}
+
+TEST_F(Psvr2Device, RefusesWhatIsNoPacketAndReadsOn) {
+    headset_->plug_in();
+    Psvr2Source source({});
+    until_event(source, "plugged in");
+    send(2);
+    const auto packet = sim::psvr2_packet(looking_right(), 1, 1);
+    std::vector<std::uint8_t> two(packet.begin(), packet.end());
+    two.insert(two.end(), packet.begin(), packet.end());
+    headset_->send(std::span(packet).first(100));
+    headset_->send(two);
+    headset_->send(std::vector<std::uint8_t>(5000, 'G'));  // more than a transfer takes
+    headset_->send({});
+    send(10);
+    until(source, [&] { return samples_.size() >= 12; });
+    EXPECT_TRUE(tracking());
+    EXPECT_EQ(samples_.size(), 12U);
+    EXPECT_TRUE(contains(events_, "no gaze packet"));
+    EXPECT_EQ(headset_->seen().claims, 1) << "none of it is a reason to begin anew";
+}
+
+TEST_F(Psvr2Device, IsAskedAgainWhileItIsSilent) {
+    headset_->plug_in();
+    Psvr2Source source({});
+    until_event(source, "plugged in");
+    send();
+    until(source, [&] { return tracking(); });
+    const int asked = headset_->seen().starts;
+    until_event(source, "silent for half a second");
+    until(source, [&] { return headset_->seen().starts >= asked + 2; });
+    send();
+    until_event(source, "sends again");
+    EXPECT_EQ(headset_->seen().claims, 1);
+}
+
+TEST_F(Psvr2Device, GoesOnAfterAHaltedEndpoint) {
+    headset_->plug_in();
+    Psvr2Source source({});
+    until_event(source, "plugged in");
+    send();
+    until(source, [&] { return samples_.size() >= 12; });
+    for (int round = 1; round <= 3; ++round) {
+        const int asked = headset_->seen().starts;
+        const std::size_t seen = headset_->seen().order.size();
+        samples_.clear();
+        events_.clear();
+        headset_->halt();
+        until_event(source, "halted: cleared, and asked for gaze again");
+        EXPECT_EQ(headset_->seen().halts_cleared, round);
+        until(source, [&] { return headset_->seen().starts > asked; });
+        EXPECT_NE(headset_->seen().order.find("HS", seen), std::string::npos)
+            << "asked at once: " << headset_->seen().order;
+        send();
+        until(source, [&] { return samples_.size() >= 12; });
+        EXPECT_TRUE(tracking());
+        EXPECT_EQ(samples_.front().sequence, static_cast<std::uint64_t>(round) * 12 + 1)
+            << "nothing lost, nothing twice";
+    }
+    EXPECT_EQ(headset_->seen().claims, 1);
+    until(source, [&] { return headset_->seen().listening == 4; });
+}
+
+TEST_F(Psvr2Device, ThatDoesNotTakeTheRequestIsHeardNevertheless) {
+    headset_->plug_in();
+    headset_->set_fault(EmulatedPsvr2::Fault::RequestStalls);
+    Psvr2Source source({});
+    until_event(source, "does not take the request");
+    send();
+    until(source, [&] { return tracking(); });
+}
+
+TEST_F(Psvr2Device, ComesLateGoesAndComesBack) {
+    Psvr2Source source({});
+    until_event(source, "no PlayStation VR2 is plugged in");
+    for (int round = 1; round <= 3; ++round) {
+        headset_->plug_in();
+        until_event(source, "plugged in: PlayStation VR2 (054c:0cde) at " + headset_->node());
+        send();
+        until(source, [&] { return tracking(); });
+        headset_->unplug();
+        until_event(source, "gone: " + headset_->node() + ": unplugged");
+        ASSERT_FALSE(samples_.back().eyes[0].valid || samples_.back().eyes[1].valid)
+            << "the loss is a sample, so that the loop need not wait until the gaze is stale";
+        samples_.clear();
+        events_.clear();
+    }
+}
+
+TEST_F(Psvr2Device, SaysWhoHasItAndGoesOnOnceItIsFree) {
+    headset_->plug_in();
+    headset_->set_fault(EmulatedPsvr2::Fault::ClaimedElsewhere);
+    Psvr2Source source({});
+    until_event(source, "another program uses its gaze interface (5): close it");
+    headset_->set_fault(EmulatedPsvr2::Fault::KernelDriver);
+    until_event(source, "a kernel driver has its gaze interface (5): unload that driver");
+    EXPECT_EQ(headset_->seen().claims, 0);
+    headset_->set_fault(EmulatedPsvr2::Fault::None);
+    until_event(source, "plugged in: PlayStation VR2");
+    send();
+    until(source, [&] { return tracking(); });
+}
+
+// Nothing is lost or turned round; what it takes is printed, and an upper bound, because every
+// transfer goes through umockdev's own thread.
+TEST_F(Psvr2Device, KeepsUpWithAThousandPacketsASecond) {
+    constexpr std::uint32_t kPackets = 3000;
+    headset_->plug_in();
+    Psvr2Source source({});
+    until_event(source, "plugged in");
+    const double cpu_before_s = tests::thread_seconds("gaze-psvr2");
+    const std::int64_t start_ns = latency::monotonic_ns();
+    std::thread sender([&] {
+        for (std::uint32_t i = 0; i < kPackets; ++i) {
+            latency::sleep_until_ns(start_ns + i * 1'000'000LL);
+            headset_->send(sim::psvr2_packet(looking_right(), std::uint64_t{i} * 1000, i));
+        }
+    });
+    until(source, [&] { return samples_.size() >= kPackets; });
+    sender.join();
+    const double seconds = static_cast<double>(latency::monotonic_ns() - start_ns) * 1e-9;
+    ASSERT_EQ(samples_.size(), kPackets);
+    for (std::uint32_t i = 0; i < kPackets; ++i) {
+        EXPECT_EQ(samples_[i].device_ns, i * 1'000'000LL);
+        EXPECT_EQ(samples_[i].sequence, samples_[0].sequence + i);
+    }
+    EXPECT_EQ(source.dropped(), 0U);
+    fmt::print("reader {:.2f} % of a core at 1000 packets a second\n",
+               100.0 * (tests::thread_seconds("gaze-psvr2") - cpu_before_s) / seconds);
+}
+
+/// Runs it as somebody who is not root; whether it returned true.
+bool as_nobody(const std::function<bool()>& check) {
+    const pid_t child = fork();
+    if (child == 0) {
+        constexpr uid_t kNobody = 65534;
+        const bool dropped = geteuid() != 0 || (setgid(kNobody) == 0 && setuid(kNobody) == 0);
+        _exit(dropped && check() ? 0 : 1);
+    }
+    int status = 0;
+    return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+TEST_F(Psvr2Device, SaysThatItMayNotBeOpenedAndWhatCuresIt) {
+    headset_->plug_in();
+    headset_->set_mode(0);
+    EXPECT_TRUE(as_nobody([] {
+        const std::vector<FoundDevice> found = find_headsets();
+        EXPECT_EQ(found.size(), 1U);
+        EXPECT_NE(found.at(0).access_problem.value_or("").find("permission denied"),
+                  std::string::npos);
+        EXPECT_EQ(found.at(0).missing_rule,
+                  R"(SUBSYSTEM=="usb", ATTR{idVendor}=="054c", ATTR{idProduct}=="0cde", )"
+                  R"(TAG+="uaccess")");
+        const auto opened = open_headset(found.at(0), {});
+        EXPECT_TRUE(!opened && opened.error().code == ExitCode::NoDevice &&
+                    opened.error().message == found.at(0).access_problem);
+        return !testing::Test::HasFailure();
+    }));
+}
+
+}  // namespace
+}  // namespace gazeloop::drivers::psvr2
