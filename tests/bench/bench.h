@@ -43,6 +43,11 @@ std::vector<Figure> acuity(const Options& options);
 /// once, and following the gaze, which needs no new ones.
 std::vector<Figure> maps(const Options& options);
 
+/// An emulated HID tracker of 1000 Hz: how soon its samples are there for the loop, what reading it
+/// costs, and whether any is lost in a minute beside a loop under load. Runs under umockdev's
+/// preload library.
+std::vector<Figure> devices(const Options& options);
+
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.
 [[nodiscard]] double median(std::vector<double> values);
 

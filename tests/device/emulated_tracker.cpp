@@ -99,7 +99,10 @@ void EmulatedTracker::plug_in() {
         throw std::runtime_error("no FIFO at " + real_node_ + ": " + std::strerror(errno));
     }
     fifo_ = open(real_node_.c_str(), O_RDWR | O_CLOEXEC);
-    if (fifo_ < 0 || fcntl(fifo_, F_SETFL, O_DIRECT | O_NONBLOCK) != 0) {
+    // As many packets as hidraw keeps of a device, one a page.
+    constexpr int kQueueBytes = 64 * 4096;
+    if (fifo_ < 0 || fcntl(fifo_, F_SETFL, O_DIRECT | O_NONBLOCK) != 0 ||
+        fcntl(fifo_, F_SETPIPE_SZ, kQueueBytes) < 0) {
         throw std::runtime_error("no packets through " + real_node_);
     }
     if (umockdev_testbed_attach_ioctl(testbed_, node().c_str(), handler_, &error) == 0) {

@@ -1,25 +1,11 @@
 #include "tests/openxr/monado_service.h"
 
-#include <cstdlib>
 #include <filesystem>
+
+#include "tests/support/cache_folder.h"
 
 namespace gazeloop::tests {
 namespace {
-
-std::string text_of(const char* variable) {
-    const char* const value = std::getenv(variable);
-    return value != nullptr ? value : "";
-}
-
-std::string cache_folder() {
-    for (const auto& [variable, below] :
-         {std::pair{"GAZELOOP_CACHE", ""}, {"XDG_CACHE_HOME", "/gazeloop"}}) {
-        if (const std::string value = text_of(variable); !value.empty()) {
-            return value + below;
-        }
-    }
-    return text_of("HOME") + "/.cache/gazeloop";
-}
 
 BackgroundProcess::Options service_options(const ScratchFolder& scratch, const Environment& more) {
     BackgroundProcess::Options options{
