@@ -1,5 +1,6 @@
 #include "drivers/device/device_source.h"
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <pthread.h>
 #include <sys/eventfd.h>
@@ -7,6 +8,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <thread>
 #include <utility>
 
@@ -51,23 +53,34 @@ class DeviceSource::Reader {
         DeviceWatch watch(kind_.subsystem);  // before the first look: nothing comes unseen
         std::string told;
         while (!stopped()) {
-            auto tracker = kind_.open();
-            milliseconds pause = kLookAgainAfter;
-            if (!tracker) {
-                tell_once(told, tracker.error().message);
-                pause = kRetryAfter;
-            } else if (*tracker == nullptr) {
-                tell_once(told, kind_.absence);
-            } else {
-                told.clear();
-                read(**tracker);
-                tracker->reset();
+            try {
+                look(watch, told);
+            } catch (const std::exception& error) {
+                // The loop and its recording go on without this tracker.
+                feed_.push_loss(latency::measured_now());
+                tell_once(told, fmt::format("reading the tracker failed: {}", error.what()));
                 let_settle();
-                continue;
             }
-            if (!stopped()) {
-                watch.wait(pause, wake_fd_);
-            }
+        }
+    }
+
+    void look(DeviceWatch& watch, std::string& told) {
+        auto tracker = kind_.open();
+        milliseconds pause = kLookAgainAfter;
+        if (!tracker) {
+            tell_once(told, tracker.error().message);
+            pause = kRetryAfter;
+        } else if (*tracker == nullptr) {
+            tell_once(told, kind_.absence);
+        } else {
+            told.clear();
+            read(**tracker);
+            tracker->reset();
+            let_settle();
+            return;
+        }
+        if (!stopped()) {
+            watch.wait(pause, wake_fd_);
         }
     }
 
@@ -115,7 +128,15 @@ void DeviceSource::poll(std::int64_t /*now_ns*/, std::vector<gaze::GazeSample>& 
     reader_->feed().poll(samples);
 }
 
-std::vector<SourceEvent> DeviceSource::take_events() { return reader_->feed().take_events(); }
+std::vector<SourceEvent> DeviceSource::take_events() {
+    std::vector<SourceEvent> events = reader_->feed().take_events();
+    if (const std::uint64_t dropped = this->dropped(); dropped != dropped_told_) {
+        events.push_back({latency::measured_now(),
+                          fmt::format("{} samples dropped: the loop did not ask for seconds",
+                                      dropped - std::exchange(dropped_told_, dropped))});
+    }
+    return events;
+}
 
 std::uint64_t DeviceSource::dropped() const { return reader_->feed().dropped(); }
 

@@ -33,6 +33,7 @@ class DeviceSource : public GazeSource {
   private:
     class Reader;
     std::unique_ptr<Reader> reader_;
+    std::uint64_t dropped_told_ = 0;
 };
 
 }  // namespace gazeloop::drivers

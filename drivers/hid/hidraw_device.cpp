@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <linux/hidraw.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -25,8 +26,13 @@ Expected<HidrawDevice> HidrawDevice::open(const std::string& path) {
         return device.error(fmt::format("cannot be opened as a HID device: {}",
                                         std::generic_category().message(errno)));
     }
+    // Told to others of our kind (nobody_else_reads); where it cannot be, they think they are
+    // alone.
+    [[maybe_unused]] const int locked = flock(device.fd_, LOCK_SH | LOCK_NB);
     return device;
 }
+
+bool HidrawDevice::nobody_else_reads() const { return flock(fd_, LOCK_EX | LOCK_NB) == 0; }
 
 HidrawDevice::HidrawDevice(HidrawDevice&& other) noexcept
     : path_(std::move(other.path_)), fd_(std::exchange(other.fd_, -1)) {}

@@ -35,6 +35,9 @@ class HidrawDevice {
     /// it.
     [[nodiscard]] std::optional<std::vector<std::uint8_t>> feature(std::uint8_t id,
                                                                    std::size_t payload_bytes);
+    /// Whether no other HidrawDevice, of any process, has this node open.
+    [[nodiscard]] bool nobody_else_reads() const;
+
     /// Sends a feature report, id first. Errors (NoDevice): the device does not take it.
     [[nodiscard]] Expected<void> send_feature(std::span<const std::uint8_t> report);
 

@@ -45,7 +45,7 @@ gaze::PerEye<gaze::EyeRay> eye_rays(const TrackingReport& report, const ScreenGe
 std::optional<std::string> geometry_problem(const EyeTrackerLayout& layout,
                                             const ScreenGeometry& geometry) {
     const bool any_eye = std::ranges::any_of(layout.tracking, [](const TrackingLayout& tracking) {
-        return tracking.has_gaze() && (tracking.has_eye(Eye::Left) || tracking.has_eye(Eye::Right));
+        return tracking.has_eye(Eye::Left) || tracking.has_eye(Eye::Right);
     });
     if (any_eye || geometry.complete()) {
         return std::nullopt;

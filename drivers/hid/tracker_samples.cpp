@@ -23,8 +23,9 @@ std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_
                                                      std::int64_t arrived_ns) {
     const InputReport input = decode_input(layout_, report);
     if (const auto* const status = std::get_if<StatusReport>(&input)) {
-        status_changed_ = status_ != *status;
-        status_ = *status;
+        // Status and rate may come in reports of their own.
+        status_changed_ = status->status && status->status != status_;
+        status_ = status->status ? status->status : status_;
         return std::nullopt;
     }
     const auto* const tracking = std::get_if<TrackingReport>(&input);
@@ -32,14 +33,25 @@ std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_
         ++counts_.others;
         return std::nullopt;
     }
-    ++counts_.samples;
     counts_.damaged += tracking->truncated ? 1 : 0;
-    gaze::GazeSample sample;
-    sample.eyes = eye_rays(*tracking, geometry_);
-    sample.arrived = {arrived_ns, latency::StampKind::Measured};
-
     const auto layout =
         std::ranges::find(layout_.tracking, tracking->report_id, &TrackingLayout::report_id);
+    const bool has_eyes = layout->has_eye(gaze::Eye::Left) || layout->has_eye(gaze::Eye::Right);
+    if (has_eyes) {
+        eyes_ = {arrived_ns, tracking->eye_m};
+    }
+    if (!layout->has_gaze()) {
+        return std::nullopt;  // eyes alone: the next gaze is theirs
+    }
+    ++counts_.samples;
+    TrackingReport gaze = *tracking;
+    if (!has_eyes && arrived_ns - eyes_.arrived_ns <= kEyesHoldNs) {
+        gaze.eye_m = eyes_.eye_m;
+    }
+    gaze::GazeSample sample;
+    sample.eyes = eye_rays(gaze, geometry_);
+    sample.arrived = {arrived_ns, latency::StampKind::Measured};
+
     const auto index = static_cast<std::size_t>(std::distance(layout_.tracking.begin(), layout));
     std::optional<SampleClock>& clock = clocks_[index];
     lost_before_last_ = 0;
@@ -55,7 +67,7 @@ std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_
 
 std::optional<std::string> TrackerSamples::take_change() {
     if (std::exchange(status_changed_, false)) {
-        return fmt::format("status: {}", text_of(status_->status.value_or(TrackerStatus::Unknown)));
+        return fmt::format("status: {}", text_of(*status_));
     }
     return last_clock_ ? clocks_[*last_clock_]->take_change() : std::nullopt;
 }

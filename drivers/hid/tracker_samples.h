@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,7 +22,7 @@ class TrackerSamples {
                    const TrackerDelay& delay);
 
     /// The sample of a report that had arrived by `arrived_ns`, all but its number; none where the
-    /// report is of something else.
+    /// report is of something else, or of the eyes' positions alone.
     [[nodiscard]] std::optional<gaze::GazeSample> take(std::span<const std::uint8_t> report,
                                                        std::int64_t arrived_ns);
     /// Reports that are missing before the last sample.
@@ -42,7 +43,16 @@ class TrackerSamples {
     std::vector<std::optional<SampleClock>> clocks_;
     std::optional<std::size_t> last_clock_;
     std::uint64_t lost_before_last_ = 0;
-    std::optional<StatusReport> status_;
+    /// Where the eyes were last seen, for trackers that report them apart from the gaze.
+    struct SeenEyes {
+        std::int64_t arrived_ns = std::numeric_limits<std::int64_t>::min() / 2;
+        gaze::PerEye<std::optional<glm::dvec3>> eye_m;
+    };
+    /// Heads move by centimetres a second: a few millimetres in that time.
+    static constexpr std::int64_t kEyesHoldNs = 200'000'000;
+
+    SeenEyes eyes_;
+    std::optional<TrackerStatus> status_;
     bool status_changed_ = false;
     TrackerCounts counts_;
 };

@@ -41,9 +41,9 @@ TrackerSession::TrackerSession(std::string text, HidrawDevice device,
       features_(read_features(device_, layout)),
       samples_(layout, merged(options.geometry, features_), options.delay) {
     describe(layout, merged(options.geometry, features_));
-    const auto start = encode_mode_request(layout, kModeGaze | kModeEyePosition);
-    if (start) {
+    if (auto start = encode_mode_request(layout, kModeGaze | kModeEyePosition)) {
         if (const auto sent = device_.send_feature(*start); sent) {
+            start_ = std::move(*start);
             stop_ = encode_mode_request(layout, kModeStop).value();
         } else {
             remarks_.push_back("asked to start, " + sent.error().message);
@@ -52,7 +52,7 @@ TrackerSession::TrackerSession(std::string text, HidrawDevice device,
 }
 
 TrackerSession::~TrackerSession() {
-    if (!stop_.empty()) {
+    if (!stop_.empty() && device_.nobody_else_reads()) {
         [[maybe_unused]] const auto sent = device_.send_feature(stop_);  // it may have gone
     }
 }
@@ -109,6 +109,17 @@ TrackerFacts TrackerSession::facts() const {
     return facts;
 }
 
+/// A reset, a suspension or another program's end may have stopped it. No gaze is silence too for
+/// some trackers: asking one that sends is harmless.
+void TrackerSession::ask_again(std::int64_t now_ns) {
+    constexpr std::int64_t kAskAfterNs = 1'000'000'000;
+    if (start_.empty() || now_ns - last_heard_ns_ < kAskAfterNs) {
+        return;
+    }
+    last_heard_ns_ = now_ns;
+    [[maybe_unused]] const auto sent = device_.send_feature(start_);  // it may be going
+}
+
 Expected<void> TrackerSession::read(std::chrono::milliseconds longest, DeviceFeed& feed) {
     std::array<std::uint8_t, kLongestReport + 1> report;
     const Expected<std::size_t> bytes = device_.read(report, longest);
@@ -117,8 +128,10 @@ Expected<void> TrackerSession::read(std::chrono::milliseconds longest, DeviceFee
         return std::unexpected(bytes.error());
     }
     if (*bytes == 0) {
+        ask_again(arrived_ns);
         return {};
     }
+    last_heard_ns_ = arrived_ns;
     if (auto sample = samples_.take({report.data(), *bytes}, arrived_ns)) {
         feed.push(*sample, samples_.lost_before_last());
     }
@@ -142,10 +155,22 @@ Expected<std::unique_ptr<TrackerDevice>> opened(const FoundTracker& tracker,
 }  // namespace
 
 Expected<std::unique_ptr<TrackerDevice>> open_tracker(const HidOptions& options) {
+    // The first that can be used; if none can, why the first cannot.
+    std::optional<Error> first_error;
     for (const FoundTracker& tracker : find_trackers()) {
-        if (options.path.empty() || tracker.device.path == options.path) {
-            return opened(tracker, options);
+        if (!options.path.empty() && tracker.device.path != options.path) {
+            continue;
         }
+        auto session = opened(tracker, options);
+        if (session) {
+            return session;
+        }
+        if (!first_error) {
+            first_error = std::move(session.error());
+        }
+    }
+    if (first_error) {
+        return std::unexpected(std::move(*first_error));
     }
     return nullptr;
 }

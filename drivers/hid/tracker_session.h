@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "drivers/hid/find_trackers.h"
 #include "drivers/hid/hidraw_device.h"
 #include "drivers/hid/tracker_samples.h"
+#include "runtime/latency/clock.h"
 
 namespace gazeloop::drivers::hid {
 
@@ -20,7 +22,8 @@ struct HidOptions {
     ScreenGeometry geometry;  ///< what is not 0 counts instead of what the device states
 };
 
-/// An eye tracker that was opened and asked to send. Stops it when it goes.
+/// An eye tracker that was opened and asked to send, and asked again when it is silent for a
+/// second. Stops it when it goes, unless another program of ours reads it.
 class TrackerSession final : public TrackerDevice {
   public:
     /// Errors: NoDevice where it cannot be opened, BadInput where its descriptor is no good.
@@ -43,13 +46,17 @@ class TrackerSession final : public TrackerDevice {
   private:
     TrackerSession(std::string text, HidrawDevice device, const EyeTrackerLayout& layout,
                    const HidOptions& options);
+    void ask_again(std::int64_t now_ns);
     void describe(const EyeTrackerLayout& layout, const ScreenGeometry& geometry);
 
     std::string text_;
     HidrawDevice device_;
     TrackerFeatures features_;
     std::vector<std::string> remarks_;
-    std::vector<std::uint8_t> stop_;  ///< the report that stops it; empty where it has no control
+    /// The reports that start and stop it; empty where it has no control.
+    std::vector<std::uint8_t> start_;
+    std::vector<std::uint8_t> stop_;
+    std::int64_t last_heard_ns_ = latency::monotonic_ns();  ///< or asked to send
     TrackerSamples samples_;
 };
 

@@ -480,6 +480,11 @@ class FrameRun {
             recorder_.reset();
         }
         const latency::SummaryReport report = summary.report();
+        if (request_.clock == RunClock::Wall && !result_.fixed_in_head &&
+            report.gaze.received == report.gaze.invalid && report.frames.total > 0) {
+            spdlog::warn("no gaze in all {} frames: gazeloop devices says why a tracker gives none",
+                         report.frames.total);
+        }
         std::string text;
         if (request_.clock == RunClock::Recorded && !request_.quiet) {
             text += "replay of a recording: times are the recorded ones, passes are of this run\n";

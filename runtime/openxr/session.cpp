@@ -74,6 +74,12 @@ Session::Activity Session::poll() {
     if (ended_) {
         return Activity::Ended;
     }
+    if (exit_sent_ && std::chrono::steady_clock::now() > exit_deadline_) {
+        tell("the runtime does not end the session: it was left");
+        spdlog::warn("{} does not end the session, which it was asked to: leaving it",
+                     instance_.runtime_name());
+        return Activity::Ended;
+    }
     if (!running_) {
         if (exit_requested_ && !exit_sent_) {
             return Activity::Ended;  // no session runs that could be asked to end
@@ -86,12 +92,6 @@ Session::Activity Session::poll() {
         return Activity::Idle;
     }
     idle_polls_ = 0;
-    if (exit_sent_ && std::chrono::steady_clock::now() > exit_deadline_) {
-        tell("the runtime does not end the session: it was left");
-        spdlog::warn("{} does not end the session, which it was asked to: leaving it",
-                     instance_.runtime_name());
-        return Activity::Ended;
-    }
     return Activity::Running;
 }
 
@@ -119,6 +119,9 @@ void Session::handle_event(const XrEventDataBuffer& event) {
         case XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR:
             ++mask_changes_;
             tell("visibility mask changed");
+            break;
+        case XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING:
+            tell("the runtime moves its origin: gaze held in world is off by as much");
             break;
         case XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED:
             ++profile_changes_;

@@ -105,6 +105,40 @@ TEST_F(HidDevice, TellsItsFeaturesAndIsStartedAndStopped) {
     EXPECT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 0}));
 }
 
+// Listening to trackers for a moment takes none away from a loop that runs.
+TEST_F(HidDevice, IsNotStoppedWhileAnotherReadsIt) {
+    tracker_->plug_in();
+    const std::vector<FoundTracker> found = find_trackers();
+    auto first = TrackerSession::open(found.at(0), {});
+    ASSERT_TRUE(first.has_value());
+    {
+        auto second = TrackerSession::open(found.at(0), {});
+        ASSERT_TRUE(second.has_value());
+    }
+    EXPECT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 3}));
+    {
+        const TrackerSession last = std::move(*first);
+    }
+    EXPECT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 0}));
+}
+
+TEST_F(HidDevice, IsAskedAgainWhenSomethingStoppedIt) {
+    tracker_->plug_in();
+    auto session = TrackerSession::open(find_trackers().at(0), {});
+    ASSERT_TRUE(session.has_value());
+    {
+        auto device = HidrawDevice::open(tracker_->node());
+        ASSERT_TRUE(device.has_value());
+        ASSERT_TRUE(device->send_feature(std::vector<std::uint8_t>{0x14, 0}).has_value());
+    }
+    ASSERT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 0}));
+    DeviceFeed feed;
+    for (int i = 0; i < 1000 && tracker_->sent(0x14)->at(1) == 0; ++i) {
+        ASSERT_TRUE(session->read(std::chrono::milliseconds(50), feed).has_value());
+    }
+    EXPECT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 3}));
+}
+
 TEST_F(HidDevice, WorksWithoutFeaturesToo) {
     tracker_->plug_in();
     tracker_->set_fault(EmulatedTracker::Fault::FeaturesStall);

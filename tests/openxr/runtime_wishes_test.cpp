@@ -51,6 +51,14 @@ TEST_F(RuntimeWishes, AnEndIsAnOrderlyEnd) {
     EXPECT_NE(exiting, session.events.end());
 }
 
+TEST_F(RuntimeWishes, ARuntimeThatNeverSaysThatItHasEndedIsLeft) {
+    const ProgramResult result = run("xrEndSession@1=silence");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("does not end the session"), std::string::npos) << result.err;
+    EXPECT_TRUE(recorded().closed_cleanly);
+    EXPECT_EQ(recorded().frames.size(), 30U);
+}
+
 TEST_F(RuntimeWishes, ALossIsSaidAndLosesNothing) {
     const ProgramResult result = run("xrWaitFrame@10=event:LOSS_PENDING");
     EXPECT_EQ(result.exit_code, 5) << result.err;

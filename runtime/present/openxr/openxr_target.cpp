@@ -2,9 +2,11 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "runtime/latency/clock.h"
+#include "runtime/openxr/enumerate.h"
 #include "runtime/openxr/instance.h"
 #include "runtime/openxr/runtime_choice.h"
 #include "runtime/openxr/vulkan_objects.h"
@@ -32,6 +34,20 @@ openxr::InstanceOptions instance_options(const OpenXrOptions& options) {
     return instance;
 }
 
+/// Opaque where the display can be, else what the runtime prefers (see-through displays).
+XrEnvironmentBlendMode blend_mode_of(const openxr::Instance& instance) {
+    const auto offered = openxr::enumerate<XrEnvironmentBlendMode>(
+        XR_ENVIRONMENT_BLEND_MODE_OPAQUE, "xrEnumerateEnvironmentBlendModes",
+        [&](std::uint32_t capacity, std::uint32_t* count, XrEnvironmentBlendMode* modes) {
+            return xrEnumerateEnvironmentBlendModes(instance.handle(), instance.system(),
+                                                    openxr::kStereo, capacity, count, modes);
+        });
+    return offered.empty() ||
+                   std::ranges::find(offered, XR_ENVIRONMENT_BLEND_MODE_OPAQUE) != offered.end()
+               ? XR_ENVIRONMENT_BLEND_MODE_OPAQUE
+               : offered.front();
+}
+
 class SessionTarget final : public OpenXrTarget {
   public:
     explicit SessionTarget(const OpenXrOptions& options)
@@ -40,7 +56,8 @@ class SessionTarget final : public OpenXrTarget {
           instance_(choice_, instance_options(options)),
           vulkan_(instance_),
           clock_(instance_),
-          extents_(picture_extents(instance_, options.scale)) {
+          extents_(picture_extents(instance_, options.scale)),
+          blend_mode_(blend_mode_of(instance_)) {
         spdlog::info("OpenXR runtime: {} ({}: {})", instance_.runtime_name(), choice_.reason,
                      choice_.manifest);
     }
@@ -127,7 +144,7 @@ class SessionTarget final : public OpenXrTarget {
         }
         auto end = typed<XrFrameEndInfo>(XR_TYPE_FRAME_END_INFO);
         end.displayTime = display_time_;
-        end.environmentBlendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+        end.environmentBlendMode = blend_mode_;
         end.layerCount = rendered ? 1 : 0;
         end.layers = rendered ? &layer : nullptr;
         xr_check_session(xrEndFrame(session_->handle(), &end), "xrEndFrame");
@@ -160,6 +177,7 @@ class SessionTarget final : public OpenXrTarget {
     openxr::VulkanObjects vulkan_;
     openxr::XrClock clock_;
     gaze::PerEye<vk::Extent2D> extents_;
+    XrEnvironmentBlendMode blend_mode_;
     std::optional<openxr::Session> session_;
     std::optional<OpenXrViews> views_;
     std::optional<OpenXrPictures> pictures_;  // swapchains go before the session

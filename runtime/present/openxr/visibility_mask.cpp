@@ -7,7 +7,6 @@
 namespace gazeloop::present {
 
 using openxr::typed;
-using openxr::xr_check;
 using openxr::xr_function;
 
 VisibilityMask::VisibilityMask(XrInstance instance)
@@ -30,15 +29,16 @@ gaze::HiddenMesh VisibilityMask::query_view(XrSession session,
     std::vector<XrVector2f> vertices;
     std::vector<std::uint32_t> indices;
     const auto call = [&] {
-        return xr_check(get_(session, configuration, view,
-                             XR_VISIBILITY_MASK_TYPE_HIDDEN_TRIANGLE_MESH_KHR, &mask),
-                        "xrGetVisibilityMaskKHR");
+        return XR_SUCCEEDED(get_(session, configuration, view,
+                                 XR_VISIBILITY_MASK_TYPE_HIDDEN_TRIANGLE_MESH_KHR, &mask));
     };
     const auto refuse = [&](std::string_view why) {
         spdlog::warn("the runtime's visibility mask of view {} is not used: {}", view, why);
         return gaze::HiddenMesh{};
     };
-    call();
+    if (!call()) {
+        return refuse("the runtime does not say it");
+    }
     if (mask.indexCountOutput > 3 * kMostTriangles || mask.vertexCountOutput > 3 * kMostTriangles) {
         return refuse("it is too large");
     }
@@ -51,8 +51,14 @@ gaze::HiddenMesh VisibilityMask::query_view(XrSession session,
     mask.indexCapacityInput = mask.indexCountOutput;
     mask.vertices = vertices.data();
     mask.indices = indices.data();
-    call();
+    if (!call()) {
+        return refuse("it changed while it was asked for");
+    }
     indices.resize(std::min<std::size_t>(indices.size(), mask.indexCountOutput));
+    vertices.resize(std::min<std::size_t>(vertices.size(), mask.vertexCountOutput));
+    if (indices.empty()) {
+        return {};
+    }
     if (indices.size() % 3 != 0 || std::ranges::max(indices) >= vertices.size()) {
         return refuse("it is no list of triangles");
     }

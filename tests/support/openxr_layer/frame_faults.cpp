@@ -3,6 +3,7 @@
 //                  display=NS, period=NS, exit (the runtime is asked to end the session), pause (it
 //                  stops the session and lets it begin again 20 polls later), event:STATE (a
 //                  session state), event:INSTANCE_LOSS_PENDING, event:VISIBILITY_MASK_CHANGED
+//   xrEndSession:  silence (from then on the runtime has no events)
 //   xrLocateViews: untracked (no valid pose), nan-pose, zero-pose (a quaternion of zeros), nan-fov,
 //                  flat-fov (all angles 0), wide-fov (a right angle to each side)
 //   xrLocateSpace: untracked, nan-pose; the gaze's space is not counted (eye_gaze.cpp)
@@ -20,6 +21,7 @@ namespace {
 constexpr int kPollsOfAPause = 20;
 
 bool g_paused = false;
+bool g_silent = false;
 int g_polls_until_ready = 0;
 XrDuration g_display_moved_by = 0;  // of the frame that is under way
 
@@ -83,11 +85,17 @@ XRAPI_ATTR XrResult XRAPI_CALL poll_event(XrInstance instance, XrEventDataBuffer
         l.events.pop_front();
         return XR_SUCCESS;
     }
-    return next<PFN_xrPollEvent>("xrPollEvent")(instance, event);
+    return g_silent ? XR_EVENT_UNAVAILABLE : next<PFN_xrPollEvent>("xrPollEvent")(instance, event);
 }
 
 /// The runtime knows nothing of a pause that the layer makes.
 XRAPI_ATTR XrResult XRAPI_CALL end_session(XrSession session) {
+    if (const auto effect = layer().plan.call("xrEndSession")) {
+        if (*effect != "silence") {
+            refuse_fault("xrEndSession", *effect);
+        }
+        g_silent = true;
+    }
     if (g_paused) {
         send_state(XR_SESSION_STATE_IDLE);
         g_polls_until_ready = kPollsOfAPause;

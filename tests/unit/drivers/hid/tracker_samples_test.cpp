@@ -76,6 +76,55 @@ TEST(TrackerSamples, TellChangesOfTheStatusOnce) {
     EXPECT_NE(samples.take_change().value_or("").find("calibrat"), std::string::npos);
 }
 
+/// Gaze in report 3, one eye after the other in report 4; tenths of a millimetre.
+std::vector<std::uint8_t> eyes_apart() {
+    using namespace eye_tracker;
+    DescriptorItems d;
+    d.page(0x12).open(CollectionType::Application, kEyeTracker).logical(-32768, 32767);
+    d.unit(0x11).exponent(0x0E);
+    d.report_id(3).open(CollectionType::Logical, kGazePoint);
+    d.usage(kPositionX).usage(kPositionY).fields(16, 2).input(DescriptorItems::kVariable).close();
+    d.report_id(4);
+    for (const Usage eye : {kLeftEyePosition, kRightEyePosition}) {
+        d.open(CollectionType::Logical, eye).usage(kPositionX).usage(kPositionY).usage(kPositionZ);
+        d.fields(16, 3).input(DescriptorItems::kVariable).close();
+    }
+    return d.close().bytes();
+}
+
+TEST(TrackerSamples, TakeEyesThatAreReportedApartFromTheGaze) {
+    TrackerSamples samples = samples_of(eyes_apart());
+    const auto words = [](std::uint8_t id, std::initializer_list<int> values) {
+        std::vector<std::uint8_t> report{id};
+        for (const int value : values) {
+            report.push_back(static_cast<std::uint8_t>(value));
+            report.push_back(static_cast<std::uint8_t>(value >> 8));
+        }
+        return report;
+    };
+    const auto gaze = words(3, {2000, 1000});
+    EXPECT_FALSE(samples.take(gaze, 0)->eyes[0].valid) << "nobody knows yet where the eyes are";
+    // 60 mm apart, 600 mm away, their middle in front of the point that is looked at.
+    EXPECT_FALSE(samples.take(words(4, {1700, 1000, 6000, 2300, 1000, 6000}), 1).has_value())
+        << "where the eyes are is no gaze, and no loss of it either";
+    const auto sample = samples.take(gaze, 2);
+    ASSERT_TRUE(sample.has_value());
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const gaze::EyeRay& ray = sample->eyes[gaze::index(eye)];
+        ASSERT_TRUE(ray.valid);
+        EXPECT_NEAR(ray.direction.x / -ray.direction.z, eye == gaze::Eye::Left ? 0.05 : -0.05,
+                    1e-9);
+        EXPECT_NEAR(ray.origin_m.x, eye == gaze::Eye::Left ? -0.03 : 0.03, 1e-9);
+    }
+    EXPECT_FALSE(samples.take(gaze, 2000 * kMs)->eyes[0].valid) << "that was seconds ago";
+    EXPECT_EQ(samples.counts().samples, 3U);
+    EXPECT_EQ(samples.counts().others, 0U);
+    EXPECT_FALSE(geometry_problem(value_or_throw(find_eye_tracker(
+                                      value_or_throw(parse_report_descriptor(eyes_apart())))),
+                                  {})
+                     .has_value());
+}
+
 TEST(TrackerSamples, CountALossOnlyBehindAFullBacklog) {
     TrackerSamples samples = samples_of(first_layout());
     std::int64_t taken_ns = 0;
