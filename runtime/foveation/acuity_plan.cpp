@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kNoCore = -1.0;
+/// A wider disc leaves a flat picture: its ring is drawn no larger.
+constexpr double kWidestRingDeg = 80.0;
 /// Float rounding moves a pixel against the disc's edge by less than this: 4 ulp of a ray.
 constexpr double kDiscSlackRad = 4.0 / (1 << 24);
 /// Pixels beside the disc's edge that are shaded with it, against rounding of the row's span.
@@ -66,9 +68,10 @@ void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profil
     if (parameters.disc) {
         const double disc_deg = std::max(map.disc_eccentricity_deg(plan.lp),
                                          std::min(profile.display_limit_deg(), 90.0));
-        const double border_deg = std::min(
-            parameters.border_px / pixels_per_degree(view, map.frame().nearest_in_view()).mean,
-            0.5 * disc_deg);
+        const double px_per_deg = pixels_per_degree(view, map.frame().nearest_in_view()).mean;
+        const double border_deg = std::min(parameters.border_px / px_per_deg, 0.5 * disc_deg);
+        plan.disc_radius_px = px_per_deg / kRadiansPerDegree *
+                              std::tan(std::min(disc_deg, kWidestRingDeg) * kRadiansPerDegree);
         const auto half_sine = [](double deg) { return std::sin(0.5 * deg * kRadiansPerDegree); };
         in_frame.disc_half_sine = half_sine(disc_deg);
         in_frame.border_half_sine = in_frame.disc_half_sine - half_sine(disc_deg - border_deg);

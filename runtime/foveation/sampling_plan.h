@@ -20,7 +20,9 @@ struct SamplingPlan {
     double log2_max_radius = 0.0;
     double disc_radius_px = 0.0;  ///< 0: no disc
     double disc_border_px = 0.0;  ///< the blend lies inside the radius
-    /// Plans in the gaze frame alone (plan_acuity); the four members above are then 0.
+    /// Plans in the gaze frame alone (plan_acuity). Of the four members above, the disc's radius is
+    /// then that of the ring to draw around it, right where the gaze is in the middle, and the
+    /// others are 0.
     struct InGazeFrame {
         GazeFrameUniforms uniforms;
         double disc_half_sine = 0.0;    ///< sin(e / 2) of the disc's eccentricity; 0: no disc

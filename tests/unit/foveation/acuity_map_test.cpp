@@ -344,6 +344,21 @@ TEST(AcuityPlan, LeavesOutWhatOnlyHiddenPixelsRead) {
 }
 
 // The figures a prototype reached: 149910 of 154860 texels on screen without the disc.
+// For pictures and previews: the ring is where the disc ends.
+TEST(AcuityPlan, SaysHowLargeTheDiscLooks) {
+    const gaze::EyeView view = square_view(2160, 45.0);
+    const AcuityParameters parameters;
+    const auto profile = value_or_throw(AcuityProfile::create(parameters, view));
+    SamplingPlan plan;
+    plan_acuity(parameters, profile, view, {0, 0, -1}, plan);
+    ASSERT_GT(plan.disc_radius_px, 10.0);
+    EXPECT_NEAR(std::sqrt(static_cast<double>(plan.pixels_direct) / std::numbers::pi),
+                plan.disc_radius_px, 0.06 * plan.disc_radius_px)
+        << "a little more than the disc: bands are as wide as their widest row";
+    plan_acuity({.disc = false}, profile, view, {0, 0, -1}, plan);
+    EXPECT_EQ(plan.disc_radius_px, 0.0);
+}
+
 TEST(AcuityPlan, NeedsAFewPercentOfThePixels) {
     const gaze::EyeView view = square_view(2160);
     const double p = pixels_per_degree(view, {0, 0, -1}).finest;
