@@ -1,9 +1,9 @@
 // The program as its users run it, on an emulated device.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <stop_token>
 #include <thread>
 
 #include "runtime/latency/clock.h"
@@ -19,29 +19,22 @@ namespace {
 class Sending {
   public:
     explicit Sending(const EmulatedTracker& tracker)
-        : thread_([this, &tracker] {
+        : thread_([&tracker](const std::stop_token& stop) {
               gaze::GazeSample sample;
               for (gaze::EyeRay& ray : sample.eyes) {
                   ray.valid = true;
               }
               const std::int64_t begin_ns = latency::monotonic_ns();
-              for (std::int64_t i = 0; !stop_; ++i) {
+              for (std::int64_t i = 0; !stop.stop_requested(); ++i) {
                   latency::sleep_until_ns(begin_ns + i * 5'000'000);
                   // Nobody may read yet, or any more.
                   (void)tracker.try_send(
                       sim::virtual_tracker_report(sample, static_cast<std::uint64_t>(i) * 5000));
               }
           }) {}
-    Sending(const Sending&) = delete;
-    Sending& operator=(const Sending&) = delete;
-    ~Sending() {
-        stop_ = true;
-        thread_.join();
-    }
 
   private:
-    std::atomic<bool> stop_{false};
-    std::thread thread_;
+    std::jthread thread_;
 };
 
 class DevicesProgram : public testing::Test {

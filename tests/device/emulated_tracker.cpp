@@ -154,7 +154,11 @@ void EmulatedTracker::set_fault(Fault fault) {
     }
 }
 
-void EmulatedTracker::set_mode(unsigned mode) const { chmod(real_node_.c_str(), mode); }
+void EmulatedTracker::set_mode(unsigned mode) const {
+    // Whoever may not open the node still is to see it.
+    chmod(real_node_.substr(0, real_node_.size() - node().size()).c_str(), 0755);
+    chmod(real_node_.c_str(), mode);
+}
 
 void EmulatedTracker::wake_reader() const {
     const std::uint8_t any = 0;

@@ -11,6 +11,7 @@
 
 #include "drivers/hid/hid_source.h"
 #include "runtime/latency/clock.h"
+#include "tests/device/as_nobody.h"
 #include "tests/device/emulated_tracker.h"
 #include "tests/device/thread_time.h"
 #include "tests/unit/drivers/hid/descriptor_items.h"
@@ -283,14 +284,16 @@ TEST_F(HidDevice, KeepsUpWithAThousandReportsASecond) {
 }
 
 TEST_F(HidDevice, SaysWhenItMayNotBeOpened) {
-    if (geteuid() == 0) {
-        GTEST_SKIP() << "root may open everything";
-    }
     tracker_->plug_in();
     tracker_->set_mode(0);
-    const FoundDevice found = find_trackers().at(0).device;
-    EXPECT_NE(found.access_problem.value_or("").find("permission denied"), std::string::npos);
-    EXPECT_EQ(found.missing_rule, udev_rule(0x1209, 0xE7E7));
+    EXPECT_TRUE(tests::as_nobody([] {
+        const std::vector<FoundTracker> found = find_trackers();
+        EXPECT_EQ(found.size(), 1U);
+        const FoundDevice& device = found.at(0).device;
+        EXPECT_NE(device.access_problem.value_or("").find("permission denied"), std::string::npos);
+        EXPECT_EQ(device.missing_rule, udev_rule(0x1209, 0xE7E7));
+        return !testing::Test::HasFailure();
+    }));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // The USB path on an emulated PlayStation VR2: found, claimed, asked, read, halted, pulled out.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "drivers/psvr2/psvr2_source.h"
 #include "runtime/latency/clock.h"
 #include "sim/psvr2_packet.h"
+#include "tests/device/as_nobody.h"
 #include "tests/device/emulated_psvr2.h"
 #include "tests/device/thread_time.h"
 
@@ -250,22 +250,10 @@ TEST_F(Psvr2Device, KeepsUpWithAThousandPacketsASecond) {
                100.0 * (tests::thread_seconds("gaze-psvr2") - cpu_before_s) / seconds);
 }
 
-/// Runs it as somebody who is not root; whether it returned true.
-bool as_nobody(const std::function<bool()>& check) {
-    const pid_t child = fork();
-    if (child == 0) {
-        constexpr uid_t kNobody = 65534;
-        const bool dropped = geteuid() != 0 || (setgid(kNobody) == 0 && setuid(kNobody) == 0);
-        _exit(dropped && check() ? 0 : 1);
-    }
-    int status = 0;
-    return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
 TEST_F(Psvr2Device, SaysThatItMayNotBeOpenedAndWhatCuresIt) {
     headset_->plug_in();
     headset_->set_mode(0);
-    EXPECT_TRUE(as_nobody([] {
+    EXPECT_TRUE(tests::as_nobody([] {
         const std::vector<FoundDevice> found = find_headsets();
         EXPECT_EQ(found.size(), 1U);
         EXPECT_NE(found.at(0).access_problem.value_or("").find("permission denied"),

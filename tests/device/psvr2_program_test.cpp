@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <stop_token>
 #include <thread>
 
 #include "runtime/latency/clock.h"
@@ -21,13 +21,13 @@ namespace {
 class Sending {
   public:
     explicit Sending(EmulatedPsvr2& headset)
-        : thread_([this, &headset] {
+        : thread_([&headset](const std::stop_token& stop) {
               constexpr double kLap_s = 5.0;
               sim::GazeSimulation simulation;
               simulation.tracker.rate_hz = 120.0;
               const drivers::Trace trace = sim::generate_gaze(simulation, kLap_s);
               const std::int64_t begin_ns = latency::monotonic_ns();
-              for (std::uint32_t i = 0; !stop_; ++i) {
+              for (std::uint32_t i = 0; !stop.stop_requested(); ++i) {
                   latency::sleep_until_ns(begin_ns + i * 8'333'333LL);
                   gaze::GazeSample sample = trace.samples[i % trace.samples.size()];
                   sample.eyes[0].origin_m = {-0.031, 0.0, 0.0};
@@ -37,16 +37,9 @@ class Sending {
                   }
               }
           }) {}
-    Sending(const Sending&) = delete;
-    Sending& operator=(const Sending&) = delete;
-    ~Sending() {
-        stop_ = true;
-        thread_.join();
-    }
 
   private:
-    std::atomic<bool> stop_{false};
-    std::thread thread_;
+    std::jthread thread_;
 };
 
 class Psvr2Program : public testing::Test {
