@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <vector>
 
@@ -31,6 +32,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return last[b.size()];
 }
 
+std::string unknown(std::string_view what, std::string_view text,
+                    const std::optional<std::string>& nearest, std::span<const std::string> known) {
+    return fmt::format("unknown {} '{}'{}; known: {}", what, text,
+                       nearest ? fmt::format("; did you mean '{}'?", *nearest) : "",
+                       fmt::join(known, ", "));
+}
+
 }  // namespace
 
 std::optional<std::string> nearest_name(std::string_view text,
@@ -49,10 +57,25 @@ std::optional<std::string> nearest_name(std::string_view text,
 
 std::string unknown_name(std::string_view what, std::string_view text,
                          std::span<const std::string> candidates) {
-    const auto nearest = nearest_name(text, candidates);
-    return fmt::format("unknown {} '{}'{}; known: {}", what, text,
-                       nearest ? fmt::format("; did you mean '{}'?", *nearest) : "",
-                       fmt::join(candidates, ", "));
+    return unknown(what, text, nearest_name(text, candidates), candidates);
+}
+
+std::string unknown_key(std::string_view text, std::span<const std::string> keys) {
+    // With its dot; empty for a key of no group.
+    const auto group_of = [](std::string_view key) { return key.substr(0, key.find('.') + 1); };
+    const std::string_view group = group_of(text);
+    std::vector<std::string> known;
+    std::ranges::copy_if(keys, std::back_inserter(known), [&](const std::string& key) {
+        return !group.empty() && group_of(key) == group;
+    });
+    if (known.empty()) {
+        for (const std::string& key : keys) {
+            known.push_back(group_of(key).empty() ? key : fmt::format("{}*", group_of(key)));
+        }
+        const auto repeated = std::ranges::unique(known);
+        known.erase(repeated.begin(), repeated.end());
+    }
+    return unknown("key", text, nearest_name(text, keys), known);
 }
 
 }  // namespace gazeloop::cli

@@ -12,8 +12,11 @@ namespace gazeloop::cli {
 std::optional<std::string> nearest_name(std::string_view text,
                                         std::span<const std::string> candidates);
 
-/// "unknown WHAT 'TEXT'; did you mean 'NAME'? Known: a, b, c".
+/// "unknown WHAT 'TEXT'; did you mean 'NAME'?; known: a, b, c".
 std::string unknown_name(std::string_view what, std::string_view text,
                          std::span<const std::string> candidates);
+/// The same for keys of the form GROUP.NAME, which are too many for a message: known are those of
+/// the text's group, or else the groups.
+std::string unknown_key(std::string_view text, std::span<const std::string> keys);
 
 }  // namespace gazeloop::cli

@@ -267,7 +267,7 @@ Expected<void> Settings::assign(std::string_view key, std::string_view text, Wri
             written == Written::Group && std::ranges::any_of(entries_, [&](const Entry& one) {
                 return one.key.starts_with(std::string(key) + ".");
             });
-        return group ? Expected<void>{} : refuse(origin, unknown_name("key", key, keys()));
+        return group ? Expected<void>{} : refuse(origin, unknown_key(key, keys()));
     }
     const auto wrong_kind = [&](std::string_view wanted) {
         return refuse(origin, fmt::format("{}: {} is expected, this is {}", key, wanted,
