@@ -20,6 +20,20 @@ void check_vulkan(VkResult result, const Instance& instance, std::string_view wh
     }
 }
 
+/// The least version that the runtime takes; the greatest is only what it was tried with.
+void check_version(XrVersion least, std::uint32_t ours, const Instance& instance) {
+    const XrVersion offered =
+        XR_MAKE_VERSION(VK_API_VERSION_MAJOR(ours), VK_API_VERSION_MINOR(ours), 0);
+    if (least > offered) {
+        throw SetupError(
+            ExitCode::NoDevice,
+            fmt::format("{} wants Vulkan {}.{} or later, gazeloop uses {}.{}: use another OpenXR "
+                        "runtime (XR_RUNTIME_JSON), or --target headless",
+                        instance.runtime_name(), XR_VERSION_MAJOR(least), XR_VERSION_MINOR(least),
+                        VK_API_VERSION_MAJOR(ours), VK_API_VERSION_MINOR(ours)));
+    }
+}
+
 }  // namespace
 
 VkInstance VulkanObjects::create_instance(PFN_vkGetInstanceProcAddr get_proc,
@@ -30,6 +44,8 @@ VkInstance VulkanObjects::create_instance(PFN_vkGetInstanceProcAddr get_proc,
                  instance_.handle(), "xrGetVulkanGraphicsRequirements2KHR")(
                  instance_.handle(), instance_.system(), &requirements),
              "xrGetVulkanGraphicsRequirements2KHR");
+    check_version(requirements.minApiVersionSupported, info.pApplicationInfo->apiVersion,
+                  instance_);
     auto create = typed<XrVulkanInstanceCreateInfoKHR>(XR_TYPE_VULKAN_INSTANCE_CREATE_INFO_KHR);
     create.systemId = instance_.system();
     create.pfnGetInstanceProcAddr = get_proc;

@@ -153,6 +153,8 @@ INSTANTIATE_TEST_SUITE_P(
     TheRuntime, OpenXrSetUp,
     testing::Values(Refusal{"makes_no_session", "xrCreateSession@1=XR_ERROR_LIMIT_REACHED",
                             "xrCreateSession: XR_ERROR_LIMIT_REACHED"},
+                    Refusal{"wants_a_newer_vulkan", "xrGetVulkanGraphicsRequirements2KHR@1=newer",
+                            "wants Vulkan 9.7 or later, gazeloop uses 1.3: use another OpenXR"},
                     Refusal{"makes_one_swapchain_only",
                             "xrCreateSwapchain@2=XR_ERROR_OUT_OF_MEMORY", "use a smaller picture"}),
     [](const auto& instance) { return instance.param.name; });

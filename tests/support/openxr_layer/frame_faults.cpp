@@ -3,6 +3,7 @@
 //                  display=NS, period=NS, exit (the runtime is asked to end the session), pause (it
 //                  stops the session and lets it begin again 20 polls later), event:STATE (a
 //                  session state), event:INSTANCE_LOSS_PENDING, event:VISIBILITY_MASK_CHANGED
+//   xrGetVulkanGraphicsRequirements2KHR: newer (wants a Vulkan that does not exist yet)
 //   xrEndSession:  silence (from then on the runtime has no events)
 //   xrLocateViews: untracked (no valid pose), nan-pose, zero-pose (a quaternion of zeros), nan-fov,
 //                  flat-fov (all angles 0), wide-fov (a right angle to each side)
@@ -53,6 +54,20 @@ void send_state(XrSessionState state) {
     event.session = layer().session;
     event.state = state;
     send(event);
+}
+
+XRAPI_ATTR XrResult XRAPI_CALL vulkan_requirements(XrInstance instance, XrSystemId system,
+                                                   XrGraphicsRequirementsVulkan2KHR* wanted) {
+    constexpr const char* kName = "xrGetVulkanGraphicsRequirements2KHR";
+    const XrResult result =
+        next<PFN_xrGetVulkanGraphicsRequirements2KHR>(kName)(instance, system, wanted);
+    if (const auto effect = layer().plan.call(kName)) {
+        if (*effect != "newer") {
+            refuse_fault(kName, *effect);
+        }
+        wanted->minApiVersionSupported = XR_MAKE_VERSION(9, 7, 0);
+    }
+    return result;
 }
 
 /// A function that can only fail.
@@ -245,6 +260,9 @@ PFN_xrVoidFunction frame_hook(std::string_view wanted) {
     GAZELOOP_FAILING(xrWaitSwapchainImage)
     GAZELOOP_FAILING(xrReleaseSwapchainImage)
 #undef GAZELOOP_FAILING
+    if (wanted == "xrGetVulkanGraphicsRequirements2KHR") {
+        return as_hook(&vulkan_requirements);
+    }
     if (wanted == "xrPollEvent") {
         return as_hook(&poll_event);
     }
