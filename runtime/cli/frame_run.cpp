@@ -26,6 +26,7 @@
 #include "runtime/latency/summary_text.h"
 #include "runtime/present/headless_target.h"
 #include "runtime/present/openxr/openxr_target.h"
+#include "runtime/present/scaled_extent.h"
 #include "runtime/preview/preview_feed.h"
 #include "runtime/preview/window_process.h"
 #include "runtime/render/snapshot.h"
@@ -33,6 +34,8 @@
 
 namespace gazeloop::cli {
 namespace {
+
+constexpr std::uint32_t kMaxSide_px = 16384;  // of an image, on the devices that there are
 
 std::int64_t ms_to_ns(double ms) { return std::llround(ms * 1e6); }
 
@@ -63,10 +66,8 @@ vk::Format format_named(std::string_view text) {
 }
 
 gaze::PerEye<vk::Extent2D> scaled_extents(const present::DisplayProfile& display, double scale) {
-    const auto scaled = [&](std::uint32_t side) {
-        return std::clamp(static_cast<std::uint32_t>(std::lround(side * scale)), 2U, 16384U);
-    };
-    const vk::Extent2D extent(scaled(display.width_px), scaled(display.height_px));
+    const vk::Extent2D extent = present::scaled_extent({display.width_px, display.height_px}, scale,
+                                                       {kMaxSide_px, kMaxSide_px});
     return {extent, extent};
 }
 

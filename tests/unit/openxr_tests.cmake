@@ -7,3 +7,7 @@ gazeloop_test(unit_announced_time
     SOURCES present/announced_time_test.cpp
     LINK gazeloop::announced_time
     LABELS unit)
+gazeloop_test(unit_scaled_extent
+    SOURCES present/scaled_extent_test.cpp
+    LINK gazeloop::present
+    LABELS unit)

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "runtime/error.h"
 #include "runtime/openxr/enumerate.h"
+#include "runtime/present/scaled_extent.h"
 
 namespace gazeloop::present {
 namespace {
@@ -57,14 +57,11 @@ gaze::PerEye<vk::Extent2D> picture_extents(const openxr::Instance& instance, dou
                          fmt::format("{} offers {} views for stereo, 2 are needed",
                                      instance.runtime_name(), sizes.size()));
     }
-    const auto scaled = [scale](std::uint32_t side, std::uint32_t most) {
-        return std::clamp(static_cast<std::uint32_t>(std::lround(side * scale)), 2U, most);
-    };
     gaze::PerEye<vk::Extent2D> extents;
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
         extents[e] =
-            vk::Extent2D(scaled(sizes[e].recommendedImageRectWidth, sizes[e].maxImageRectWidth),
-                         scaled(sizes[e].recommendedImageRectHeight, sizes[e].maxImageRectHeight));
+            scaled_extent({sizes[e].recommendedImageRectWidth, sizes[e].recommendedImageRectHeight},
+                          scale, {sizes[e].maxImageRectWidth, sizes[e].maxImageRectHeight});
     }
     return extents;
 }

@@ -98,7 +98,8 @@ TEST(Findings, DecideWhetherTheLoopCanRun) {
                       {.check = "a.warned", .verdict = Verdict::Warning, .remedy = "do this"},
                       {.check = "a.failed", .verdict = Verdict::Failure}};
     EXPECT_TRUE(loop_can_run(findings));
-    EXPECT_TRUE(findings_text(findings).starts_with("the loop can run; ok 1, warnings 1, failures 1"));
+    EXPECT_TRUE(
+        findings_text(findings).starts_with("the loop can run; ok 1, warnings 1, failures 1"));
     EXPECT_NE(findings_text(findings).find("-> do this"), std::string::npos);
     findings.push_back({.check = "b.bad", .verdict = Verdict::Failure, .stops_loop = true});
     EXPECT_FALSE(loop_can_run(findings));

@@ -52,7 +52,7 @@ class Recording : public ::testing::Test {
 };
 
 unsigned mode(const std::filesystem::path& file) {
-    struct stat status {};
+    struct stat status{};
     return stat(file.c_str(), &status) == 0 ? status.st_mode & 0777U : 0U;
 }
 
