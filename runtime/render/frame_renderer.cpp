@@ -7,8 +7,8 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "runtime/error.h"
 #include "runtime/render/eye_uniforms.h"
@@ -286,11 +286,17 @@ void FrameRenderer::wait_for_slot(std::uint32_t in_flight) {
         return;
     }
     const std::uint64_t needed = submitted_ - in_flight + 1;
-    const vk::Result result = context_->device().waitSemaphores(
-        vk::SemaphoreWaitInfo({}, *timeline_, needed), std::numeric_limits<std::uint64_t>::max());
-    if (result != vk::Result::eSuccess) {
-        throw SetupError(ExitCode::SessionLost,
-                         "the GPU did not finish a frame: " + vk::to_string(result));
+    // Drivers end what hangs; what is merely slow may take minutes in software, but not in silence.
+    constexpr std::chrono::seconds kPatience(10);
+    std::chrono::seconds waited(0);
+    while (context_->device().waitSemaphores(vk::SemaphoreWaitInfo({}, *timeline_, needed),
+                                             std::chrono::nanoseconds(kPatience).count()) !=
+           vk::Result::eSuccess) {
+        waited += kPatience;
+        spdlog::warn(
+            "the GPU has not finished a frame for {} s: a smaller picture (--set render.scale=0.5) "
+            "or fewer samples (--set render.spp=1) take less; a second Ctrl-C ends at once",
+            waited.count());
     }
 }
 
