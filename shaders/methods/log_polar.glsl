@@ -1,7 +1,8 @@
 // Pass I of a log-polar method: one cell of the LP-buffer by its own samples; or, for the direct
-// disc, one pixel by its own; with what the scene says of its distance. One shader for both, because software drivers keep few large ones
-// compiled. Cells of a tile that the plan leaves out take no samples and keep what they held; they
-// are discarded last, because lavapipe 22.3 is a fifth slower where loops follow a discard.
+// disc, one pixel by its own; with what the scene says of its distance. One shader for both, because
+// software drivers keep few large ones compiled. Cells of a tile that the plan leaves out take no
+// samples and keep what they held; they are discarded last, because lavapipe 22.3 is a fifth slower
+// where loops follow a discard.
 layout(location = 0) flat in int direct;
 layout(location = 0) out vec4 color;
 
