@@ -482,7 +482,8 @@ class FrameRun {
         }
         const latency::SummaryReport report = summary.report();
         if (request_.clock == RunClock::Wall && !result_.fixed_in_head &&
-            report.gaze.received == report.gaze.invalid && report.frames.total > 0) {
+            report.gaze.received <= report.gaze.invalid + report.gaze.out_of_order &&
+            report.frames.total > 0) {
             spdlog::warn("no gaze in all {} frames: gazeloop devices says why a tracker gives none",
                          report.frames.total);
         }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runtime/gaze/direction.h"
+#include "runtime/latency/span.h"
 
 namespace gazeloop::gaze {
 namespace {
@@ -53,10 +54,6 @@ std::int64_t age_ns(const latency::Stamp& sampled, const latency::Stamp& arrived
     return age;
 }
 
-bool goes_back(const latency::Stamp& before, const latency::Stamp& now) {
-    return before.known() && now.known() && now.ns < before.ns;
-}
-
 /// A unit vector at a right angle to the unit vector v.
 glm::dvec3 perpendicular(const glm::dvec3& v) {
     const glm::dvec3 up{0.0, 1.0, 0.0};
@@ -85,11 +82,8 @@ double smooth_step(double t) { return t * t * (3.0 - 2.0 * t); }
 GazeToFovea::GazeToFovea(const FoveaPolicy& policy) : policy_(policy) {}
 
 void GazeToFovea::add(const GazeSample& sample) {
-    const Times times{sample.device_ns, sample.sampled, sample.arrived, sample.ready,
-                      sample.uncertainty_ns};
-    const std::optional<Times> before = std::exchange(received_, times);
-    if (before &&
-        (times.device_ns < before->device_ns || goes_back(before->sampled, times.sampled))) {
+    const Times times{sample.sampled, sample.arrived, sample.ready, sample.uncertainty_ns};
+    if (latency::goes_back(std::exchange(sampled_before_, times.sampled), times.sampled)) {
         ++out_of_order_;
         return;
     }

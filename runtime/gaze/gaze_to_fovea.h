@@ -40,9 +40,9 @@ class GazeToFovea {
   public:
     explicit GazeToFovea(const FoveaPolicy& policy);
 
-    /// Takes samples in the order of arrival; one with a device or sample time before that of the
-    /// sample added before it is counted as out of order and otherwise ignored. So a clock that
-    /// jumps costs one sample, not the rest of the session.
+    /// Takes samples in the order of arrival; one with a sample time before that of the sample
+    /// added before it is counted as out of order and otherwise ignored. Unknown times are not
+    /// compared, nor is the tracker's own clock, which may lie: then the order of arrival stands.
     void add(const GazeSample& sample);
 
     /// The foveae of a frame whose gaze is read at `latched` (known), for views at their display
@@ -55,7 +55,6 @@ class GazeToFovea {
 
   private:
     struct Times {
-        std::int64_t device_ns = 0;
         latency::Stamp sampled;
         latency::Stamp arrived;
         latency::Stamp ready;
@@ -81,7 +80,7 @@ class GazeToFovea {
                                       const EyeView& view) const;
 
     FoveaPolicy policy_;
-    std::optional<Times> received_;  ///< of the sample added last, ignored or not
+    latency::Stamp sampled_before_;  ///< of the sample added last, ignored or not
     std::optional<Times> newest_;    ///< of the sample taken last
     bool newest_valid_ = false;
     std::optional<ValidSample> last_valid_;

@@ -12,16 +12,13 @@ void SampleCounter::add(const gaze::GazeSample& sample) {
     if (!sample.eyes[0].valid && !sample.eyes[1].valid) {
         ++counts_.invalid;
     }
-    const std::int64_t device_before = std::exchange(last_device_ns_, sample.device_ns);
     const Stamp sampled_before = std::exchange(last_sampled_, sample.sampled);
     const std::uint64_t highest_before =
         std::exchange(highest_sequence_, std::max(highest_sequence_, sample.sequence));
     if (first) {
         return;
     }
-    const Span step = between(sampled_before, sample.sampled);
-    if (sample.sequence <= highest_before || sample.device_ns < device_before ||
-        (step.known() && step.ns < 0)) {
+    if (sample.sequence <= highest_before || goes_back(sampled_before, sample.sampled)) {
         ++counts_.out_of_order;
     }
     if (sample.sequence > highest_before) {

@@ -11,7 +11,7 @@ struct GazeCounts {
     std::uint64_t received = 0;
     std::uint64_t invalid = 0;  ///< the tracker vouches for neither eye
     std::uint64_t lost = 0;     ///< by gaps in the sequence numbers
-    /// Repeated, overtaken by a higher sequence number, or with a time before its predecessor's.
+    /// Repeated, overtaken by a higher sequence number, or sampled before its predecessor.
     std::uint64_t out_of_order = 0;
 
     friend bool operator==(const GazeCounts&, const GazeCounts&) = default;
@@ -26,9 +26,7 @@ class SampleCounter {
   private:
     GazeCounts counts_;
     std::uint64_t highest_sequence_ = 0;
-    // Of the sample before and not the greatest, so that a clock that is set back counts once.
-    std::int64_t last_device_ns_ = 0;
-    Stamp last_sampled_;
+    Stamp last_sampled_;  ///< and not the greatest, so that a clock that is set back counts once
 };
 
 }  // namespace gazeloop::latency

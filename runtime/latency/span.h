@@ -32,4 +32,9 @@ struct Span {
     return {saturated(static_cast<__int128>(to.ns) - from.ns), kind};
 }
 
+/// Whether both are known and the second is the earlier one.
+[[nodiscard]] constexpr bool goes_back(const Stamp& before, const Stamp& now) {
+    return before.known() && now.known() && now.ns < before.ns;
+}
+
 }  // namespace gazeloop::latency

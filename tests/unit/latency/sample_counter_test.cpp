@@ -48,9 +48,15 @@ TEST(SampleCounter, CountsRepeatedSamples) {
               (GazeCounts{.received = 3, .lost = 1, .out_of_order = 1}));
 }
 
-TEST(SampleCounter, AClockThatIsSetBackCountsOnce) {
+TEST(SampleCounter, ASampleTimeThatIsSetBackCountsOnce) {
     EXPECT_EQ(counts_of({sample(1, 1000), sample(2, 10), sample(3, 20)}),
               (GazeCounts{.received = 3, .out_of_order = 1}));
+}
+
+TEST(SampleCounter, ComparesNoTimesOfAClockThatLies) {
+    gaze::GazeSample later = sample(2, 10);
+    later.sampled = {};
+    EXPECT_EQ(counts_of({sample(1, 1000), later}), (GazeCounts{.received = 2}));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-SummaryReport example_report(std::uint64_t frames, SummaryConfig config) {
+SummaryReport example_report(std::uint64_t frames, const SummaryConfig& config) {
     LatencySummary summary(config);
     for (std::uint64_t index = 0; index < frames; ++index) {
         summary.add(example_frame(index));
