@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace gazeloop::drivers {
 
@@ -20,6 +21,13 @@ struct FoundDevice {
     /// "NAME (054c:0cde) at /dev/hidraw0".
     [[nodiscard]] std::string text() const;
 };
+
+/// What to do with a missing rule. It goes into a file of its own: one of the name of the installed
+/// config/udev/70-gazeloop.rules would take that one's place. It comes before 73-seat-late.rules,
+/// which acts on its tag.
+inline constexpr std::string_view kRuleRemedy =
+    "as root, add this line to /etc/udev/rules.d/70-gazeloop-local.rules, then plug the tracker in "
+    "again, logged in at this computer:";
 
 /// Sets the access problem of a device, if it has one. `rule` lets whoever sits at the computer
 /// open it.

@@ -33,9 +33,7 @@ std::vector<std::string> diagnosis(const TrackerProbe& probe) {
         lines.push_back(*probe.problem);
     }
     if (!probe.device.missing_rule.empty()) {
-        lines.emplace_back(
-            "as root, write this line to /etc/udev/rules.d/70-gazeloop.rules and plug the tracker "
-            "in again:");
+        lines.emplace_back(drivers::kRuleRemedy);
         lines.push_back("  " + probe.device.missing_rule);
     }
     if (!probe.problem && probe.counts.samples == 0) {

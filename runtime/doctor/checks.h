@@ -36,7 +36,7 @@ Findings check_openxr(const OpenXrChecks& asked, const ProbeLimits& limits);
 /// last finding, openxr.eye_gaze.samples, has what came as facts.
 Findings check_eye_gaze(const OpenXrChecks& asked, double seconds, const ProbeLimits& limits);
 
-/// Trackers on HID: who may read their nodes. `root` is where /sys and /dev are.
+/// Trackers on HID: who may open their nodes. `root` is where /sys and /dev are.
 Findings check_hid(const std::filesystem::path& root);
 
 /// CLOCK_MONOTONIC and what it is read from.

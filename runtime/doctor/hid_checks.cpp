@@ -24,7 +24,7 @@ struct Node {
     std::uint16_t vendor = 0;
     std::uint16_t product = 0;
     bool eye_tracker = false;
-    bool readable = false;
+    bool usable = false;
 };
 
 std::string text_of(const fs::path& file) {
@@ -62,7 +62,8 @@ Node look_at(const fs::path& root, const std::string& name) {
     const auto descriptor = drivers::hid::parse_report_descriptor(
         std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
     node.eye_tracker = descriptor && drivers::hid::describes_eye_tracker(*descriptor);
-    node.readable = faccessat(AT_FDCWD, (root / "dev" / name).c_str(), R_OK, AT_EACCESS) == 0;
+    // To be asked for gaze, a tracker is written to.
+    node.usable = faccessat(AT_FDCWD, (root / "dev" / name).c_str(), R_OK | W_OK, AT_EACCESS) == 0;
     return node;
 }
 
@@ -76,28 +77,26 @@ Findings check_hid(const fs::path& root) {
     }
     std::ranges::sort(names);
     Findings findings;
-    std::size_t readable = 0;
+    std::size_t usable = 0;
     for (const std::string& name : names) {
         const Node node = look_at(root, name);
-        readable += node.readable ? 1 : 0;
+        usable += node.usable ? 1 : 0;
         if (!node.eye_tracker) {
             continue;
         }
         const std::string id = fmt::format("{:04x}:{:04x}", node.vendor, node.product);
-        Finding finding{.check = "hid." + name,
-                        .found = fmt::format("eye tracker '{}' ({}), /dev/{} {}", node.device, id,
-                                             name, node.readable ? "readable" : "not readable"),
-                        .facts = {{"node", "/dev/" + name},
-                                  {"name", node.device},
-                                  {"id", id},
-                                  {"readable", node.readable}}};
-        if (!node.readable) {
+        Finding finding{
+            .check = "hid." + name,
+            .found = fmt::format("eye tracker '{}' ({}), /dev/{} {}", node.device, id, name,
+                                 node.usable ? "may be opened" : "may not be opened"),
+            .facts = {{"node", "/dev/" + name},
+                      {"name", node.device},
+                      {"id", id},
+                      {"usable", node.usable}}};
+        if (!node.usable) {
             finding.verdict = Verdict::Failure;
-            // Before 73-seat-late.rules, which is what acts on uaccess.
-            finding.remedy = fmt::format(
-                "as root, write {} into /etc/udev/rules.d/70-gazeloop.rules, run udevadm control "
-                "--reload && udevadm trigger, and log in at this machine's seat",
-                drivers::hid::udev_rule(node.vendor, node.product));
+            finding.remedy = fmt::format("{} {}", drivers::kRuleRemedy,
+                                         drivers::hid::udev_rule(node.vendor, node.product));
         }
         findings.push_back(std::move(finding));
     }
@@ -106,11 +105,11 @@ Findings check_hid(const fs::path& root) {
         {.check = "hid.nodes",
          .verdict = findings.empty() ? Verdict::NotApplicable : Verdict::Ok,
          .found = names.empty() ? std::string("no HID device")
-                                : fmt::format("{} hidraw nodes, {} readable, {} eye trackers "
+                                : fmt::format("{} hidraw nodes, {} may be opened, {} eye trackers "
                                               "(usage page 0x12)",
-                                              names.size(), readable, findings.size()),
+                                              names.size(), usable, findings.size()),
          .facts = {
-             {"nodes", names.size()}, {"readable", readable}, {"eye_trackers", findings.size()}}});
+             {"nodes", names.size()}, {"usable", usable}, {"eye_trackers", findings.size()}}});
     return findings;
 }
 
