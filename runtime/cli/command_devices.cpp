@@ -43,12 +43,27 @@ std::string eye_text(const gaze::EyeRay& ray) {
                        glm::degrees(std::asin(std::clamp(ray.direction.y, -1.0, 1.0))));
 }
 
-/// Live gaze, ten lines a second, in one line of a terminal.
+std::string watched_text(const gaze::GazeSample& last, std::size_t samples) {
+    const std::string age =
+        last.sampled.known()
+            ? fmt::format("{:.1f} +/- {:.1f} ms at its arrival",
+                          static_cast<double>(last.arrived.ns - last.sampled.ns) * 1e-6,
+                          static_cast<double>(last.uncertainty_ns.value_or(0)) * 1e-6)
+            : std::string("unknown");
+    return fmt::format("{}{}{:4}  {}", eye_text(last.eyes[0]), eye_text(last.eyes[1]), samples,
+                       age);
+}
+
+/// Live gaze, ten times a second: in one line of a terminal, else a line each. Silence is told,
+/// each second of it where lines stay.
 ExitCode watch(const std::vector<drivers::GazeSource*>& sources, const DevicesCommand& command) {
     constexpr std::int64_t kEvery_ns = 100'000'000;
+    constexpr std::int64_t kSilent = 2;  // ticks; a slow tracker may miss one
+    constexpr std::int64_t kSecond = 10;
     const bool terminal = isatty(STDOUT_FILENO) != 0;
     std::vector<gaze::GazeSample> samples;
     bool any = false;
+    std::int64_t last_heard = 0;
     const std::int64_t begin_ns = latency::monotonic_ns();
     fmt::print("degrees right, up: left eye, right eye; samples; age\n");
     for (std::int64_t i = 1; !interrupted(); ++i) {
@@ -64,17 +79,19 @@ ExitCode watch(const std::vector<drivers::GazeSource*>& sources, const DevicesCo
                 fmt::print("{}{}\n", terminal ? "\r\x1b[K" : "", event.text);
             }
         }
+        const std::int64_t silent = samples.empty() ? i - last_heard : 0;
+        std::string line;
         if (!samples.empty()) {
+            last_heard = i;
             const gaze::GazeSample& last = samples.back();
             any = any || last.eyes[0].valid || last.eyes[1].valid;
-            const std::string age =
-                last.sampled.known()
-                    ? fmt::format("{:.1f} +/- {:.1f} ms at its arrival",
-                                  static_cast<double>(last.arrived.ns - last.sampled.ns) * 1e-6,
-                                  static_cast<double>(last.uncertainty_ns.value_or(0)) * 1e-6)
-                    : std::string("unknown");
-            fmt::print("{}{}{}{:4}  {}{}", terminal ? "\r\x1b[K" : "", eye_text(last.eyes[0]),
-                       eye_text(last.eyes[1]), samples.size(), age, terminal ? "" : "\n");
+            line = watched_text(last, samples.size());
+        } else if (terminal ? silent >= kSilent : silent % kSecond == 0) {
+            line = fmt::format("{}{}   0  nothing for {} s", eye_text({}), eye_text({}),
+                               silent / kSecond);
+        }
+        if (!line.empty()) {
+            fmt::print("{}{}{}", terminal ? "\r\x1b[K" : "", line, terminal ? "" : "\n");
         }
         std::fflush(stdout);
     }
