@@ -130,17 +130,19 @@ TEST_F(DevicesProgram, RunsOnThroughPluggingInAndPullingOut) {
             any_tracking || frame.frame.fovea.eyes[0].state == gaze::FoveaState::Tracking;
     }
     EXPECT_TRUE(any_tracking);
-    // A loss reached the loop as a sample, and the next frame did not track.
+    // Each loss reached the loop as a sample, and the frame that took it did not track.
+    int losses = 0;
     for (const auto& recorded : file.samples) {
         const gaze::GazeSample& sample = recorded.sample;
         if (!sample.eyes[0].valid && !sample.sampled.known()) {
-            for (const auto& frame : file.frames) {
-                if (frame.frame.index == recorded.frame) {
-                    EXPECT_NE(frame.frame.fovea.eyes[0].state, gaze::FoveaState::Tracking);
-                }
-            }
+            ++losses;
+            ASSERT_LT(recorded.frame, file.frames.size());
+            const auto& frame = file.frames[recorded.frame].frame;
+            EXPECT_EQ(frame.index, recorded.frame);
+            EXPECT_NE(frame.fovea.eyes[0].state, gaze::FoveaState::Tracking);
         }
     }
+    EXPECT_EQ(losses, 2);
 }
 
 }  // namespace
