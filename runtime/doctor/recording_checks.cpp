@@ -26,9 +26,10 @@ class ScratchFile {
     explicit ScratchFile(const std::filesystem::path& folder) {
         std::string name = (folder / ".gazeloop-doctor-XXXXXX").string();
         fd_ = mkostemp(name.data(), O_CLOEXEC);
-        failure_ = errno;
         if (fd_ >= 0) {
             unlink(name.c_str());
+        } else {
+            failure_ = errno;
         }
     }
     ScratchFile(const ScratchFile&) = delete;

@@ -114,6 +114,7 @@ Finding check_gpu_clock(const render::VulkanContext& context) {
     }
     const auto domains = context.physical().getCalibrateableTimeDomainsEXT();
     std::vector<std::string> names;
+    names.reserve(domains.size());
     for (const vk::TimeDomainEXT domain : domains) {
         names.push_back(vk::to_string(domain));
     }

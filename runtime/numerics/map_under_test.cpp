@@ -36,8 +36,9 @@ MapUnderTest::MapUnderTest(std::shared_ptr<const MapFamily> family,
       view_(view),
       fovea_(gaze_at) {
     plan_.lp = profile.lp();
-    plan_.in_gaze_frame.emplace().uniforms =
-        foveation::gaze_frame_uniforms(std::get<AcuityMap>(map_).frame());
+    foveation::SamplingPlan::InGazeFrame in_gaze_frame;
+    in_gaze_frame.uniforms = foveation::gaze_frame_uniforms(std::get<AcuityMap>(map_).frame());
+    plan_.in_gaze_frame = in_gaze_frame;
 }
 
 const foveation::RadialMap& MapUnderTest::exact() const {

@@ -32,7 +32,7 @@ std::string ColumnNames::select_from(std::string_view table, std::string_view ke
     std::vector<std::string> names = names_;
     for (std::string& name : names) {
         if (std::ranges::find(absent, name) != absent.end()) {
-            name = "NULL AS " + name;
+            name.insert(0, "NULL AS ");
         }
     }
     return fmt::format("SELECT {2}, {0} FROM {1} ORDER BY {2}", fmt::join(names, ", "), table, key);

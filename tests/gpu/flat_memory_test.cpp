@@ -15,7 +15,7 @@ TEST(TenThousandFrames, KeepTheMemoryFlat) {
     // By then SQLite's page cache (2 MB) is full.
     constexpr std::size_t kSettled = 5'000;
     // Less than 60 bytes a frame; the recording of one alone has more than 1000.
-    constexpr std::size_t kMayGrow = 256 * 1024;
+    constexpr std::size_t kMayGrow = 262'144;
     const TemporaryFolder folder;
     const auto frames = run_watched_loop({.paced = false,
                                           .scale = 0.01,

@@ -136,9 +136,10 @@ TEST_F(Preview, ShowsTheFrameAndMarksTheFovea) {
     double most = 0.0;
     double x_sum = 0.0;
     double y_sum = 0.0;
+    auto pixel = marked.pixels.begin();
     for (int y = 0; y < marked.height; ++y) {
-        for (int x = 0; x < marked.width; ++x) {
-            if (marked.pixels[static_cast<std::size_t>(y * marked.width + x)] == kRing) {
+        for (int x = 0; x < marked.width; ++x, ++pixel) {
+            if (*pixel == kRing) {
                 const double r = std::hypot(x + 0.5 - fovea.x_px, y + 0.5 - fovea.y_px);
                 least = std::min(least, r);
                 most = std::max(most, r);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "runtime/foveation/geisler_perry_acuity.h"
 #include "runtime/foveation/guenter_acuity.h"
@@ -63,8 +64,9 @@ TEST(WidenedAcuity, MovesTheFoveaOutward) {
 TEST(DisplayLimit, IsTheReferenceEccentricities) {
     const auto line = GuenterAcuity::create({.slope = 0.022}).value();
     const auto limit = [&](double width_px, double fov_deg) {
-        const double half = std::tan(fov_deg / 360.0 * 3.14159265358979);
-        return display_limit_deg(*line, width_px / (2 * half) * 3.14159265358979 / 180.0, 0.0);
+        constexpr double kPi = std::numbers::pi;
+        const double half = std::tan(fov_deg / 360.0 * kPi);
+        return display_limit_deg(*line, width_px / (2 * half) * kPi / 180.0, 0.0);
     };
     EXPECT_NEAR(limit(1280, 100), 8.75, 0.01);
     EXPECT_NEAR(limit(2160, 100), 4.8, 0.02);

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "tests/unit/drivers/hid/descriptor_items.h"
 
 namespace gazeloop::drivers::hid {
@@ -80,9 +83,8 @@ TEST(ReportDescriptor, ExponentsAreNibblesOrWholeBytes) {
     }
     const ReportDescriptor parsed = parse(items);
     std::vector<int> exponents;
-    for (const ReportField& field : parsed.fields) {
-        exponents.push_back(field.unit_exponent);
-    }
+    std::ranges::transform(parsed.fields, std::back_inserter(exponents),
+                           &ReportField::unit_exponent);
     EXPECT_EQ(exponents, (std::vector<int>{0, 7, -8, -4, -1, -3}));
 }
 
