@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "drivers/gaze_source.h"
-#include "runtime/session/spsc_queue.h"
+#include "runtime/spsc_queue.h"
 
 namespace gazeloop::drivers {
 
@@ -69,7 +69,7 @@ class DeviceFeed {
     /// 4 s of a 1000 Hz tracker, 1.3 MB.
     static constexpr std::size_t kQueueSamples = 4096;
 
-    session::SpscQueue<gaze::GazeSample> samples_{kQueueSamples};
+    SpscQueue<gaze::GazeSample> samples_{kQueueSamples};
     std::atomic<std::uint64_t> dropped_{0};
     std::atomic<bool> told_{false};
     std::mutex mutex_;

@@ -16,7 +16,7 @@
 #include "runtime/session/record.h"
 #include "runtime/session/record_fields.h"
 #include "runtime/session/session_writer.h"
-#include "runtime/session/spsc_queue.h"
+#include "runtime/spsc_queue.h"
 
 namespace gazeloop::session {
 namespace {

@@ -1,6 +1,6 @@
 gazeloop_test(unit_session
     SOURCES session/fixed_text_test.cpp session/session_file_test.cpp
-        session/session_recorder_test.cpp session/spsc_queue_test.cpp
+        session/session_recorder_test.cpp
         ../support/allocation_counter.cpp
     LINK gazeloop::session
     LABELS unit)

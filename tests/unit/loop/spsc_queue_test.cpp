@@ -1,11 +1,11 @@
-#include "runtime/session/spsc_queue.h"
+#include "runtime/spsc_queue.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <thread>
 
-namespace gazeloop::session {
+namespace gazeloop {
 namespace {
 
 TEST(SpscQueue, IsEmptyAtFirst) {
@@ -64,4 +64,4 @@ TEST(SpscQueue, KeepsOrderAndContentBetweenThreads) {
 }
 
 }  // namespace
-}  // namespace gazeloop::session
+}  // namespace gazeloop

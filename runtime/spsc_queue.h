@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace gazeloop::session {
+namespace gazeloop {
 
 /// A bounded queue from one thread to one other, without locks and without allocation after
 /// construction. All its memory is touched at construction, so that no push meets a page fault.
@@ -61,4 +61,4 @@ class SpscQueue {
     std::size_t tail_seen_ = 0;
 };
 
-}  // namespace gazeloop::session
+}  // namespace gazeloop
