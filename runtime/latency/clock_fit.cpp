@@ -55,6 +55,10 @@ double ClockFit::Line::at(std::int64_t device_ns) const {
     return lag_ns + slope * static_cast<double>(difference(origin_ns, device_ns));
 }
 
+std::int64_t ClockFit::offset_ns() const {
+    return saturated(offset_ + static_cast<__int128>(std::round(line_.at(last_device_ns_))));
+}
+
 ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
     if (!started_ || difference(last_arrived_ns_, arrived_ns) > kLongestGap_ns) {
         restart(device_ns, arrived_ns);
@@ -147,24 +151,16 @@ ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
     return last_ = judge(point, arrived_ns);
 }
 
+/// All but the count of steps, which is the caller's, and when they were.
 void ClockFit::restart(std::int64_t device_ns, std::int64_t arrived_ns) {
+    const std::uint64_t steps = steps_;
+    const auto step_times_ns = step_times_ns_;
+    *this = {};
+    steps_ = steps;
+    step_times_ns_ = step_times_ns;
     started_ = true;
     offset_ = static_cast<__int128>(arrived_ns) - device_ns;
-    bucket_count_ = 0;
-    samples_ = 0;
-    received_ = 0;
-    backlog_ = true;
-    early_run_ = 0;
-    late_run_ = 0;
-    jumped_in_run_ = false;
-    regular_run_ = 0;
-    increment_count_ = 0;
-    period_ns_ = 0;
-    increment_divisor_ns_ = 0;
-    least_increment_ns_ = 0;
     held_since_ns_ = arrived_ns;
-    held_ns_ = 0;
-    longest_hold_ns_ = {};
     hold_era_ns_ = arrived_ns;
 }
 
@@ -272,8 +268,8 @@ void ClockFit::note_hold(std::int64_t increment_ns, std::int64_t arrived_ns) {
     longest_hold_ns_[0] = std::max(longest_hold_ns_[0], tick ? increment_ns : held_ns_);
 }
 
-/// The device's clock was set before the last `samples` samples: they begin a new line. A crystal
-/// stays what it was.
+/// The device's clock was set before the last `samples` samples: they begin a new line. Crystal and
+/// transport stay what they were (mean_height_ns_, and bounds_ around the slope).
 void ClockFit::step(std::size_t samples, std::int64_t arrived_ns) {
     const std::int64_t span_ns =
         difference(buckets_.front().begin_ns, buckets_[bucket_count_ - 1].begin_ns);

@@ -68,6 +68,14 @@ struct ClockReading {
 /// and late ones, two after an early one, and one after which regular timestamps jump. What is left
 /// is a step of whole periods whose first sample is late by as much and so looks like one after a
 /// loss, which nothing can tell (6 ms and more, 1 ms of exponential jitter: 1 of 30,000 streams).
+///
+/// What is forgotten. Setting a clock, a reset of the device too, moves its offset alone: the
+/// crystal is the same one, so that the slope may change by no more than crystals drift, and so is
+/// the way to the host with its usual jitter. After two minutes without a sample nobody knows what
+/// went on: the device may be in another mode with another clock, warm or cold, behind another hub
+/// or driver. Everything is learnt anew then, which costs seconds of a wider uncertainty; keeping
+/// what no longer holds would state one that is too narrow. A device that is plugged in again gets
+/// a ClockFit of its own.
 class ClockFit {
   public:
     /// Greatest skew that is believed, as a ratio: crystals are good to 100 ppm.
@@ -82,6 +90,11 @@ class ClockFit {
     /// By how much the device's second is too short, parts per million (positive: its clock is
     /// slow). Meaningless while settling.
     [[nodiscard]] double skew_ppm() const { return line_.slope * 1e6; }
+    /// How much later than the line samples arrive on average. Meaningless while settling.
+    [[nodiscard]] double jitter_ns() const { return mean_height_ns_; }
+    /// What is to be added to the last sample's device time, so that it is host time (with the
+    /// least delay in it). Meaningless if that is unusable.
+    [[nodiscard]] std::int64_t offset_ns() const;
     [[nodiscard]] std::uint64_t steps() const { return steps_; }
     /// The usual time between timestamps that differ, of the device's clock; 0: not known yet.
     [[nodiscard]] std::int64_t period_ns() const { return period_ns_; }

@@ -275,6 +275,58 @@ TEST(ClockFit, GapsCostNothing) {
     EXPECT_EQ(clock.trouble(), ClockTrouble::Settling);
 }
 
+// Of a clock that was slow, jittery and set, nothing is left: what follows is what a new one says.
+TEST(ClockFit, ALongGapForgetsWhatWasBefore) {
+    SimulatedTracker before{.skew_ppm = 400.0, .jitter_ns = 5.0 * kMs};
+    ClockFit clock;
+    for (int i = 0; i < 12 * 120; ++i) {
+        before.step_ns = i >= 10 * 120 ? 500.0 * kMs : 0.0;
+        const auto report = before.next();
+        clock.add(report.device_ns, report.arrived_ns);
+    }
+    ASSERT_EQ(clock.steps(), 1U);
+    ASSERT_NEAR(clock.skew_ppm(), 400.0, 51.0);
+
+    SimulatedTracker after{.skew_ppm = -400.0, .jitter_ns = 0.2 * kMs, .seed = 2};
+    ClockFit fresh;
+    const std::int64_t gap_ns = 200 * kSecond_ns;
+    for (int i = 0; i < 10 * 120; ++i) {
+        const auto report = after.next();
+        const std::int64_t device_ns = report.device_ns + gap_ns;
+        const std::int64_t arrived_ns = report.arrived_ns + gap_ns;
+        const ClockReading reading = clock.add(device_ns, arrived_ns);
+        const ClockReading expected = fresh.add(device_ns, arrived_ns);
+        ASSERT_EQ(reading.verdict, expected.verdict) << i;
+        ASSERT_EQ(reading.host_ns, expected.host_ns) << i;
+        ASSERT_EQ(reading.uncertainty_ns, expected.uncertainty_ns) << i;
+        ASSERT_EQ(clock.trouble(), fresh.trouble()) << i;
+    }
+    EXPECT_EQ(clock.steps(), 1U) << "a gap is none, and what was counted stays";
+}
+
+// The crystal is the same one, and so is the way to the host.
+TEST(ClockFitSteps, KeepTheSkewAndTheJitter) {
+    SimulatedTracker tracker{.skew_ppm = 300.0};
+    ClockFit clock;
+    double jitter_before_ns = 0.0;
+    for (int i = 0; i < 14 * 120; ++i) {
+        constexpr int kStepAt = 10 * 120;
+        tracker.step_ns = i >= kStepAt ? 500.0 * kMs : 0.0;
+        const auto report = tracker.next();
+        const ClockReading reading = clock.add(report.device_ns, report.arrived_ns);
+        jitter_before_ns = i < kStepAt ? clock.jitter_ns() : jitter_before_ns;
+        if (reading.stepped) {
+            EXPECT_EQ(clock.jitter_ns(), jitter_before_ns);
+        }
+        if (clock.steps() > 0) {
+            // By as much as a crystal may drift, and by how well it was known.
+            EXPECT_NEAR(clock.skew_ppm(), 300.0, 75.0) << i;
+        }
+    }
+    EXPECT_EQ(clock.steps(), 1U);
+    EXPECT_NEAR(jitter_before_ns, 1.0 * kMs, 0.5 * kMs);
+}
+
 TEST(ClockFit, OneWrongTimestampIsLeftOut) {
     for (const double by_ms : {-500.0, 500.0, 1e12}) {
         SimulatedTracker tracker;
