@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <libusb.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -19,6 +20,9 @@ constexpr std::uint8_t kGazeStream = 0x0C;
 constexpr unsigned kRequestTimeout_ms = 500;
 /// Halts and errors with no data between them, before it is opened anew.
 constexpr int kMostFailures = 5;
+/// A headset that is pulled out fails at once, and its hub tells the kernel of it a moment later
+/// (hubs are polled four times a second and more).
+constexpr std::int64_t kMayStillGo_ns = 500'000'000;
 
 std::unexpected<Error> no_device(const FoundDevice& found, const std::string& what) {
     return std::unexpected(Error{ExitCode::NoDevice, fmt::format("{}: {}", found.text(), what)});
@@ -170,21 +174,36 @@ UsbHeadset::~UsbHeadset() {
 Expected<void> UsbHeadset::read(std::chrono::milliseconds longest, DeviceFeed& feed) {
     feed_ = &feed;
     std::int64_t now_ns = latency::monotonic_ns();
-    keep_alive(now_ns);
+    if (failure_.empty()) {
+        keep_alive(now_ns);
+    }
+    // Right after a failure it is only waited for: it may go.
     const auto until_due = std::chrono::nanoseconds(
-        std::max<std::int64_t>(keeper_.next_ns() - now_ns,
+        std::max<std::int64_t>(failure_.empty() ? keeper_.next_ns() - now_ns : kMayStillGo_ns,
                                std::chrono::nanoseconds(std::chrono::milliseconds(1)).count()));
     wait(std::min(std::chrono::duration_cast<std::chrono::microseconds>(longest),
                   std::chrono::duration_cast<std::chrono::microseconds>(until_due)));
-    if (halted_ && !any_under_way()) {
+    if (halted_ && !any_under_way() && failure_.empty()) {
         recover();
     }
     feed_ = nullptr;
-    if (gone_ || !failure_.empty()) {
-        return std::unexpected(Error{ExitCode::NoDevice,
-                                     fmt::format("{}: {}", path_, gone_ ? "unplugged" : failure_)});
+    if (const auto why = why_over(latency::monotonic_ns())) {
+        return std::unexpected(Error{ExitCode::NoDevice, fmt::format("{}: {}", path_, *why)});
     }
     return {};
+}
+
+/// A failure is only the reason once it is clear that the headset is still there.
+std::optional<std::string> UsbHeadset::why_over(std::int64_t now_ns) {
+    if (!gone_ && failure_.empty()) {
+        return std::nullopt;
+    }
+    gone_ = gone_ || ::access(path_.c_str(), F_OK) != 0;
+    if (gone_) {
+        return "unplugged";
+    }
+    failed_ns_ = failed_ns_.value_or(now_ns);
+    return now_ns - *failed_ns_ < kMayStillGo_ns ? std::nullopt : std::optional(failure_);
 }
 
 void UsbHeadset::wait(std::chrono::microseconds longest) {
@@ -326,8 +345,11 @@ void UsbHeadset::recover() {
         return;
     }
     note(libusb_clear_halt(handle_.get(), handle_.endpoint()), "clearing its halted endpoint");
+    if (gone_ || !failure_.empty()) {
+        return;
+    }
     const latency::Stamp now = latency::measured_now();
-    if (!gone_ && failures_in_a_row_ == 1) {
+    if (failures_in_a_row_ == 1) {
         feed_->tell(now, "its gaze endpoint was halted: cleared, and asked for gaze again");
     }
     ask(Asking::Start, now.ns);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -98,6 +99,7 @@ class UsbHeadset final : public TrackerDevice {
     void keep_alive(std::int64_t now_ns);
     void recover();
     void note(int result, std::string_view doing);
+    [[nodiscard]] std::optional<std::string> why_over(std::int64_t now_ns);
     void wait(std::chrono::microseconds longest);
 
     std::string text_;
@@ -114,6 +116,7 @@ class UsbHeadset final : public TrackerDevice {
     bool halted_ = false;         ///< what is under way has to end first
     bool gone_ = false;
     std::string failure_;
+    std::optional<std::int64_t> failed_ns_;
     int failures_in_a_row_ = 0;
     bool told_silent_ = false;
     bool told_refused_ = false;

@@ -225,6 +225,13 @@ void EmulatedPsvr2::answer(UMockdevIoctlClient* client) {
             complete(client);
             return;
         case USBDEVFS_CLEAR_HALT:
+            if (fault_ == Fault::PulledOut) {
+                unlink((root_ + node()).c_str());
+            }
+            if (fault_ == Fault::PulledOut || fault_ == Fault::HaltStays) {
+                complete(client, EPROTO);
+                return;
+            }
             ++seen_.halts_cleared;
             seen_.order += 'H';
             halted_ = false;

@@ -19,7 +19,16 @@ namespace gazeloop::tests {
 /// The node is a FIFO that is full while none has.
 class EmulatedPsvr2 {
   public:
-    enum class Fault : int { None, ClaimedElsewhere, KernelDriver, RequestStalls };
+    /// HaltStays: its halted endpoint cannot be cleared. PulledOut: neither can it, and the node
+    /// has gone when that is answered, as if the kernel had learnt of the unplugging in between.
+    enum class Fault : int {
+        None,
+        ClaimedElsewhere,
+        KernelDriver,
+        RequestStalls,
+        HaltStays,
+        PulledOut
+    };
 
     EmulatedPsvr2();
     EmulatedPsvr2(const EmulatedPsvr2&) = delete;

@@ -182,6 +182,31 @@ TEST_F(Psvr2Device, GoesOnAfterAHaltedEndpoint) {
     until(source, [&] { return headset_->seen().listening == 4; });
 }
 
+// What a headset that is pulled out does first: all fails, and then it has gone.
+TEST_F(Psvr2Device, IsToldAsUnpluggedEvenWhereClearingItsEndpointFailedFirst) {
+    headset_->plug_in();
+    Psvr2Source source({});
+    until_event(source, "plugged in");
+    send();
+    until(source, [&] { return tracking(); });
+    headset_->set_fault(EmulatedPsvr2::Fault::PulledOut);
+    headset_->halt();
+    until_event(source, "gone: ");
+    EXPECT_TRUE(contains(events_, "gone: " + headset_->node() + ": unplugged"))
+        << testing::PrintToString(events_);
+    EXPECT_FALSE(contains(events_, "cleared")) << testing::PrintToString(events_);
+}
+
+TEST_F(Psvr2Device, ThatStaysAndFailsIsToldAsFailing) {
+    headset_->plug_in();
+    Psvr2Source source({});
+    until_event(source, "plugged in");
+    headset_->set_fault(EmulatedPsvr2::Fault::HaltStays);
+    headset_->halt();
+    until_event(source, "gone: " + headset_->node() + ": clearing its halted endpoint failed");
+    EXPECT_FALSE(contains(events_, "halted: cleared")) << testing::PrintToString(events_);
+}
+
 TEST_F(Psvr2Device, ThatDoesNotTakeTheRequestIsHeardNevertheless) {
     headset_->plug_in();
     headset_->set_fault(EmulatedPsvr2::Fault::RequestStalls);
