@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -85,16 +86,16 @@ void EmulatedTracker::plug_in() {
         "H: report_descriptor={1}\n"
         "\n"
         "P: {0}/hidraw/hidraw{2}\n"
-        "N: hidraw{2}\n"
         "E: SUBSYSTEM=hidraw\n"
         "E: DEVNAME=/dev/hidraw{2}\n"
         "L: device=../../../0003:1209:E7E7.0001\n",
         kHidPath, hex, plugged_ - 1);
+    // All of it, before anybody can see the device.
     GError* error = nullptr;
-    if (umockdev_testbed_add_from_string(testbed_, description.c_str(), &error) == 0) {
+    if (umockdev_testbed_attach_ioctl(testbed_, node().c_str(), handler_, &error) == 0) {
         throw std::runtime_error(error->message);
     }
-    unlink(real_node_.c_str());
+    std::filesystem::create_directories(std::filesystem::path(real_node_).parent_path());
     if (mkfifo(real_node_.c_str(), 0600) != 0) {
         throw std::runtime_error("no FIFO at " + real_node_ + ": " + std::strerror(errno));
     }
@@ -105,7 +106,7 @@ void EmulatedTracker::plug_in() {
         fcntl(fifo_, F_SETPIPE_SZ, kQueueBytes) < 0) {
         throw std::runtime_error("no packets through " + real_node_);
     }
-    if (umockdev_testbed_attach_ioctl(testbed_, node().c_str(), handler_, &error) == 0) {
+    if (umockdev_testbed_add_from_string(testbed_, description.c_str(), &error) == 0) {
         throw std::runtime_error(error->message);
     }
     umockdev_testbed_uevent(testbed_, hidraw_syspath().c_str(), "add");
@@ -130,6 +131,11 @@ std::optional<std::vector<std::uint8_t>> EmulatedTracker::sent(std::uint8_t id) 
     const std::lock_guard lock(mutex_);
     const auto found = sent_.find(id);
     return found == sent_.end() ? std::nullopt : std::optional(found->second);
+}
+
+int EmulatedTracker::asked() const {
+    const std::lock_guard lock(mutex_);
+    return asked_;
 }
 
 bool EmulatedTracker::try_send(std::span<const std::uint8_t> report) const {
@@ -210,6 +216,7 @@ bool EmulatedTracker::answer(UMockdevIoctlClient* client) {
     g_free(read);
     umockdev_ioctl_data_unref(data);
     const std::lock_guard lock(mutex_);
+    asked_ += get ? 1 : 0;
     if (set) {
         sent_[report.front()] = report;
         umockdev_ioctl_client_complete(client, static_cast<glong>(report.size()), 0);

@@ -36,6 +36,9 @@ class EmulatedTracker {
     /// The feature report that was last sent to the device.
     [[nodiscard]] std::optional<std::vector<std::uint8_t>> sent(std::uint8_t id) const;
 
+    /// How many feature reports it was asked for.
+    [[nodiscard]] int asked() const;
+
     /// False where as many reports wait to be read as the FIFO holds.
     [[nodiscard]] bool try_send(std::span<const std::uint8_t> report) const;
     /// Waits until there is room; throws after 10 s without.
@@ -62,6 +65,7 @@ class EmulatedTracker {
     mutable std::mutex mutex_;
     std::map<std::uint8_t, std::vector<std::uint8_t>> features_;
     std::map<std::uint8_t, std::vector<std::uint8_t>> sent_;
+    int asked_ = 0;
 };
 
 }  // namespace gazeloop::tests
