@@ -65,7 +65,10 @@ class DeviceSource::Reader {
     }
 
     void look(DeviceWatch& watch, std::string& told) {
-        auto tracker = kind_.open();
+        auto tracker = kind_.open([this] { return stopped(); });
+        if (stopped()) {
+            return;
+        }
         milliseconds pause = kLookAgainAfter;
         if (!tracker) {
             tell_once(told, tracker.error().message);
@@ -79,9 +82,7 @@ class DeviceSource::Reader {
             let_settle();
             return;
         }
-        if (!stopped()) {
-            watch.wait(pause, wake_fd_);
-        }
+        watch.wait(pause, wake_fd_);
     }
 
     /// After a loss the node may be there for a moment longer, and events of its coming may still

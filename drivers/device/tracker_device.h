@@ -18,6 +18,10 @@ namespace gazeloop::drivers {
 struct TrackerFacts {
     std::optional<std::string> status;
     std::optional<std::uint32_t> sampling_hz;
+    /// As in the EDID of the display that it is set up for: of another it tells where nobody looks.
+    std::optional<std::uint32_t> display_manufacturer;
+    std::optional<std::uint32_t> display_product;
+    std::optional<std::uint32_t> display_serial;
     std::optional<double> screen_width_m;  ///< that it is calibrated to
     std::optional<double> screen_height_m;
     std::optional<double> minimum_distance_m;
@@ -59,8 +63,12 @@ class TrackerDevice {
     TrackerDevice& operator=(const TrackerDevice&) = default;
 };
 
-/// Opens a tracker of some kind: null where none is plugged in. Errors: one is, but it fails.
-using OpenTracker = std::function<Expected<std::unique_ptr<TrackerDevice>>()>;
+/// Whether the program ends: asked between two things that may take long.
+using StopRequested = std::function<bool()>;
+
+/// Opens a tracker of some kind: null where none is plugged in. Errors: one is, but it fails, or
+/// the program ends (Interrupted).
+using OpenTracker = std::function<Expected<std::unique_ptr<TrackerDevice>>(const StopRequested&)>;
 
 /// How long the end of the program may wait for a silent tracker.
 inline constexpr std::chrono::milliseconds kLongestRead{50};

@@ -2,18 +2,17 @@
 
 #include <utility>
 
-#include "drivers/device/sample_clock.h"
 #include "runtime/latency/clock.h"
 
 namespace gazeloop::drivers {
 
 TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& device,
                            const OpenTracker& open, std::chrono::milliseconds listen,
-                           const std::function<bool()>& stop) {
+                           const StopRequested& stop) {
     TrackerProbe probe;
     probe.support = support;
     probe.device = device;
-    const auto tracker = open();
+    const auto tracker = open(stop);
     if (!tracker || *tracker == nullptr) {
         probe.problem = tracker ? device.path + " was unplugged" : tracker.error().message;
         return probe;
@@ -52,7 +51,7 @@ TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& dev
                         static_cast<double>(last_ns - *first_ns);
     }
     if (const latency::ClockFit* const clock = (*tracker)->clock()) {
-        probe.clock = describe(*clock);
+        probe.clock = *clock;
     }
     return probe;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,14 +26,14 @@ struct TrackerProbe {
     std::vector<std::string> remarks;  ///< of the device, when it was opened and later
     double seconds = 0.0;
     TrackerCounts counts;
-    std::uint64_t with_gaze = 0;       ///< samples in which at least one eye is valid
-    std::optional<double> rate_hz;     ///< samples a second, between the first and the last
-    std::optional<std::string> clock;  ///< the verdict on its timestamps
+    std::uint64_t with_gaze = 0;             ///< samples in which at least one eye is valid
+    std::optional<double> rate_hz;           ///< samples a second, between the first and the last
+    std::optional<latency::ClockFit> clock;  ///< of its timestamps, where it sends any
 };
 
 /// Opens a tracker, listens for so long or until `stop` says so, and stops it again.
 [[nodiscard]] TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& device,
                                          const OpenTracker& open, std::chrono::milliseconds listen,
-                                         const std::function<bool()>& stop);
+                                         const StopRequested& stop);
 
 }  // namespace gazeloop::drivers

@@ -82,9 +82,6 @@ class LayoutFinder {
         const std::uint32_t elements = std::min(field.count, kMostElements);
         for (std::uint32_t element = 0; element < elements; ++element) {
             switch (field.usage_of(element)) {
-                case kTrackerQuality:
-                    keep(layout_.quality, field, element, Quantity::Count);
-                    break;
                 case kMinimumTrackingDistance:
                     keep(layout_.minimum_distance, field, element, Quantity::Length);
                     break;
@@ -108,9 +105,6 @@ class LayoutFinder {
                     break;
                 case kDisplaySerialNumber:
                     keep(layout_.display_serial, field, element, Quantity::Count);
-                    break;
-                case kDisplayManufacturerDate:
-                    keep(layout_.display_date, field, element, Quantity::Count);
                     break;
                 case kCalibratedScreenWidth:
                     keep(layout_.screen_width, field, element, Quantity::Length);
@@ -213,20 +207,14 @@ class LayoutFinder {
 std::vector<std::uint8_t> EyeTrackerLayout::feature_ids() const {
     std::vector<std::uint8_t> ids;
     for (const auto* value :
-         {&quality, &minimum_distance, &optimum_distance, &maximum_distance, &maximum_width,
-          &maximum_height, &display_manufacturer, &display_product, &display_serial, &display_date,
-          &screen_width, &screen_height, &status_feature.status, &status_feature.sampling_hz}) {
+         {&minimum_distance, &optimum_distance, &maximum_distance, &maximum_width, &maximum_height,
+          &display_manufacturer, &display_product, &display_serial, &screen_width, &screen_height,
+          &status_feature.status, &status_feature.sampling_hz}) {
         if (*value && std::ranges::find(ids, (*value)->report_id) == ids.end()) {
             ids.push_back((*value)->report_id);
         }
     }
     return ids;
-}
-
-const ReportSize* EyeTrackerLayout::report(ReportKind kind, std::uint8_t id) const {
-    const auto found = std::ranges::find_if(
-        reports, [&](const ReportSize& size) { return size.kind == kind && size.id == id; });
-    return found == reports.end() ? nullptr : &*found;
 }
 
 bool describes_eye_tracker(const ReportDescriptor& descriptor) {

@@ -50,7 +50,6 @@ struct EyeTrackerLayout {
     StatusLayout status_feature;
 
     // Features.
-    std::optional<ReportValue> quality;
     std::optional<ReportValue> minimum_distance;
     std::optional<ReportValue> optimum_distance;
     std::optional<ReportValue> maximum_distance;
@@ -59,14 +58,12 @@ struct EyeTrackerLayout {
     std::optional<ReportValue> display_manufacturer;
     std::optional<ReportValue> display_product;
     std::optional<ReportValue> display_serial;
-    std::optional<ReportValue> display_date;
     std::optional<ReportValue> screen_width;
     std::optional<ReportValue> screen_height;
     std::optional<ReportValue> mode_request;
 
     /// The feature reports that something above is read from, by id.
     [[nodiscard]] std::vector<std::uint8_t> feature_ids() const;
-    [[nodiscard]] const ReportSize* report(ReportKind kind, std::uint8_t id) const;
 };
 
 /// Whether the descriptor has an application collection of an eye tracker.

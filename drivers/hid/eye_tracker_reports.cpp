@@ -78,6 +78,13 @@ class FeatureReader {
         return value ? count_of(value, payload(value->report_id)) : std::nullopt;
     }
 
+    /// Of a thing that has one: 0 is none.
+    [[nodiscard]] std::optional<std::uint32_t> number(
+        const std::optional<ReportValue>& value) const {
+        const auto number = count(value);
+        return number == 0U ? std::nullopt : number;
+    }
+
     [[nodiscard]] std::optional<double> length_m(const std::optional<ReportValue>& value) const {
         const auto metres = value ? value->si(payload(value->report_id)) : std::nullopt;
         return metres && *metres > 0.0 ? metres : std::nullopt;
@@ -145,7 +152,7 @@ InputReport decode_input(const EyeTrackerLayout& layout, std::span<const std::ui
     const auto found = std::ranges::find(layout.tracking, id, &TrackingLayout::report_id);
     if (found != layout.tracking.end()) {
         TrackingReport report = decode_tracking(*found, payload);
-        const ReportSize* const size = layout.report(ReportKind::Input, id);
+        const ReportSize* const size = find_report(layout.reports, ReportKind::Input, id);
         report.truncated = size != nullptr && payload.size() < size->payload_bytes();
         return report;
     }
@@ -160,16 +167,15 @@ TrackerFeatures decode_features(const EyeTrackerLayout& layout,
                                 std::span<const FeatureReport> reports) {
     const FeatureReader read(reports);
     TrackerFeatures features;
-    features.quality = read.count(layout.quality);
     features.minimum_distance_m = read.length_m(layout.minimum_distance);
     features.optimum_distance_m = read.length_m(layout.optimum_distance);
     features.maximum_distance_m = read.length_m(layout.maximum_distance);
     features.maximum_width_m = read.length_m(layout.maximum_width);
     features.maximum_height_m = read.length_m(layout.maximum_height);
     correct_capabilities(features);
-    features.display_manufacturer = read.count(layout.display_manufacturer);
-    features.display_product = read.count(layout.display_product);
-    features.display_serial = read.count(layout.display_serial);
+    features.display_manufacturer = read.number(layout.display_manufacturer);
+    features.display_product = read.number(layout.display_product);
+    features.display_serial = read.number(layout.display_serial);
     features.screen_width_m = read.length_m(layout.screen_width);
     features.screen_height_m = read.length_m(layout.screen_height);
     if (const auto number = read.count(layout.status_feature.status)) {
@@ -185,7 +191,8 @@ std::optional<std::vector<std::uint8_t>> encode_mode_request(const EyeTrackerLay
         return std::nullopt;
     }
     const ReportValue& value = *layout.mode_request;
-    const ReportSize* const size = layout.report(ReportKind::Feature, value.report_id);
+    const ReportSize* const size =
+        find_report(layout.reports, ReportKind::Feature, value.report_id);
     if (size == nullptr) {
         return std::nullopt;
     }

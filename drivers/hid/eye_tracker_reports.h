@@ -54,7 +54,6 @@ using InputReport = std::variant<OtherReport, TrackingReport, StatusReport>;
 
 /// What the device said of itself. Zero and no data are absent.
 struct TrackerFeatures {
-    std::optional<std::uint32_t> quality;
     std::optional<double> minimum_distance_m;
     std::optional<double> optimum_distance_m;
     std::optional<double> maximum_distance_m;
@@ -63,6 +62,7 @@ struct TrackerFeatures {
     /// By how much the distances and sizes above were multiplied to be plausible (1, 1000 or
     /// 0.001): some devices miss the unit they state by that.
     double capability_correction = 1.0;
+    /// As in the EDID of the display that it is set up for.
     std::optional<std::uint32_t> display_manufacturer;
     std::optional<std::uint32_t> display_product;
     std::optional<std::uint32_t> display_serial;

@@ -9,7 +9,7 @@ DeviceKind kind_of(const HidOptions& options) {
             .absence = options.path.empty()
                            ? "no HID eye tracker is plugged in: waiting for one"
                            : options.path + " is no HID eye tracker: waiting for one",
-            .open = [options] { return open_tracker(options); }};
+            .open = [options](const StopRequested& stop) { return open_tracker(options, stop); }};
 }
 
 }  // namespace

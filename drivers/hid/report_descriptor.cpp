@@ -383,7 +383,8 @@ Usage ReportField::usage_of(std::uint32_t element) const {
     return usages.back().last;
 }
 
-const ReportSize* ReportDescriptor::report(ReportKind kind, std::uint8_t id) const {
+const ReportSize* find_report(std::span<const ReportSize> reports, ReportKind kind,
+                              std::uint8_t id) {
     const auto found = std::ranges::find_if(
         reports, [&](const ReportSize& size) { return size.kind == kind && size.id == id; });
     return found == reports.end() ? nullptr : &*found;

@@ -71,6 +71,10 @@ struct ReportSize {
     [[nodiscard]] std::size_t payload_bytes() const { return (bits + 7U) / 8U; }
 };
 
+/// Null where there is no such report.
+[[nodiscard]] const ReportSize* find_report(std::span<const ReportSize> reports, ReportKind kind,
+                                            std::uint8_t id);
+
 /// What a HID device says of its reports (HID 1.11, 6.2.2), item by item.
 struct ReportDescriptor {
     std::vector<Collection> collections;
@@ -78,8 +82,6 @@ struct ReportDescriptor {
     std::vector<ReportSize> reports;
     bool numbered = false;  ///< every report begins with a byte that is its id
 
-    /// Null where there is no such report.
-    [[nodiscard]] const ReportSize* report(ReportKind kind, std::uint8_t id) const;
     /// Whether the field lies in a collection with that usage, at any depth.
     [[nodiscard]] bool inside(const ReportField& field, Usage collection_usage) const;
 };

@@ -10,12 +10,17 @@
 namespace gazeloop::drivers::hid {
 namespace {
 
-TrackerFeatures read_features(HidrawDevice& device, const EyeTrackerLayout& layout) {
+/// None where it was to stop.
+std::optional<TrackerFeatures> read_features(HidrawDevice& device, const EyeTrackerLayout& layout,
+                                             const StopRequested& stop) {
     std::vector<FeatureReport> reports;
     for (const std::uint8_t id : layout.feature_ids()) {
-        const ReportSize* const size = layout.report(ReportKind::Feature, id);
+        const ReportSize* const size = find_report(layout.reports, ReportKind::Feature, id);
         if (auto bytes = device.feature(id, size->payload_bytes())) {
             reports.push_back({id, std::move(*bytes)});
+        }
+        if (stop()) {
+            return std::nullopt;
         }
     }
     return decode_features(layout, reports);
@@ -35,10 +40,11 @@ ScreenGeometry merged(const ScreenGeometry& configured, const TrackerFeatures& f
 }  // namespace
 
 TrackerSession::TrackerSession(std::string text, HidrawDevice device,
-                               const EyeTrackerLayout& layout, const HidOptions& options)
+                               const TrackerFeatures& features, const EyeTrackerLayout& layout,
+                               const HidOptions& options)
     : text_(std::move(text)),
       device_(std::move(device)),
-      features_(read_features(device_, layout)),
+      features_(features),
       samples_(layout, merged(options.geometry, features_), options.delay) {
     describe(layout, merged(options.geometry, features_));
     if (auto start = encode_mode_request(layout, kModeGaze | kModeEyePosition)) {
@@ -69,6 +75,11 @@ void TrackerSession::describe(const EyeTrackerLayout& layout, const ScreenGeomet
                                        *features_.screen_width_m * 1e3,
                                        *features_.screen_height_m * 1e3));
     }
+    if (features_.display_manufacturer && features_.display_product) {
+        remarks_.push_back(
+            fmt::format("set up for the display {:04x}:{:04x} (maker and product in its EDID)",
+                        *features_.display_manufacturer, *features_.display_product));
+    }
     if (features_.capability_correction != 1.0) {
         remarks_.push_back(fmt::format("its distances are wrong by a factor of {}: corrected",
                                        features_.capability_correction));
@@ -79,7 +90,8 @@ void TrackerSession::describe(const EyeTrackerLayout& layout, const ScreenGeomet
 }
 
 Expected<TrackerSession> TrackerSession::open(const FoundTracker& tracker,
-                                              const HidOptions& options) {
+                                              const HidOptions& options,
+                                              const StopRequested& stop) {
     if (!tracker.layout) {
         return std::unexpected(
             Error{tracker.layout.error().code,
@@ -92,12 +104,22 @@ Expected<TrackerSession> TrackerSession::open(const FoundTracker& tracker,
     if (!device) {
         return std::unexpected(std::move(device.error()));
     }
-    return TrackerSession(tracker.device.text(), std::move(*device), *tracker.layout, options);
+    auto features = read_features(*device, *tracker.layout, stop);
+    if (!features) {
+        return std::unexpected(
+            Error{ExitCode::Interrupted,
+                  fmt::format("{}: interrupted while it was opened", tracker.device.text())});
+    }
+    return TrackerSession(tracker.device.text(), std::move(*device), *features, *tracker.layout,
+                          options);
 }
 
 TrackerFacts TrackerSession::facts() const {
     TrackerFacts facts;
     facts.sampling_hz = features_.status.sampling_hz;
+    facts.display_manufacturer = features_.display_manufacturer;
+    facts.display_product = features_.display_product;
+    facts.display_serial = features_.display_serial;
     facts.screen_width_m = features_.screen_width_m;
     facts.screen_height_m = features_.screen_height_m;
     facts.minimum_distance_m = features_.minimum_distance_m;
@@ -144,8 +166,9 @@ Expected<void> TrackerSession::read(std::chrono::milliseconds longest, DeviceFee
 namespace {
 
 Expected<std::unique_ptr<TrackerDevice>> opened(const FoundTracker& tracker,
-                                                const HidOptions& options) {
-    auto session = TrackerSession::open(tracker, options);
+                                                const HidOptions& options,
+                                                const StopRequested& stop) {
+    auto session = TrackerSession::open(tracker, options, stop);
     if (!session) {
         return std::unexpected(std::move(session.error()));
     }
@@ -154,15 +177,16 @@ Expected<std::unique_ptr<TrackerDevice>> opened(const FoundTracker& tracker,
 
 }  // namespace
 
-Expected<std::unique_ptr<TrackerDevice>> open_tracker(const HidOptions& options) {
+Expected<std::unique_ptr<TrackerDevice>> open_tracker(const HidOptions& options,
+                                                      const StopRequested& stop) {
     // The first that can be used; if none can, why the first cannot.
     std::optional<Error> first_error;
     for (const FoundTracker& tracker : find_trackers()) {
         if (!options.path.empty() && tracker.device.path != options.path) {
             continue;
         }
-        auto session = opened(tracker, options);
-        if (session) {
+        auto session = opened(tracker, options, stop);
+        if (session || stop()) {
             return session;
         }
         if (!first_error) {
@@ -177,11 +201,13 @@ Expected<std::unique_ptr<TrackerDevice>> open_tracker(const HidOptions& options)
 
 std::vector<TrackerProbe> probe_trackers(const HidOptions& options,
                                          std::chrono::milliseconds listen,
-                                         const std::function<bool()>& stop) {
+                                         const StopRequested& stop) {
     std::vector<TrackerProbe> probes;
     for (const FoundTracker& tracker : find_trackers()) {
         probes.push_back(probe_tracker(
-            kSupport, tracker.device, [&] { return opened(tracker, options); }, listen, stop));
+            kSupport, tracker.device,
+            [&](const StopRequested& stopped) { return opened(tracker, options, stopped); }, listen,
+            stop));
     }
     return probes;
 }

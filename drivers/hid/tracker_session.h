@@ -26,9 +26,12 @@ struct HidOptions {
 /// second. Stops it when it goes, unless another program of ours reads it.
 class TrackerSession final : public TrackerDevice {
   public:
-    /// Errors: NoDevice where it cannot be opened, BadInput where its descriptor is no good.
+    /// Asks `stop` after each request, of which there are up to 14, because a device may take
+    /// seconds for one. Errors: NoDevice where it cannot be opened, BadInput where its descriptor
+    /// is no good, Interrupted where it was to stop (the device has not been started then).
     [[nodiscard]] static Expected<TrackerSession> open(const FoundTracker& tracker,
-                                                       const HidOptions& options);
+                                                       const HidOptions& options,
+                                                       const StopRequested& stop);
     TrackerSession(TrackerSession&&) = default;
     TrackerSession(const TrackerSession&) = delete;
     TrackerSession& operator=(TrackerSession&&) = delete;
@@ -44,8 +47,8 @@ class TrackerSession final : public TrackerDevice {
     [[nodiscard]] const latency::ClockFit* clock() const override { return samples_.clock(); }
 
   private:
-    TrackerSession(std::string text, HidrawDevice device, const EyeTrackerLayout& layout,
-                   const HidOptions& options);
+    TrackerSession(std::string text, HidrawDevice device, const TrackerFeatures& features,
+                   const EyeTrackerLayout& layout, const HidOptions& options);
     void ask_again(std::int64_t now_ns);
     void describe(const EyeTrackerLayout& layout, const ScreenGeometry& geometry);
 
@@ -61,7 +64,8 @@ class TrackerSession final : public TrackerDevice {
 };
 
 /// Opens the tracker that the options ask for.
-[[nodiscard]] Expected<std::unique_ptr<TrackerDevice>> open_tracker(const HidOptions& options);
+[[nodiscard]] Expected<std::unique_ptr<TrackerDevice>> open_tracker(const HidOptions& options,
+                                                                    const StopRequested& stop);
 
 inline constexpr TrackerSupport kSupport{
     "hid", "HID usage page 0x12: verified with emulated devices, not tried on hardware"};
@@ -69,6 +73,6 @@ inline constexpr TrackerSupport kSupport{
 /// Listens to each tracker that is plugged in.
 [[nodiscard]] std::vector<TrackerProbe> probe_trackers(const HidOptions& options,
                                                        std::chrono::milliseconds listen,
-                                                       const std::function<bool()>& stop);
+                                                       const StopRequested& stop);
 
 }  // namespace gazeloop::drivers::hid

@@ -62,11 +62,12 @@ Expected<std::unique_ptr<TrackerDevice>> open_any_headset(const Psvr2Options& op
 
 std::vector<TrackerProbe> probe_headsets(const Psvr2Options& options,
                                          std::chrono::milliseconds listen,
-                                         const std::function<bool()>& stop) {
+                                         const StopRequested& stop) {
     std::vector<TrackerProbe> probes;
     for (const FoundDevice& found : find_headsets()) {
         probes.push_back(probe_tracker(
-            kSupport, found, [&] { return open_headset(found, options); }, listen, stop));
+            kSupport, found, [&](const StopRequested&) { return open_headset(found, options); },
+            listen, stop));
     }
     return probes;
 }

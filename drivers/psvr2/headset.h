@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,6 +41,6 @@ inline constexpr TrackerSupport kSupport{
 /// Listens to each headset that is plugged in.
 [[nodiscard]] std::vector<TrackerProbe> probe_headsets(const Psvr2Options& options,
                                                        std::chrono::milliseconds listen,
-                                                       const std::function<bool()>& stop);
+                                                       const StopRequested& stop);
 
 }  // namespace gazeloop::drivers::psvr2

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
+
+#include "drivers/device/sample_clock.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -51,6 +54,28 @@ Json or_null(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
+Json hex_or_null(const std::optional<std::uint32_t>& value) {
+    return value ? Json(fmt::format("{:04x}", *value)) : Json(nullptr);
+}
+
+/// What is meaningless until the fit has settled, or while its times are unusable, is null.
+Json clock_json(const latency::ClockFit& clock) {
+    const latency::ClockReading& last = clock.last();
+    const bool usable = last.verdict != latency::ClockVerdict::Unusable;
+    const auto if_usable = [&](const auto value) { return usable ? Json(value) : Json(nullptr); };
+    const auto verdict = static_cast<std::size_t>(last.verdict);
+    const auto trouble = static_cast<std::size_t>(clock.trouble());
+    const std::int64_t period_ns = clock.period_ns();
+    return {{"verdict", latency::kClockVerdictNames[verdict]},
+            {"trouble", latency::kClockTroubleNames[trouble]},
+            {"uncertainty_ns", if_usable(last.uncertainty_ns)},
+            {"host_minus_device_ns", if_usable(clock.offset_ns())},
+            {"skew_ppm", if_usable(clock.skew_ppm())},
+            {"mean_jitter_ns", if_usable(std::llround(clock.jitter_ns()))},
+            {"period_ns", period_ns > 0 ? Json(period_ns) : Json(nullptr)},
+            {"steps", clock.steps()}};
+}
+
 void append_range(std::string& text, const drivers::TrackerFacts& facts) {
     if (facts.minimum_distance_m && facts.maximum_distance_m) {
         fmt::format_to(std::back_inserter(text), "  distance  {:.2f} to {:.2f} m",
@@ -90,7 +115,7 @@ std::string devices_text(const std::vector<TrackerProbe>& probes) {
             text += "\n";
         }
         if (probe.clock) {
-            fmt::format_to(out, "  {}\n", *probe.clock);
+            fmt::format_to(out, "  {}\n", drivers::describe(*probe.clock));
         } else if (probe.counts.samples > 0) {
             text += "  clock: none, it sends no timestamps: the age of the gaze is unknown\n";
         }
@@ -105,7 +130,6 @@ Json devices_json(const std::vector<TrackerProbe>& probes) {
     Json list = Json::array();
     for (const TrackerProbe& probe : probes) {
         const drivers::TrackerFacts& facts = probe.facts;
-        const bool clocked = probe.counts.samples > 0 && probe.clock;
         const std::string& rule = probe.device.missing_rule;
         list.push_back({{"source", probe.support.source},
                         {"name", probe.device.name},
@@ -118,6 +142,9 @@ Json devices_json(const std::vector<TrackerProbe>& probes) {
                         {"udev_rule", rule.empty() ? Json(nullptr) : Json(rule)},
                         {"status", or_null(facts.status)},
                         {"stated_hz", or_null(facts.sampling_hz)},
+                        {"display_manufacturer", hex_or_null(facts.display_manufacturer)},
+                        {"display_product", hex_or_null(facts.display_product)},
+                        {"display_serial", or_null(facts.display_serial)},
                         {"screen_width_m", or_null(facts.screen_width_m)},
                         {"screen_height_m", or_null(facts.screen_height_m)},
                         {"minimum_distance_m", or_null(facts.minimum_distance_m)},
@@ -129,7 +156,7 @@ Json devices_json(const std::vector<TrackerProbe>& probes) {
                         {"samples_lost", probe.counts.lost},
                         {"reports_damaged", probe.counts.damaged},
                         {"measured_hz", or_null(probe.rate_hz)},
-                        {"clock", clocked ? Json(*probe.clock) : Json(nullptr)},
+                        {"clock", probe.clock ? clock_json(*probe.clock) : Json(nullptr)},
                         {"remarks", probe.remarks},
                         {"problems", diagnosis(probe)}});
     }

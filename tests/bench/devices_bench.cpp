@@ -147,6 +147,9 @@ void add_reading(std::vector<Figure>& figures) {
     };
     add("arrival to published, p50", percentile(published_us, 0.5), "us", std::nullopt);
     add("arrival to published, p99", percentile(published_us, 0.99), "us", 50.0);
+    // Three to five times as much where the reader is woken on another core than its sender's, in a
+    // virtual machine, whatever the scheduling class: under `chrt` too, unless both are pinned to
+    // one.
     add("reader, of a core", 100.0 * spent_s * kRate_hz / kReports, "%", 2.0);
 }
 

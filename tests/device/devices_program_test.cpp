@@ -78,7 +78,16 @@ TEST_F(DevicesProgram, ListsWhatATrackerStatesAndDoes) {
     EXPECT_EQ(list[0]["stated_hz"], 200);
     EXPECT_DOUBLE_EQ(list[0]["screen_width_m"], sim::kVirtualScreenWidth_m);
     EXPECT_GT(list[0]["samples_with_gaze"], 0);
-    EXPECT_TRUE(list[0]["clock"].is_string());
+    const auto& clock = list[0]["clock"];
+    ASSERT_TRUE(clock.is_object()) << list.dump(2);
+    EXPECT_TRUE(clock["verdict"].is_string() && clock["trouble"].is_string());
+    EXPECT_TRUE(clock["steps"].is_number_unsigned());
+    for (const char* key :
+         {"uncertainty_ns", "host_minus_device_ns", "skew_ppm", "mean_jitter_ns"}) {
+        ASSERT_TRUE(clock.contains(key)) << clock.dump();
+        EXPECT_EQ(clock[key].is_null(), clock["verdict"] == "unusable") << key << clock.dump();
+    }
+    EXPECT_EQ(list[0]["display_serial"].is_null(), list[0]["display_manufacturer"].is_null());
     EXPECT_FALSE(list[0]["tried_on_hardware"]);
     EXPECT_TRUE(list[0]["problems"].empty()) << list.dump(2);
     const ProgramResult text = run_gazeloop({"devices", "--seconds", "0.5"});

@@ -75,7 +75,7 @@ TEST_F(Psvr2Program, IsListedWithWhatItDoes) {
     EXPECT_FALSE(headset["tried_on_hardware"]);
     EXPECT_GT(headset["samples_with_gaze"], 0);
     EXPECT_EQ(headset["reports_damaged"], 0);
-    EXPECT_TRUE(headset["clock"].is_string());
+    EXPECT_TRUE(headset["clock"].is_object());
     EXPECT_TRUE(headset["problems"].empty()) << list.dump(2);
     const ProgramResult live = run_gazeloop({"devices", "--watch", "--seconds", "1"});
     EXPECT_EQ(live.exit_code, 0) << live.err;

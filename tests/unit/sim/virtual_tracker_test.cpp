@@ -26,12 +26,14 @@ EyeTrackerLayout layout() {
 
 TEST(VirtualTracker, HasTheReportsThatItsDescriptorSays) {
     const EyeTrackerLayout tracker = layout();
-    EXPECT_EQ(tracker.report(ReportKind::Input, 0x10)->payload_bytes() + 1, kVirtualReportBytes);
+    EXPECT_EQ(find_report(tracker.reports, ReportKind::Input, 0x10)->payload_bytes() + 1,
+              kVirtualReportBytes);
     std::vector<FeatureReport> features;
     for (const std::uint8_t id : tracker.feature_ids()) {
         const auto report = virtual_tracker_feature(id, 120);
         ASSERT_TRUE(report.has_value()) << int{id};
-        EXPECT_EQ(report->size(), tracker.report(ReportKind::Feature, id)->payload_bytes() + 1);
+        EXPECT_EQ(report->size(),
+                  find_report(tracker.reports, ReportKind::Feature, id)->payload_bytes() + 1);
         features.push_back({id, *report});
     }
     const TrackerFeatures stated = decode_features(tracker, features);

@@ -72,12 +72,12 @@ void expect_near(const glm::dvec3& actual, const glm::dvec3& expected) {
 TEST(EyeTracker, FirstLayoutsBytesAreAsPublished) {
     EXPECT_EQ(first_report().bytes().size(), 65U);
     const EyeTrackerLayout layout = layout_of(first_layout());
-    EXPECT_EQ(layout.report(ReportKind::Input, 0x10)->payload_bytes(), 64U);
-    EXPECT_EQ(layout.report(ReportKind::Feature, 0x11)->payload_bytes(), 21U);
-    EXPECT_EQ(layout.report(ReportKind::Feature, 0x12)->payload_bytes(), 18U);
-    EXPECT_EQ(layout.report(ReportKind::Feature, 0x13)->payload_bytes(), 3U);
-    EXPECT_EQ(layout.report(ReportKind::Input, 0x13)->payload_bytes(), 3U);
-    EXPECT_EQ(layout.report(ReportKind::Feature, 0x14)->payload_bytes(), 1U);
+    EXPECT_EQ(find_report(layout.reports, ReportKind::Input, 0x10)->payload_bytes(), 64U);
+    EXPECT_EQ(find_report(layout.reports, ReportKind::Feature, 0x11)->payload_bytes(), 21U);
+    EXPECT_EQ(find_report(layout.reports, ReportKind::Feature, 0x12)->payload_bytes(), 18U);
+    EXPECT_EQ(find_report(layout.reports, ReportKind::Feature, 0x13)->payload_bytes(), 3U);
+    EXPECT_EQ(find_report(layout.reports, ReportKind::Input, 0x13)->payload_bytes(), 3U);
+    EXPECT_EQ(find_report(layout.reports, ReportKind::Feature, 0x14)->payload_bytes(), 1U);
     ASSERT_EQ(layout.tracking.size(), 1U);
     EXPECT_EQ(layout.tracking[0].gaze_point[0]->bit_offset, 64U);
     EXPECT_EQ(layout.tracking[0].eye_position[0][0]->bit_offset, 128U);
@@ -274,7 +274,6 @@ std::vector<FeatureReport> features_in_um(double factor) {
 TEST(EyeTracker, FeaturesAreReadByUsage) {
     const EyeTrackerLayout layout = layout_of(first_layout());
     const TrackerFeatures features = decode_features(layout, features_in_um(1.0));
-    EXPECT_EQ(features.quality, 2U);
     EXPECT_DOUBLE_EQ(*features.minimum_distance_m, 0.45);
     EXPECT_DOUBLE_EQ(*features.maximum_height_m, 0.34);
     EXPECT_DOUBLE_EQ(features.capability_correction, 1.0);
@@ -300,11 +299,11 @@ TEST(EyeTracker, CapabilitiesOffByAThousandAreCorrectedAndSaidSo) {
 TEST(EyeTracker, FeaturesThatCouldNotBeReadAreAbsent) {
     const EyeTrackerLayout layout = layout_of(first_layout());
     const TrackerFeatures none = decode_features(layout, {});
-    EXPECT_FALSE(none.quality || none.screen_width_m || none.status.status);
+    EXPECT_FALSE(none.maximum_width_m || none.screen_width_m || none.status.status);
     const std::vector<FeatureReport> cut{{0x12, {0x12, 1, 2}}, {0x11, {}}};
     const TrackerFeatures some = decode_features(layout, cut);
     EXPECT_EQ(some.display_manufacturer, 0x0201U);
-    EXPECT_FALSE(some.display_product || some.screen_width_m || some.quality);
+    EXPECT_FALSE(some.display_product || some.screen_width_m || some.maximum_width_m);
 }
 
 TEST(EyeTracker, ModesAreAskedForInTheControlReport) {

@@ -49,8 +49,8 @@ TEST(ReportDescriptor, ReadsTheStandardsOwnMouse) {
     EXPECT_EQ(mouse.fields[2].usage_of(1), usage(1, 0x31));
     EXPECT_EQ(mouse.fields[2].logical_minimum, -127);
     EXPECT_EQ(mouse.fields[2].logical_maximum, 127);
-    ASSERT_NE(mouse.report(ReportKind::Input, 0), nullptr);
-    EXPECT_EQ(mouse.report(ReportKind::Input, 0)->bits, 24U);
+    ASSERT_NE(find_report(mouse.reports, ReportKind::Input, 0), nullptr);
+    EXPECT_EQ(find_report(mouse.reports, ReportKind::Input, 0)->bits, 24U);
 }
 
 TEST(ReportDescriptor, RangesAreSignedWhereTheMinimumIsNegative) {
@@ -121,10 +121,10 @@ TEST(ReportDescriptor, OffsetsCountForEachReportAndKindApart) {
     EXPECT_EQ(parsed.fields[3].bit_offset, 8U);
     EXPECT_EQ(parsed.fields[4].bit_offset, 0U);
     EXPECT_EQ(parsed.fields[5].bit_offset, 20U);
-    EXPECT_EQ(parsed.report(ReportKind::Input, 1)->bits, 32U);
-    EXPECT_EQ(parsed.report(ReportKind::Input, 1)->payload_bytes(), 4U);
-    EXPECT_EQ(parsed.report(ReportKind::Output, 1)->payload_bytes(), 2U);
-    EXPECT_EQ(parsed.report(ReportKind::Feature, 2), nullptr);
+    EXPECT_EQ(find_report(parsed.reports, ReportKind::Input, 1)->bits, 32U);
+    EXPECT_EQ(find_report(parsed.reports, ReportKind::Input, 1)->payload_bytes(), 4U);
+    EXPECT_EQ(find_report(parsed.reports, ReportKind::Output, 1)->payload_bytes(), 2U);
+    EXPECT_EQ(find_report(parsed.reports, ReportKind::Feature, 2), nullptr);
     EXPECT_TRUE(parsed.numbered);
 }
 
