@@ -20,6 +20,7 @@
 #include "runtime/cli/run_observers.h"
 #include "runtime/cli/session_summary.h"
 #include "runtime/cli/version.h"
+#include "runtime/foveation/useless_map.h"
 #include "runtime/latency/clock.h"
 #include "runtime/latency/latency_summary.h"
 #include "runtime/latency/summary_json.h"
@@ -205,6 +206,7 @@ class FrameRun {
         }
         config_ = renderer_config();
         check_recorded_target();
+        check_map();
         render::FrameRenderer renderer(*context_, config_);
         spdlog::info("Vulkan: {} ({})", context_->device_name(), context_->driver());
         spdlog::info("{}x{} per eye, method {}, scene {}, {} samples, target {}",
@@ -270,6 +272,34 @@ class FrameRun {
                         view.width_px, view.height_px, extent.width, extent.height));
             }
         }
+    }
+
+    /// Parameters by which no picture is worth drawing. What was recorded by them is replayed
+    /// nevertheless.
+    void check_map() const {
+        if (config_.method != render::Method::Kfr) {
+            return;
+        }
+        const foveation::ImageSize image{config_.extents[0].width, config_.extents[0].height};
+        const gaze::PixelPosition middle{image.width_px / 2.0, image.height_px / 2.0};
+        const foveation::LpSize lp = value_or_throw(foveation::lp_buffer_size(config_.kfr, image));
+        foveation::SamplingPlan plan;
+        foveation::plan_kfr(config_.kfr, lp, image, middle, plan);
+        const std::string why =
+            foveation::why_useless(foveation::LogPolarMap(config_.kfr.kernel, image, middle), lp,
+                                   plan.disc_radius_px - plan.disc_border_px);
+        if (why.empty()) {
+            return;
+        }
+        const std::string text = fmt::format(
+            "kfr draws nothing worth seeing with {}x{} texels for {}x{} px: {}: use a smaller "
+            "kfr.sigma, a larger kfr.lp_width, or another kfr.alpha or kfr.kernel (gazeloop plan "
+            "shows what each does)",
+            lp.width, lp.height, image.width_px, image.height_px, why);
+        if (request_.clock != RunClock::Recorded) {
+            throw SetupError(ExitCode::Usage, text);
+        }
+        spdlog::warn("{}", text);
     }
 
     [[nodiscard]] render::RendererConfig renderer_config() const {
