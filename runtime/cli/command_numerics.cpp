@@ -22,6 +22,11 @@ struct NumericsCommand {
 };
 
 ExitCode measure(const NumericsCommand& command) {
+    for (const std::string& file : {command.json, command.html}) {
+        if (!file.empty()) {
+            value_or_throw(check_output(file));
+        }
+    }
     const render::VulkanContext context({.validation = false, .device = command.device}, nullptr);
     const numerics::Envelope envelope = numerics::measure_envelope(context, command.options);
     if (command.json != "-" && command.html != "-" && !command.log.quiet) {

@@ -110,6 +110,20 @@ class Measurement {
 
 }  // namespace
 
+EnvelopeCounts Envelope::counts() const {
+    EnvelopeCounts counts;
+    for (const EnvelopeRow& row : rows) {
+        if (!row.useless.empty()) {
+            ++counts.useless;
+            continue;
+        }
+        ++counts.useful;
+        counts.met += row.met() ? 1 : 0;
+        counts.for_float32 += row.met_for_float32() ? 1 : 0;
+    }
+    return counts;
+}
+
 bool Envelope::met() const {
     return draws_not_finite == 0 && draws_outside == 0 &&
            std::ranges::all_of(rows, [](const EnvelopeRow& row) { return row.met(); });

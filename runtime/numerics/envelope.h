@@ -65,6 +65,14 @@ struct EnvelopeRow {
     [[nodiscard]] bool met_for_float32() const { return met() && cpu.largest_px() > stated_px; }
 };
 
+/// Of maps and gazes. Those whose parameters leave nothing to draw count apart.
+struct EnvelopeCounts {
+    std::size_t useful = 0;
+    std::size_t met = 0;          ///< of the useful ones
+    std::size_t for_float32 = 0;  ///< of those met
+    std::size_t useless = 0;
+};
+
 struct Envelope {
     std::string device;
     std::string driver;
@@ -75,6 +83,7 @@ struct Envelope {
     std::uint64_t draws_outside = 0;  ///< shares outside [0, 1]
     double seconds = 0.0;
 
+    [[nodiscard]] EnvelopeCounts counts() const;
     [[nodiscard]] bool met() const;
 };
 

@@ -26,7 +26,7 @@ svg { width: 100%; height: auto; } svg text { font: 11px system-ui, sans-serif; 
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
 th, td { padding: .15rem .55rem; text-align: right; border-bottom: 1px solid #e3e6ea; }
 th { position: sticky; top: 0; background: #fff; } td.name { text-align: left; white-space: nowrap; }
-td.note { text-align: left; color: #6a737d; white-space: nowrap; }
+td.note { text-align: left; color: #6a737d; min-width: 12em; }
 .missed { color: #b3261e; font-weight: 600; } .met { color: #1a7f37; }
 .key span { display: inline-block; width: .8em; height: .8em; border-radius: 50%; margin: 0 .35em 0 1em; }
 .scroll { overflow-x: auto; }

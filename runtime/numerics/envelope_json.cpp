@@ -36,6 +36,7 @@ nlohmann::ordered_json envelope_json(const Envelope& envelope) {
                         {"useless", row.useless},
                         {"met", row.met()}});
     }
+    const EnvelopeCounts counts = envelope.counts();
     auto tables = nlohmann::ordered_json::array();
     for (const TableBuild& build : envelope.tables) {
         tables.push_back({{"map", build.map}, {"build_ms", build.milliseconds}});
@@ -43,6 +44,11 @@ nlohmann::ordered_json envelope_json(const Envelope& envelope) {
     return {{"device", envelope.device},
             {"driver", envelope.driver},
             {"met", envelope.met()},
+            {"counts",
+             {{"useful", counts.useful},
+              {"met", counts.met},
+              {"met_for_float32", counts.for_float32},
+              {"useless", counts.useless}}},
             {"draws", envelope.draws},
             {"draws_not_finite", envelope.draws_not_finite},
             {"draws_outside", envelope.draws_outside},

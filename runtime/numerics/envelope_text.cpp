@@ -2,22 +2,18 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "runtime/numerics/envelope_groups.h"
 
 namespace gazeloop::numerics {
 
 std::string verdict(const Envelope& envelope) {
-    const auto missed =
-        std::ranges::count_if(envelope.rows, [](const EnvelopeRow& row) { return !row.met(); });
-    const auto for_float32 = std::ranges::count_if(envelope.rows, &EnvelopeRow::met_for_float32);
+    const EnvelopeCounts counts = envelope.counts();
     return fmt::format(
         "{} of {} maps and gazes meet their targets, {} of them not .01 px (off screen and above "
-        "4096 px: .05) but twice what float32 alone costs there; of {} random extreme draws {} are "
-        "not finite and {} lie outside the LP-buffer.",
-        envelope.rows.size() - static_cast<std::size_t>(missed), envelope.rows.size(), for_float32,
-        envelope.draws, envelope.draws_not_finite, envelope.draws_outside);
+        "4096 px: .05) but twice what float32 alone costs there; {} more are useless maps, however "
+        "exact; of {} random extreme draws {} are not finite and {} lie outside the LP-buffer.",
+        counts.met, counts.useful, counts.for_float32, counts.useless, envelope.draws,
+        envelope.draws_not_finite, envelope.draws_outside);
 }
 
 std::string envelope_text(const Envelope& envelope) {
@@ -57,7 +53,7 @@ std::string envelope_text(const Envelope& envelope) {
     for (const TableBuild& build : envelope.tables) {
         text += fmt::format(" {} {:.3f};", build.map, build.milliseconds);
     }
-    text += fmt::format("\n{} Measured in {:.0f} s.\n", verdict(envelope), envelope.seconds);
+    text += fmt::format("\n{} Measured in {:.1f} s.\n", verdict(envelope), envelope.seconds);
     return text;
 }
 
