@@ -134,7 +134,18 @@ Expected<TableKernel> load_kernel_table(const std::filesystem::path& file) {
             Error{ExitCode::BadInput,
                   fmt::format("{}: the kernel's table cannot be read", file.string())});
     }
-    return read_kernel_table(in, file.string(), file.extension() == ".toml");
+    // Far more than the samples of a table take; some files never end.
+    constexpr std::size_t kLongestFile = 1 << 20;
+    std::string text(kLongestFile + 1, '\0');
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    if (text.size() > kLongestFile) {
+        return std::unexpected(
+            Error{ExitCode::BadInput,
+                  fmt::format("{}: a table of a kernel has at most 1 MiB", file.string())});
+    }
+    std::istringstream lines(text);
+    return read_kernel_table(lines, file.string(), file.extension() == ".toml");
 }
 
 }  // namespace gazeloop::foveation
