@@ -17,6 +17,7 @@
 #include "runtime/cli/gaze_sources.h"
 #include "runtime/cli/interrupt.h"
 #include "runtime/cli/openxr_gaze_report.h"
+#include "runtime/cli/output_file.h"
 #include "runtime/cli/profiles.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/doctor/checks.h"
@@ -29,7 +30,7 @@ struct DevicesCommand {
     LogOptions log;
     std::vector<std::string> config_files;
     std::vector<std::string> assignments;
-    bool json = false;
+    std::string json;
     bool watch = false;
     double seconds = 2.0;
 };
@@ -124,17 +125,21 @@ ExitCode devices(const DevicesCommand& command) {
         drivers::psvr2::Psvr2Source psvr2_source(psvr2);
         return watch({&hid_source, &psvr2_source}, command);
     }
+    if (!command.json.empty()) {
+        value_or_throw(check_output(command.json));
+    }
     const doctor::Findings openxr = listen_to_openxr(settings, command.seconds);
     const std::chrono::milliseconds listen(std::llround(command.seconds * 1e3));
     const auto stop = [] { return interrupted(); };
     std::vector<drivers::TrackerProbe> probes = drivers::hid::probe_trackers(hid, listen, stop);
     std::ranges::move(drivers::psvr2::probe_headsets(psvr2, listen, stop),
                       std::back_inserter(probes));
-    if (command.json) {
+    if (!command.json.empty()) {
         nlohmann::ordered_json list = devices_json(probes);
         list.push_back(openxr_gaze_json(openxr));
-        fmt::print("{}\n", list.dump(2));
-    } else {
+        value_or_throw(write_text(command.json, list.dump(2) + "\n"));
+    }
+    if (command.json != "-") {
         fmt::print("{}{}", devices_text(probes), openxr_gaze_text(openxr));
     }
     return any_gaze(probes) || any_gaze(openxr) ? ExitCode::Ok : ExitCode::NoDevice;
@@ -158,7 +163,11 @@ void add_devices_command(CLI::App& program, Action& action) {
                         "how long to listen to each (2), or to watch (until interrupted)")
             ->type_name("S")
             ->check(number_between(0.1, 1e9));
-    CLI::Option* const json = app->add_flag("--json", command->json, "for programs");
+    CLI::Option* const json =
+        app->add_option("--json", command->json, "write it as JSON; without a file, to stdout")
+            ->expected(0, 1)
+            ->default_str("-")
+            ->type_name("[FILE]");
     app->add_flag("--watch", command->watch, "show live gaze")->excludes(json);
     app->callback([=, &action] {
         command->log.apply();

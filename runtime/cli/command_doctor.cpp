@@ -7,6 +7,7 @@
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/interrupt.h"
+#include "runtime/cli/output_file.h"
 #include "runtime/cli/profiles.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/cli/version.h"
@@ -20,7 +21,7 @@ struct DoctorCommand {
     std::string folder = ".";
     std::string root = "/";
     double patience_s = 20.0;
-    bool json = false;
+    std::string json;
 };
 
 doctor::Finding load_layer(Settings& settings, const std::string& check,
@@ -74,6 +75,9 @@ ExitCode run_doctor(const DoctorCommand& command) {
     const SettingValues& values = settings.values();
     const present::DisplayProfile display = value_or_throw(load_display(values.profile.display));
 
+    if (!command.json.empty()) {
+        value_or_throw(check_output(command.json));
+    }
     const auto add = [&](doctor::Findings more) {
         std::ranges::move(more, std::back_inserter(findings));
     };
@@ -93,12 +97,15 @@ ExitCode run_doctor(const DoctorCommand& command) {
     if (interrupted()) {
         return ExitCode::Interrupted;
     }
-    if (command.json) {
+    if (!command.json.empty()) {
         nlohmann::json report = doctor::findings_json(findings);
         report["program"] = fmt::format("gazeloop {}", kVersion);
         report["target"] = values.target.name;
-        fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    } else {
+        value_or_throw(write_text(
+            command.json,
+            report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"));
+    }
+    if (command.json != "-") {
         fmt::print("{}", doctor::findings_text(findings));
     }
     return doctor::loop_can_run(findings) ? ExitCode::Ok : ExitCode::NoDevice;
@@ -110,7 +117,10 @@ void add_doctor_command(CLI::App& program, Action& action) {
     CLI::App* const app = program.add_subcommand(
         "doctor", "check what the loop needs of this machine; exit code 4: it cannot run");
     const auto command = std::make_shared<DoctorCommand>();
-    app->add_flag("--json", command->json, "for a program, to stdout");
+    app->add_option("--json", command->json, "write it as JSON; without a file, to stdout")
+        ->expected(0, 1)
+        ->default_str("-")
+        ->type_name("[FILE]");
     command->options.log.add_to(*app);
     command->options.add_settings_to(*app);
     app->add_option("--folder", command->folder, "where recordings are to go")->type_name("DIR");
