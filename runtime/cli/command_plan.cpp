@@ -85,6 +85,9 @@ ExitCode plan(const PlanCommand& command) {
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;
     }
+    if (!command.options.json.empty()) {
+        value_or_throw(check_output(command.options.json));
+    }
     const bool show_text = command.options.json != "-" && !command.options.log.quiet;
     if (!command.figures.empty()) {
         const std::string claims = value_or_throw(write_layer_figures(command.figures));

@@ -76,6 +76,10 @@ std::string plan_report_text(const PlanReport& report) {
         }
         for (std::size_t i = 0; i < asked.models.size(); ++i) {
             const PlanVerdict& verdict = row.verdicts[i];
+            if (!std::isfinite(verdict.sufficiency.least_ratio)) {
+                text += fmt::format("  {:14} asks for nothing in view\n", asked.models[i]->name());
+                continue;
+            }
             const foveation::FieldPoint& worst = verdict.sufficiency.worst;
             text += fmt::format(
                 "  {:14} {:12} least {:>4} at {:.1f} deg (pixel {:.0f},{:.0f}); {} the "
@@ -160,12 +164,17 @@ LineChart density_chart(const PlanReport& report) {
     double highest = 0.0;
     std::size_t colour = 0;
     for (const PlanRow& row : report.rows) {
-        ChartLine line{.label = fmt::format("{}: {}", row.method,
-                                            thousands(static_cast<double>(row.plan.samples))),
-                       .points = {},
-                       .colour = chart_colour(colour++)};
-        for (const foveation::DensityAt& at :
-             foveation::density_profile(field, *row.plan.density, kFromDeg, kPoints)) {
+        const bool useless = !row.plan.useless.empty();
+        ChartLine line{
+            .label = fmt::format("{}: {}", row.method,
+                                 useless ? std::string("useless")
+                                         : thousands(static_cast<double>(row.plan.samples))),
+            .points = {},
+            .colour = chart_colour(colour++)};
+        const auto profile =
+            useless ? std::vector<foveation::DensityAt>()
+                    : foveation::density_profile(field, *row.plan.density, kFromDeg, kPoints);
+        for (const foveation::DensityAt& at : profile) {
             line.points.push_back({at.eccentricity_deg, at.per_deg});
             highest = std::max(highest, at.per_deg);
         }
