@@ -1,6 +1,7 @@
 #include "runtime/session/session_file.h"
 
 #include <fmt/format.h>
+#include <sqlite3.h>
 
 #include <algorithm>
 #include <array>
@@ -255,10 +256,12 @@ Expected<SessionFile> read_session(const std::filesystem::path& file) {
     } catch (const FormatError& format) {
         return bad_input(file, format.what());
     } catch (const DatabaseError& database) {
+        const bool damaged = database.code() == SQLITE_CORRUPT || database.code() == SQLITE_NOTADB;
         return bad_input(
-            file,
-            fmt::format("{}; if {}-wal exists, copy both into a folder that can be written to",
-                        database.what(), file.filename().string()));
+            file, damaged ? fmt::format("{}: it is cut short or damaged", database.what())
+                          : fmt::format("{}; if {}-wal exists, copy both into a folder that can be "
+                                        "written to",
+                                        database.what(), file.filename().string()));
     }
 }
 
