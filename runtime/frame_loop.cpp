@@ -268,10 +268,12 @@ class FrameLoop {
             }
             seen = {point.state, point.reason};
             std::array<char, 96> text{};
+            const bool lost = point.reason != gaze::LossReason::None;
             const auto end = fmt::format_to_n(
-                text.data(), text.size(), "{} eye: {} ({})", gaze::kEyeNames[gaze::index(eye)],
-                gaze::kFoveaStateNames[static_cast<std::size_t>(point.state)],
-                gaze::kLossReasonNames[static_cast<std::size_t>(point.reason)]);
+                text.data(), text.size(), "{} eye: {}{}{}{}", gaze::kEyeNames[gaze::index(eye)],
+                gaze::kFoveaStateNames[static_cast<std::size_t>(point.state)], lost ? " (" : "",
+                lost ? gaze::kLossReasonNames[static_cast<std::size_t>(point.reason)] : "",
+                lost ? ")" : "");
             report_event(fovea.latched, "gaze", {text.data(), end.size});
         }
     }

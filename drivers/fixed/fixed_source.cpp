@@ -31,8 +31,8 @@ Expected<FixedGaze> parse_fixed_gaze(std::string_view text) {
     }
     return std::unexpected(
         Error{ExitCode::Usage,
-              fmt::format("fixed gaze '{}': give azimuth (-180 to 180) and elevation (-90 to 90) "
-                          "in degrees, e.g. fixed:-5,2.5",
+              fmt::format("gaze '{}': give azimuth (-180 to 180) and elevation (-90 to 90) in "
+                          "degrees, e.g. -5,2.5",
                           text)});
 }
 

@@ -26,6 +26,11 @@ ExitCode simulate_gaze(const SimulateGazeCommand& command) {
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;
     }
+    if (command.file == "-") {
+        throw SetupError(ExitCode::Usage,
+                         "simulate gaze -: a trace is a file with a second one beside it that "
+                         "describes it: name the file, or /dev/stdout for the trace alone");
+    }
     const sim::GazeSimulation& simulation = settings.values().sim;
     const drivers::Trace trace = sim::generate_gaze(simulation, command.seconds);
     if (trace.samples.empty()) {

@@ -77,10 +77,12 @@ void RunOptions::add_to(CLI::App& command) {
     command.add_option("--record", record, "write a session (must not exist yet)")
         ->type_name("FILE")
         ->check(kNotEmpty);
-    command.add_option("--snapshot", snapshot, "write pictures of the last frame")
-        ->type_name("DIR")
-        ->check(kNotEmpty);
-    command.add_flag("--mark-fovea", mark_fovea, "draw the fovea into the snapshot");
+    CLI::Option* const pictures =
+        command.add_option("--snapshot", snapshot, "write pictures of the last frame")
+            ->type_name("DIR")
+            ->check(kNotEmpty);
+    command.add_flag("--mark-fovea", mark_fovea, "draw the fovea into the snapshot")
+        ->needs(pictures);
     command.add_flag("--hash", hash, "hash every frame's foveae and pixels");
     command.add_option("--json", json, "write the summary as JSON; - is stdout")
         ->type_name("FILE")
