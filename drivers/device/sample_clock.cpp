@@ -23,6 +23,7 @@ void SampleClock::stamp(std::uint64_t ticks, std::int64_t arrived_ns, gaze::Gaze
     sample.uncertainty_ns.reset();
 
     const latency::ClockReading reading = fit_.add(sample.device_ns, arrived_ns);
+    unusable_in_a_row_ = reading.verdict == ClockVerdict::Unusable ? unusable_in_a_row_ + 1 : 0;
     if (reading.verdict != ClockVerdict::Unusable) {
         sample.ready = {reading.host_ns, StampKind::Measured};
         sample.sampled = {reading.host_ns - delay_.least_ns, StampKind::Profile};
@@ -48,15 +49,23 @@ void SampleClock::stamp(std::uint64_t ticks, std::int64_t arrived_ns, gaze::Gaze
 }
 
 std::optional<std::string> SampleClock::take_change() {
-    const latency::ClockReading& reading = fit_.last();
+    if (told_ns_ && last_arrived_ns_ - *told_ns_ < kCalm_ns) {
+        return std::nullopt;
+    }
+    const bool set =
+        fit_.steps() != told_steps_ && fit_.trouble() != latency::ClockTrouble::Restless;
+    told_steps_ = fit_.steps();
+    const bool clear =
+        fit_.trouble() != latency::ClockTrouble::Settling || unusable_in_a_row_ >= kReadingsToTell;
     std::optional<std::string> text;
-    if (fit_.steps() != told_steps_) {
-        told_steps_ = fit_.steps();
+    if (set) {
         text = "clock: the tracker's clock was set";
-    } else if (told_verdict_ != reading.verdict &&
-               fit_.trouble() != latency::ClockTrouble::Settling) {
-        told_verdict_ = reading.verdict;
+    } else if (clear && told_verdict_ != fit_.last().verdict) {
+        told_verdict_ = fit_.last().verdict;
         text = describe(fit_);
+    }
+    if (text) {
+        told_ns_ = last_arrived_ns_;
     }
     return text;
 }

@@ -10,10 +10,14 @@
 
 namespace gazeloop::drivers {
 
-/// From a tracker's profile: from exposure to the host's read, when nothing is in the way.
+/// From exposure to the host's read.
 struct TrackerDelay {
-    std::int64_t least_ns = 0;
-    std::int64_t uncertainty_ns = 0;  ///< either way
+    std::int64_t least_ns = 0;        ///< from the profile: when nothing is in the way
+    std::int64_t uncertainty_ns = 0;  ///< of that, either way
+    /// From the bus: how often the host asks for samples. 0 where they come by themselves: those of
+    /// a virtual device; and of a bulk endpoint (the PSVR2's) with requests pending, which the
+    /// controller asks again and again in whatever time of the bus is left, at no fixed times.
+    std::int64_t polling_ns = 0;
 };
 
 /// "clock: good, within 0.12 ms, skew +48 ppm".
@@ -24,11 +28,11 @@ class SampleClock {
   public:
     /// The tracker's counter has `bits` (1 to 64) and ticks of `tick_ns` (> 0).
     SampleClock(std::uint32_t bits, double tick_ns, const TrackerDelay& delay)
-        : counter_(bits, tick_ns), delay_(delay) {}
+        : counter_(bits, tick_ns), delay_(delay), fit_(delay.polling_ns) {}
 
     /// Sets the times of a sample with that timestamp, in the order of arrival: device_ns, arrived,
     /// and, where the clock's verdict allows, ready (by the fitted clock), sampled (the profile's
-    /// delay before that, kind Profile) and the uncertainty of both together.
+    /// delay before that, kind Profile) and the uncertainty of both together with the polling's.
     void stamp(std::uint64_t ticks, std::int64_t arrived_ns, gaze::GazeSample& sample);
 
     /// How many reports are missing before the sample stamped last, where that is certain: after a
@@ -38,8 +42,14 @@ class SampleClock {
 
     [[nodiscard]] const latency::ClockFit& fit() const { return fit_; }
 
-    /// One line where the verdict is another than at the last call, or the clock was set.
+    /// One line where the verdict is another than the one told last, or the clock was set: of the
+    /// steps of a restless clock its verdict says enough. Why the age is unknown is told after
+    /// kReadingsToTell samples at the latest, whatever the trouble. No line for kCalm_ns after
+    /// another; what is still so then is told then.
     [[nodiscard]] std::optional<std::string> take_change();
+
+    static constexpr std::uint64_t kReadingsToTell = 100;
+    static constexpr std::int64_t kCalm_ns = 10'000'000'000;
 
   private:
     latency::TickCounter counter_;
@@ -49,6 +59,8 @@ class SampleClock {
     std::int64_t last_arrived_ns_ = 0;
     std::uint64_t queued_in_a_row_ = 0;
     std::uint64_t lost_ = 0;
+    std::uint64_t unusable_in_a_row_ = 0;
+    std::optional<std::int64_t> told_ns_;
     std::optional<latency::ClockVerdict> told_verdict_;
     std::uint64_t told_steps_ = 0;
 };

@@ -5,9 +5,11 @@
 #include <charconv>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "drivers/device/udev.h"
+#include "drivers/device/usb_polling.h"
 
 namespace gazeloop::drivers::hid {
 namespace {
@@ -30,6 +32,7 @@ std::uint16_t id_part(const std::string& hid_id, std::size_t begin) {
 }  // namespace
 
 std::vector<FoundTracker> find_trackers() {
+    constexpr std::string_view kUsbBus = "0003:";
     constexpr std::size_t kVendorBegin = 5;
     constexpr std::size_t kProductBegin = 14;
     std::vector<FoundTracker> trackers;
@@ -47,6 +50,7 @@ std::vector<FoundTracker> find_trackers() {
         tracker.device.vendor = id_part(id, kVendorBegin);
         tracker.device.product = id_part(id, kProductBegin);
         tracker.layout = find_eye_tracker(*descriptor);
+        tracker.polling_ns = id.starts_with(kUsbBus) ? usb_polling_ns(device.syspath) : 0;
         check_access(tracker.device, udev_rule(tracker.device.vendor, tracker.device.product));
         trackers.push_back(std::move(tracker));
     }

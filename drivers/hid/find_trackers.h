@@ -14,6 +14,9 @@ struct FoundTracker {
     FoundDevice device;
     /// What its descriptor says; an error where it is no good.
     Expected<EyeTrackerLayout> layout{};
+    /// How often the host asks it for reports; 0 where they come by themselves, or nobody knows (by
+    /// radio: their delay belongs to the profile).
+    std::int64_t polling_ns = 0;
 };
 
 /// The eye trackers that are plugged in, each once. Their descriptors come from sysfs, so that a

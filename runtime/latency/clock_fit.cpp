@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "runtime/latency/span.h"
 
@@ -90,13 +89,14 @@ ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
         held_ns_ = 0;
     }
     held_since_ns_ = arrived_ns;
-    const bool jumped = received_ > 1 && note_increment(increment_ns);
+    const bool jumped = received_ > 1 && note_increment(increment_ns, arrival_increment_ns);
     const bool jumped_once = jumped && regular_run_ >= kRecentIncrements;
     regular_run_ = jumped ? 0 : regular_run_ + 1;
 
     if (bucket_count_ > 0) {
         const double height = static_cast<double>(point.lag_ns) - line_.at(device_ns);
-        const double uncertainty = line_uncertainty_ns(device_ns) + tick_ns();
+        const double uncertainty =
+            line_uncertainty_ns(device_ns) + tick_ns() + static_cast<double>(polling_ns_);
         const bool judged = samples_ >= kFewestToJudge;
         if (judged && -height > std::max(kLeastEarly_ns, uncertainty)) {
             late_run_ = 0;
@@ -155,7 +155,7 @@ ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
 void ClockFit::restart(std::int64_t device_ns, std::int64_t arrived_ns) {
     const std::uint64_t steps = steps_;
     const auto step_times_ns = step_times_ns_;
-    *this = {};
+    *this = ClockFit(polling_ns_);
     steps_ = steps;
     step_times_ns_ = step_times_ns;
     started_ = true;
@@ -230,7 +230,7 @@ void ClockFit::fit() {
 }
 
 /// Takes an increment of the device's time; whether it is unlike those before.
-bool ClockFit::note_increment(std::int64_t increment_ns) {
+bool ClockFit::note_increment(std::int64_t increment_ns, std::int64_t arrival_increment_ns) {
     constexpr double kRegular = 0.1;
     if (increment_ns < 0) {
         return true;
@@ -243,9 +243,7 @@ bool ClockFit::note_increment(std::int64_t increment_ns) {
         irregular = std::abs(missed) * period > std::max(kRegular * period, tick_ns());
     }
     increments_[increment_count_++ % kRecentIncrements] = increment_ns;
-    increment_divisor_ns_ = std::gcd(increment_divisor_ns_, increment_ns);
-    least_increment_ns_ =
-        least_increment_ns_ == 0 ? increment_ns : std::min(least_increment_ns_, increment_ns);
+    ticks_.note(increment_ns, arrival_increment_ns);
     constexpr std::uint64_t kEnough = 5;
     if (increment_count_ >= kEnough) {
         const auto known = static_cast<std::ptrdiff_t>(
@@ -276,6 +274,7 @@ void ClockFit::step(std::size_t samples, std::int64_t arrived_ns) {
     if (span_ns >= kSlopeKnownAfter_ns) {
         bounds_ = {line_.slope - kSlopeAfterStep, line_.slope + kSlopeAfterStep};
     }
+    ticks_ = {};  // the step itself was no multiple of them
     bucket_count_ = 0;
     samples_ = 0;
     early_run_ = 0;
@@ -325,11 +324,7 @@ std::int64_t ClockFit::hold_ns() const {
 }
 
 double ClockFit::tick_ns() const {
-    const std::int64_t held = hold_ns();
-    // Timestamps that are all multiples of the least step may just be regular.
-    const std::int64_t divisor =
-        increment_divisor_ns_ < least_increment_ns_ ? increment_divisor_ns_ : 0;
-    return static_cast<double>(std::max(held, divisor));
+    return static_cast<double>(std::max(hold_ns(), ticks_.tick_ns()));
 }
 
 /// How high above the line even the lowest sample of the last second lies.
@@ -372,17 +367,21 @@ ClockReading ClockFit::judge(const Point& point, std::int64_t arrived_ns) {
     const double line = line_uncertainty_ns(point.device_ns);
     const double tick = tick_ns();
     const double late = height_of_last_second_ns();
-    const double uncertainty = line + tick + late;
-    trouble_ = uncertainty <= kGood_ns        ? ClockTrouble::None
-               : tick >= line && tick >= late ? ClockTrouble::CoarseTicks
-               : late >= line                 ? ClockTrouble::Late
-               : samples_ < kManySamples      ? ClockTrouble::Settling
-                                              : ClockTrouble::Jitter;
+    const auto polled = static_cast<double>(polling_ns_);
+    const double uncertainty = line + tick + late + polled;
+    const double most = std::max({line, tick, late, polled});
+    trouble_ = uncertainty <= kGood_ns   ? ClockTrouble::None
+               : tick >= most            ? ClockTrouble::CoarseTicks
+               : polled >= most          ? ClockTrouble::Polled
+               : late >= most            ? ClockTrouble::Late
+               : samples_ < kManySamples ? ClockTrouble::Settling
+                                         : ClockTrouble::Jitter;
     if (uncertainty > kCoarse_ns) {
         return unknown(trouble_);
     }
     const __int128 host = static_cast<__int128>(point.device_ns) + offset_ +
-                          static_cast<__int128>(std::round(line_.at(point.device_ns)));
+                          static_cast<__int128>(std::round(line_.at(point.device_ns))) -
+                          polling_ns_ / 2;
     return {.host_ns = std::min(saturated(host), arrived_ns),
             .uncertainty_ns = std::llround(uncertainty),
             .verdict = uncertainty <= kGood_ns ? ClockVerdict::Good : ClockVerdict::Coarse};

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "runtime/latency/timestamp_ticks.h"
+
 namespace gazeloop::latency {
 
 /// What a device's timestamps are worth.
@@ -21,12 +23,13 @@ enum class ClockTrouble : std::uint8_t {
     Settling,     ///< too few samples yet, or just after a step
     StandsStill,  ///< several samples bear the same timestamp
     CoarseTicks,  ///< timestamps are multiples of something long
+    Polled,       ///< the host asks for samples seldom
     Restless,     ///< it steps again and again: set back, or at another rate than it claims
     Late,         ///< samples arrive ever later, or the clock is too slow: which, nobody knows
     Jitter,       ///< too much of it for the number of samples
 };
-inline constexpr std::array<std::string_view, 7> kClockTroubleNames{
-    "none",     "settling", "timestamps stand still", "coarse ticks",
+inline constexpr std::array<std::string_view, 8> kClockTroubleNames{
+    "none",     "settling", "timestamps stand still", "coarse ticks", "polled",
     "restless", "late",     "delivery jitter"};
 
 /// One sample's time.
@@ -55,8 +58,17 @@ struct ClockReading {
 /// for exponential jitter), and from the heights of the k lowest points above it as their mean (by
 /// their median) over k. The larger one times kConfidence is the uncertainty of the line where its
 /// points are; beyond them that of its slope is added, which is never more than crystals are off.
-/// Then come the length of a tick, and by how much everything of the last second was late. On
-/// simulated clocks at most 1 % of the readings lie outside (tests).
+/// Then come the length of a tick (timestamp_ticks.h), and by how much everything of the last
+/// second was late. On simulated clocks whose delays vary at random from sample to sample at most 1
+/// % of the readings lie outside (tests).
+///
+/// Delays that do not vary at random are another matter. A host that asks for samples at fixed
+/// times delays each by what is left until it asks again: a sawtooth that repeats only with the
+/// beat of both periods, for minutes perhaps, and that nobody can tell from skew. The line then
+/// runs anywhere between 0 and the polling interval above the truth, and where it follows a fall of
+/// the sawtooth that is over, by up to 0.4 of it below (simulated). So half the interval is taken
+/// off the time, and all of it added to the uncertainty, and to what is early or late. That
+/// interval has to be known from elsewhere: with 1 ms of it no clock is good.
 ///
 /// Of samples that had piled up before the first one was read only the last counts.
 ///
@@ -80,6 +92,9 @@ class ClockFit {
   public:
     /// Greatest skew that is believed, as a ratio: crystals are good to 100 ppm.
     static constexpr double kGreatestSkew = 500e-6;
+
+    /// The host asks for samples each `polling_ns` (0: they come by themselves).
+    explicit ClockFit(std::int64_t polling_ns = 0) : polling_ns_(polling_ns) {}
 
     /// A sample of the device's clock, and when it had arrived, in the order of arrival.
     ClockReading add(std::int64_t device_ns, std::int64_t arrived_ns);
@@ -130,7 +145,7 @@ class ClockFit {
     void restart(std::int64_t device_ns, std::int64_t arrived_ns);
     void take(const Point& point);
     void fit();
-    [[nodiscard]] bool note_increment(std::int64_t increment_ns);
+    [[nodiscard]] bool note_increment(std::int64_t increment_ns, std::int64_t arrival_increment_ns);
     void note_hold(std::int64_t increment_ns, std::int64_t arrived_ns);
     void step(std::size_t samples, std::int64_t arrived_ns);
     [[nodiscard]] double line_uncertainty_ns(std::int64_t device_ns) const;
@@ -143,6 +158,7 @@ class ClockFit {
     [[nodiscard]] ClockReading unknown(ClockTrouble trouble);
     [[nodiscard]] const Point& recent(std::size_t back) const;
 
+    std::int64_t polling_ns_;
     bool started_ = false;
     __int128 offset_ = 0;  ///< arrival - device time of the first sample
     std::int64_t last_device_ns_ = 0;
@@ -165,10 +181,9 @@ class ClockFit {
 
     std::array<std::int64_t, kRecentIncrements> increments_{};  ///< ring
     std::uint64_t increment_count_ = 0;
-    std::size_t regular_run_ = 0;            ///< increments like those before, in a row
-    std::int64_t period_ns_ = 0;             ///< their median
-    std::int64_t increment_divisor_ns_ = 0;  ///< greatest common one
-    std::int64_t least_increment_ns_ = 0;
+    std::size_t regular_run_ = 0;  ///< increments like those before, in a row
+    std::int64_t period_ns_ = 0;   ///< their median
+    TimestampTicks ticks_;
     std::int64_t held_since_ns_ = 0;                 ///< arrival of the first with this timestamp
     std::int64_t held_ns_ = 0;                       ///< 0: the last timestamp was a new one
     std::array<std::int64_t, 2> longest_hold_ns_{};  ///< of these and the 8 s before

@@ -22,7 +22,8 @@ void require(bool held) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace gazeloop::latency;
-    ClockFit clock;
+    constexpr std::int64_t kPollingUnit_ns = 100'000;
+    ClockFit clock(size > 0 ? data[size - 1] * kPollingUnit_ns : 0);
     std::int64_t device_ns = 0;
     std::int64_t arrived_ns = 1'000'000'000'000;
     // Two bytes a sample: what both clocks advance by; the lowest bits choose a scale.

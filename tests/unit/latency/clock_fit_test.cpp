@@ -12,54 +12,10 @@
 
 #include "sim/random.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/unit/latency/simulated_tracker.h"
 
 namespace gazeloop::latency {
 namespace {
-
-constexpr double kMs = 1e6;
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-/// The host's clock at the start, and the device's: far apart.
-constexpr std::int64_t kHost_ns = 5'000'000 * kSecond_ns;
-constexpr std::int64_t kDevice_ns = 77 * kSecond_ns;
-constexpr double kLeastDelay_ns = 3.0 * kMs;
-
-enum class Jitter { None, Uniform, Exponential };
-
-/// A tracker with a clock of its own whose truth is known.
-struct SimulatedTracker {
-    double rate_hz = 120.0;
-    double skew_ppm = 50.0;  ///< its second is too short by this
-    Jitter jitter = Jitter::Exponential;
-    double jitter_ns = 1.0 * kMs;  ///< uniform: greatest, exponential: mean
-    std::uint64_t seed = 1;
-
-    sim::Random random{seed, sim::Stream::Jitter};
-    std::int64_t sample = 0;
-    double step_ns = 0.0;  ///< of its clock so far
-    double previous_arrival_ns = 0.0;
-
-    struct Report {
-        std::int64_t taken_ns = 0;  ///< host time, the truth
-        std::int64_t device_ns = 0;
-        std::int64_t arrived_ns = 0;
-    };
-
-    Report next() {
-        const double true_ns = static_cast<double>(sample++) * 1e9 / rate_hz;
-        const double jitter_now = jitter == Jitter::None      ? 0.0
-                                  : jitter == Jitter::Uniform ? random.uniform(0.0, jitter_ns)
-                                                              : random.exponential(jitter_ns);
-        // Reports do not overtake each other.
-        previous_arrival_ns = std::max(previous_arrival_ns, true_ns + kLeastDelay_ns + jitter_now);
-        return {kHost_ns + std::llround(true_ns),
-                kDevice_ns + std::llround(true_ns * (1.0 - skew_ppm * 1e-6) + step_ns),
-                kHost_ns + std::llround(previous_arrival_ns)};
-    }
-};
-
-double error_ns(const ClockReading& reading, const SimulatedTracker::Report& report) {
-    return static_cast<double>(reading.host_ns - report.taken_ns) - kLeastDelay_ns;
-}
 
 double percentile(std::vector<double> values, double percent) {
     const auto at =
