@@ -6,6 +6,7 @@
 
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/head_motion.h"
+#include "runtime/gaze/seen_depth.h"
 
 namespace gazeloop::drivers {
 
@@ -27,6 +28,11 @@ class GazeSource {
     /// Appends every sample that has arrived by `now_ns` (host time) and was not handed over yet,
     /// in the order of arrival. Never blocks.
     virtual void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) = 0;
+
+    /// How far away it was around the foveae of the newest frame that the GPU has finished, some
+    /// frames ago: for sources that know one ray for both eyes and must find where they meet. A
+    /// frame's gaze is recorded as it was split, so that a replay needs no depth.
+    virtual void see(const gaze::SeenDepth& /*seen*/) {}
 
     /// What happened since the last call: devices that came and went, changes of status and clock.
     [[nodiscard]] virtual std::vector<SourceEvent> take_events() { return {}; }

@@ -256,6 +256,7 @@ class FrameLoop {
             for (FrameObserver* const observer : parts_.observers) {
                 observer->on_gpu(*finished);
             }
+            source_->see(parts_.renderer.seen_depth());
         }
     }
 

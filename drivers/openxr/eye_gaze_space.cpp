@@ -51,13 +51,13 @@ bool EyeGazeSpace::active() const {
     return state.isActive == XR_TRUE;
 }
 
-LocatedGaze EyeGazeSpace::locate(XrTime time) const {
+std::optional<LocatedGaze> EyeGazeSpace::locate(XrTime time) const {
     auto sample = typed<XrEyeGazeSampleTimeEXT>(XR_TYPE_EYE_GAZE_SAMPLE_TIME_EXT);
     auto location = typed<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
     location.next = &sample;
     const XrResult result = xrLocateSpace(space_, session_.view_space(), time, &location);
     if (result == XR_ERROR_TIME_INVALID) {
-        return {};
+        return std::nullopt;
     }
     xr_check_session(result, "xrLocateSpace");
     LocatedGaze located{

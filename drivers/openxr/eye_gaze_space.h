@@ -32,7 +32,8 @@ class EyeGazeSpace {
     /// The interaction profile that the runtime has bound to the eyes; XR_NULL_PATH: none.
     [[nodiscard]] XrPath bound_profile() const;
     [[nodiscard]] bool active() const;
-    [[nodiscard]] LocatedGaze locate(XrTime time) const;
+    /// None where the runtime has no pose for that time, whether or not it sees the eyes.
+    [[nodiscard]] std::optional<LocatedGaze> locate(XrTime time) const;
     /// Where the eyes are in VIEW space; none where the runtime does not know.
     [[nodiscard]] std::optional<gaze::PerEye<glm::dvec3>> eyes_m(XrTime time) const;
 

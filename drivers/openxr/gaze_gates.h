@@ -27,13 +27,15 @@ inline constexpr std::size_t kGazeGateCount = 7;
 inline constexpr std::array<std::string_view, kGazeGateCount> kGazeGateNames{
     "extension", "system", "binding", "focus", "active", "pose", "sample_time"};
 
-/// "extension listed", and what opens the gate where it is shut.
+/// "extension listed", and what opens the gate where it is shut for no special reason.
 [[nodiscard]] std::string_view describe(GazeGate gate);
 [[nodiscard]] std::string_view remedy(GazeGate gate);
 
 struct GateState {
     bool open = false;
-    std::string_view found;  ///< in words; outlives everything (a literal)
+    // In words, which outlive everything (literals).
+    std::string_view found;
+    std::string_view remedy{};  ///< empty: the gate's own
 
     friend bool operator==(const GateState&, const GateState&) = default;
 };

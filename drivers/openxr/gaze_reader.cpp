@@ -1,6 +1,7 @@
 #include "drivers/openxr/gaze_reader.h"
 
 #include "runtime/gaze/direction.h"
+#include "runtime/gaze/fixation.h"
 #include "runtime/latency/span.h"
 
 namespace gazeloop::drivers {
@@ -20,6 +21,13 @@ std::optional<gaze::GazeSample> GazeReader::take(const GazeAnswer& answer, GazeG
          "no eye gaze profile is in force");
     if (!pass(GazeGate::Active, answer.active, "the runtime tracks the eyes",
               "no tracking: not worn, not allowed, or not calibrated")) {
+        return lost(now_ns, false);
+    }
+    if (!answer.in_time) {
+        gates.set(GazeGate::Pose,
+                  {false, "the runtime has none for this time: its clock, not the eyes, is why",
+                   "restart the runtime; where it stays so, its clock is at fault"},
+                  now_ns);
         return lost(now_ns, false);
     }
     if (!answer.valid) {
@@ -67,18 +75,52 @@ std::optional<gaze::GazeSample> GazeReader::take(const GazeAnswer& answer, GazeG
     }
     gaze::GazeSample sample = next(now_ns);
     sample.sampled = time->sampled;
-    sample.eyes =
-        gaze::eye_rays({answer.pose->position_m, answer.pose->orientation * gaze::kStraightAhead},
-                       eyes_m_, distance_m_);
+    split(sample, distance_m_, {});
     for (gaze::EyeRay& ray : sample.eyes) {
         ray.confidence = answer.tracked ? -1.0 : 0.0;
     }
-    sample.parallax_rad = gaze::parallax_error_rad(eyes_m_, distance_m_, gaze::kNearestContent_m);
     return sample;
+}
+
+/// Of the last sample with gaze.
+gaze::CombinedGaze GazeReader::combined() const {
+    return {last_pose_->position_m, last_pose_->orientation * gaze::kStraightAhead};
+}
+
+/// What rays a sample has, and how far off they may be; what else is said of the eyes stays.
+void GazeReader::split(gaze::GazeSample& sample, double distance_m,
+                       const gaze::DistanceRange& range) const {
+    const gaze::PerEye<gaze::EyeRay> rays = gaze::eye_rays(combined(), eyes_m_, distance_m);
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        sample.eyes[e].origin_m = rays[e].origin_m;
+        sample.eyes[e].direction = rays[e].direction;
+        sample.eyes[e].valid = rays[e].valid;
+    }
+    sample.parallax_rad = gaze::parallax_error_rad(eyes_m_, distance_m, range);
+}
+
+void GazeReader::meet_at_depth(gaze::GazeSample& sample, const std::optional<gaze::Pose>& head,
+                               const gaze::SeenDepth& seen) {
+    if (!last_pose_) {
+        return;
+    }
+    const gaze::CombinedGaze in_head = combined();
+    std::optional<gaze::Fixation> fixation;
+    if (head) {
+        fixation =
+            gaze::find_fixation({gaze::transform_point(*head, gaze::in_the_head(in_head.origin_m)),
+                                 head->orientation * in_head.direction},
+                                seen);
+    }
+    const double nearness =
+        vergence_.follow(fixation ? std::optional(fixation->nearness) : std::nullopt,
+                         1.0 / distance_m_, in_head.direction, sample.arrived.ns);
+    split(sample, 1.0 / nearness, fixation ? fixation->range : gaze::DistanceRange{});
 }
 
 std::optional<gaze::GazeSample> GazeReader::lost(std::int64_t now_ns, bool sees_no_eyes) {
     last_pose_.reset();
+    vergence_.forget();
     pose_time_ = 0;
     if (told_loss_ && !sees_no_eyes) {
         return std::nullopt;

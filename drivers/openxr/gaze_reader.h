@@ -6,6 +6,8 @@
 #include "drivers/openxr/gaze_gates.h"
 #include "drivers/openxr/sample_time.h"
 #include "runtime/gaze/combined_gaze.h"
+#include "runtime/gaze/seen_depth.h"
+#include "runtime/gaze/vergence.h"
 
 namespace gazeloop::drivers {
 
@@ -14,6 +16,7 @@ struct GazeAnswer {
     bool focused = false;
     bool bound = false;
     bool active = false;
+    bool in_time = false;            ///< the runtime has poses for the time that was asked for
     bool valid = false;              ///< of the pose, as the runtime says
     bool tracked = false;            ///< false with valid: sub-nominal
     std::optional<gaze::Pose> pose;  ///< in the head frame; none: not valid, or not a pose
@@ -23,7 +26,7 @@ struct GazeAnswer {
 /// Makes samples of a runtime's answers, in their order. Pure.
 class GazeReader {
   public:
-    /// The eyes' rays meet at `distance_m` (gaze::eye_rays).
+    /// The eyes' rays meet at `distance_m` (gaze::eye_rays), but where meet_at_depth() knows more.
     explicit GazeReader(double distance_m) : distance_m_(distance_m) {}
 
     /// Where the eyes are in the head, from here on; ignored where one is no place in a head.
@@ -42,6 +45,13 @@ class GazeReader {
     /// gaze.minimum_confidence to 0.
     [[nodiscard]] std::optional<gaze::GazeSample> take(const GazeAnswer& answer, GazeGates& gates);
 
+    /// Lets the rays of the sample that take() returned last meet where they meet what is seen
+    /// (gaze/fixation.h), as fast as eyes follow (gaze/vergence.h), and states what error that
+    /// leaves. `head`: in the world that `seen` is in, at the pose's time. None where it is not
+    /// known: the distance is assumed then. A sample without gaze stays as it is.
+    void meet_at_depth(gaze::GazeSample& sample, const std::optional<gaze::Pose>& head,
+                       const gaze::SeenDepth& seen);
+
     /// Of the sample returned last: what time its pose is for, on the runtime's time line; 0:
     /// unknown.
     [[nodiscard]] std::int64_t pose_time() const { return pose_time_; }
@@ -52,6 +62,8 @@ class GazeReader {
 
     [[nodiscard]] std::optional<gaze::GazeSample> lost(std::int64_t now_ns, bool sees_no_eyes);
     [[nodiscard]] gaze::GazeSample next(std::int64_t now_ns);
+    void split(gaze::GazeSample& sample, double distance_m, const gaze::DistanceRange& range) const;
+    [[nodiscard]] gaze::CombinedGaze combined() const;
 
     double distance_m_;
     /// Half of the mean distance between adults' pupils to each side (Dodgson 2004: 63 mm), until
@@ -64,6 +76,7 @@ class GazeReader {
     std::int64_t last_given_ = 0;
     std::int64_t advanced_ns_ = 0;  ///< when a newer time came, in host time
     bool told_loss_ = true;
+    gaze::Vergence vergence_;
 };
 
 }  // namespace gazeloop::drivers

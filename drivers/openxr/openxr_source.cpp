@@ -10,7 +10,7 @@
 namespace gazeloop::drivers {
 
 OpenXrSource::OpenXrSource(const openxr::Session& session, const OpenXrGazeOptions& options)
-    : session_(session), distance_m_(options.distance_m), reader_(options.distance_m) {
+    : session_(session), options_(options), reader_(options.distance_m) {
     const openxr::Instance& instance = session.instance();
     if (!check_instance_gates(instance.handle(), instance.system(), instance.has(kEyeGazeExtension),
                               gates_)) {
@@ -34,7 +34,8 @@ void OpenXrSource::refuse() const {
 }
 
 void OpenXrSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) {
-    auto sample = reader_.take(ask(now_ns), gates_);
+    const GazeAnswer answer = ask(now_ns);
+    auto sample = reader_.take(answer, gates_);
     if (!sample) {
         return;
     }
@@ -42,7 +43,18 @@ void OpenXrSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samp
     if (reader_.pose_time() != 0) {
         sample->head = session_.head_at(reader_.pose_time());
     }
+    if (options_.from_depth && sample->eyes[0].valid) {
+        reader_.meet_at_depth(
+            *sample, reader_.pose_time() != 0 ? sample->head : session_.head_at(answer.time.asked),
+            seen_);
+    }
     samples.push_back(*sample);
+}
+
+void OpenXrSource::see(const gaze::SeenDepth& seen) {
+    if (options_.from_depth) {
+        seen_ = seen;
+    }
 }
 
 GazeAnswer OpenXrSource::ask(std::int64_t now_ns) {
@@ -65,25 +77,29 @@ GazeAnswer OpenXrSource::ask(std::int64_t now_ns) {
     if (const auto eyes_m = space_->eyes_m(*asked)) {
         reader_.place_eyes(*eyes_m);
     }
-    const LocatedGaze located = space_->locate(*asked);
-    answer.valid = located.valid;
-    answer.tracked = located.tracked;
-    answer.pose = located.pose;
-    answer.time.given = located.time;
+    const auto located = space_->locate(*asked);
+    if (!located) {
+        return answer;
+    }
+    answer.in_time = true;
+    answer.valid = located->valid;
+    answer.tracked = located->tracked;
+    answer.pose = located->pose;
+    answer.time.given = located->time;
     answer.time.asked = *asked;
-    if (located.time > 0) {
-        answer.time.host_ns = session_.clock().host_ns(located.time);
+    if (located->time > 0) {
+        answer.time.host_ns = session_.clock().host_ns(located->time);
     }
     return answer;
 }
 
 std::string OpenXrSource::description() const {
-    const double error_rad =
-        gaze::parallax_error_rad(reader_.eyes_m(), distance_m_, gaze::kNearestContent_m);
+    const double error_rad = gaze::parallax_error_rad(reader_.eyes_m(), options_.distance_m, {});
     return fmt::format(
-        "OpenXR eye gaze of {} ({}), one ray for both eyes: they meet at {} m, at most {:.1f} deg "
-        "off for anything from {} m on",
-        session_.instance().system_name(), session_.instance().runtime_name(), distance_m_,
+        "OpenXR eye gaze of {} ({}), one ray for both eyes: they meet {}at {} m, at most {:.1f} "
+        "deg off for anything from {} m on",
+        session_.instance().system_name(), session_.instance().runtime_name(),
+        options_.from_depth ? "where the last frame's depth says, else " : "", options_.distance_m,
         glm::degrees(error_rad), gaze::kNearestContent_m);
 }
 

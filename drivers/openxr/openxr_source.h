@@ -11,6 +11,8 @@ inline constexpr const char* kEyeGazeExtension = XR_EXT_EYE_GAZE_INTERACTION_EXT
 
 struct OpenXrGazeOptions {
     double distance_m = 1.5;  ///< where the eyes' rays meet, see gaze::eye_rays
+    /// But where the depth that see() is told says where: find_fixation of gaze/fixation.h.
+    bool from_depth = false;
 };
 
 /// The eye gaze of an OpenXR runtime (XR_EXT_eye_gaze_interaction): one ray for both eyes. It is
@@ -23,6 +25,7 @@ class OpenXrSource final : public GazeSource {
 
     /// Throws SetupError (SessionLost) when the runtime is gone.
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;
+    void see(const gaze::SeenDepth& seen) override;
     [[nodiscard]] std::vector<SourceEvent> take_events() override { return gates_.take_events(); }
     [[nodiscard]] std::string description() const override;
 
@@ -33,7 +36,8 @@ class OpenXrSource final : public GazeSource {
     [[nodiscard]] GazeAnswer ask(std::int64_t now_ns);
 
     const openxr::Session& session_;
-    double distance_m_;
+    OpenXrGazeOptions options_;
+    gaze::SeenDepth seen_;
     GazeGates gates_;
     GazeReader reader_;
     std::optional<EyeGazeAction> action_;

@@ -30,7 +30,11 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
     request.settings = &settings;
     request.command_line = command_line;
     if (command.gaze == "openxr") {
-        request.openxr_gaze = {.distance_m = settings.values().gaze.fixation_distance_m};
+        const SettingValues& values = settings.values();
+        // Full resolution does not depend on where the foveae are: it keeps no depth for them.
+        request.openxr_gaze = {
+            .distance_m = values.gaze.fixation_distance_m,
+            .from_depth = values.gaze.fixation_from_depth && values.render.method != "full"};
     } else {
         request.make_source =
             value_or_throw(gaze_source_named(command.gaze, tracker, settings.values()));

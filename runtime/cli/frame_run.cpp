@@ -313,6 +313,7 @@ class FrameRun {
                 .depth_format = target_->depth_format().value_or(vk::Format::eUndefined),
                 .profile = values_.render.profile,
                 .hash = request_.hash,
+                .seen_depth = request_.openxr_gaze && request_.openxr_gaze->from_depth,
                 .frames_in_flight = static_cast<std::uint32_t>(values_.render.frames_in_flight),
                 .lp_background = std::nullopt};
     }

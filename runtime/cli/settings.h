@@ -32,6 +32,7 @@ struct SettingValues {
         double return_ms = 150.0;
         double minimum_confidence = 0.6;
         double fixation_distance_m = 1.5;
+        bool fixation_from_depth = true;
     } gaze;
     struct {
         double eye_distance_m = 0.063;

@@ -22,7 +22,9 @@ Findings eye_gaze_findings(const drivers::GazeGates& gates) {
         finding.verdict = state->open ? Verdict::Ok : Verdict::Warning;
         finding.found = fmt::format("{}: {} ({})", drivers::describe(gate),
                                     state->open ? "yes" : "no", state->found);
-        finding.remedy = state->open ? "" : drivers::remedy(gate);
+        finding.remedy = state->open             ? ""
+                         : state->remedy.empty() ? drivers::remedy(gate)
+                                                 : state->remedy;
         shut_before = shut_before || !state->open;
     }
     return findings;

@@ -9,10 +9,6 @@
 namespace gazeloop::gaze {
 namespace {
 
-glm::dvec3 in_the_head(const glm::dvec3& place_m) {
-    return is_in_the_head(place_m) ? place_m : glm::dvec3{0.0};
-}
-
 double meeting_m(double distance_m) {
     return distance_m >= kLeastMeeting_m ? distance_m : kLeastMeeting_m;
 }
@@ -21,6 +17,10 @@ double meeting_m(double distance_m) {
 
 bool is_in_the_head(const glm::dvec3& place_m) {
     return is_finite(place_m) && glm::length(place_m) <= kFarthestEye_m;
+}
+
+glm::dvec3 in_the_head(const glm::dvec3& place_m) {
+    return is_in_the_head(place_m) ? place_m : glm::dvec3{0.0};
 }
 
 PerEye<EyeRay> eye_rays(const CombinedGaze& gaze, const PerEye<glm::dvec3>& eyes_m,
@@ -42,19 +42,22 @@ PerEye<EyeRay> eye_rays(const CombinedGaze& gaze, const PerEye<glm::dvec3>& eyes
     return rays;
 }
 
-double parallax_error_rad(const PerEye<glm::dvec3>& eyes_m, double distance_m, double nearest_m) {
-    if (!is_in_the_head(eyes_m[0]) || !is_in_the_head(eyes_m[1])) {
+double parallax_error_rad(const PerEye<glm::dvec3>& eyes_m, double distance_m,
+                          const DistanceRange& range) {
+    if (!is_in_the_head(eyes_m[0]) || !is_in_the_head(eyes_m[1]) || !(range.nearest_m > 0.0)) {
         return std::numbers::pi;
     }
     const double half_m = glm::length(eyes_m[0] - eyes_m[1]) / 2.0;
     const double at_distance = 1.0 / meeting_m(distance_m);
-    const double at_nearest = 1.0 / nearest_m;
-    const double u = half_m * std::max(at_nearest, at_distance);
-    if (u >= 1.0) {
+    const double one_end = 1.0 / range.nearest_m;
+    const double other_end = range.farthest_m > 0.0 ? 1.0 / range.farthest_m : 0.0;
+    const auto [least, greatest] = std::minmax(one_end, other_end);
+    const double u = half_m * std::max(greatest, at_distance);
+    if (!(u < 1.0)) {
         return std::numbers::pi;
     }
     const double error_rad =
-        half_m / (1.0 - u * u) * std::max(at_nearest - at_distance, at_distance);
+        half_m / (1.0 - u * u) * std::max(greatest - at_distance, at_distance - least);
     return std::min(error_rad, std::numbers::pi);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "runtime/gaze/gaze_sample.h"
 
 namespace gazeloop::gaze {
@@ -27,17 +29,27 @@ inline constexpr double kLeastMeeting_m = 0.05;
 [[nodiscard]] bool is_in_the_head(const glm::dvec3& place_m);
 inline constexpr double kFarthestEye_m = 0.25;
 
+/// The position, or the head's own origin where it is no place in the head.
+[[nodiscard]] glm::dvec3 in_the_head(const glm::dvec3& place_m);
+
+/// Between which distances something is; `farthest_m` may be infinite.
+struct DistanceRange {
+    double nearest_m = kNearestContent_m;
+    double farthest_m = std::numeric_limits<double>::infinity();
+};
+
 /// By how much an eye may look elsewhere than `eye_rays` says, because what it looks at is not
-/// `distance_m` away but anything from `nearest_m` to infinity. An eye at h, half the distance
-/// between the eyes, turns by phi to see a point at z. With u = h / z and the gaze at an angle t to
-/// straight ahead, dphi / du = cos t / (1 - 2 u sin t + u^2), which is at most 1 / (1 - u^2) for
-/// any t, so that with the greatest u of the range
+/// `distance_m` away but anything of a range, which need not hold `distance_m`. An eye at h, half
+/// the distance between the eyes, turns by phi to see a point at z. With u = h / z and the gaze at
+/// an angle t to straight ahead, dphi / du = cos t / (1 - 2 u sin t + u^2), which is at most
+/// 1 / (1 - u^2) for any t, so that with the greatest u of range and distance
 ///
-///     error <= h / (1 - u^2) max(1 / nearest - 1 / distance, 1 / distance)
+///     error <= h / (1 - u^2) max(1 / nearest - 1 / distance, 1 / distance - 1 / farthest)
 ///
-/// Radians; pi where u is 1 or more, or an eye is no place in the head. Preconditions: as eye_rays,
-/// for an origin midway between the eyes; nearest_m > 0.
+/// Radians; pi where u is 1 or more, or an eye is no place in the head. A nearest distance that is
+/// not a number, zero or less says nothing: pi; a farthest one like that counts as infinite.
+/// Preconditions: as eye_rays, for an origin midway between the eyes.
 [[nodiscard]] double parallax_error_rad(const PerEye<glm::dvec3>& eyes_m, double distance_m,
-                                        double nearest_m);
+                                        const DistanceRange& range);
 
 }  // namespace gazeloop::gaze

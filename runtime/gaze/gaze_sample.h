@@ -31,7 +31,8 @@ struct GazeSample {
     std::optional<std::int64_t> uncertainty_ns;  ///< of `sampled`, either way, where it is known
     PerEye<EyeRay> eyes;
     /// How far off a direction may be because the tracker gives one ray for both eyes and how far
-    /// away they look was assumed (gaze/combined_gaze.h); none where each eye has its own.
+    /// away they look was assumed, or read from an earlier frame's depth (gaze/combined_gaze.h);
+    /// none where each eye has its own.
     std::optional<double> parallax_rad;
     std::optional<Pose> head;  ///< head in world at `sampled`, where known
 };

@@ -12,6 +12,7 @@
 
 #include "runtime/error.h"
 #include "runtime/render/eye_uniforms.h"
+#include "runtime/render/fovea_depth.h"
 #include "runtime/render/pipelines.h"
 
 namespace gazeloop::render {
@@ -102,6 +103,7 @@ struct FrameRenderer::EyeSlot {
     HostBuffer uniforms;
     HostBuffer bands;
     HostBuffer pixels;  ///< for hashing
+    std::optional<FoveaDepth> depth;
     vk::raii::DescriptorSet set{nullptr};
 };
 
@@ -114,7 +116,7 @@ struct FrameRenderer::Slot {
     vk::raii::QueryPool queries{nullptr};
     std::uint32_t segments = 0;
     std::array<std::optional<Pass>, kMaxSegments> segment_pass;
-    std::uint32_t timed_segments = 0;  ///< the copies for hashing are no part of the frame's time
+    std::uint32_t timed_segments = 0;  ///< what is read back is no part of the frame's time
     std::uint64_t frame_index = 0;
 
     [[nodiscard]] const vk::raii::CommandBuffer& commands() const { return buffers[segments - 1]; }
@@ -215,6 +217,9 @@ void FrameRenderer::make_slots() {
                 at.pixels = HostBuffer(
                     *context_, vk::DeviceSize{extent.width} * extent.height * kBytesPerPixel,
                     vk::BufferUsageFlagBits::eTransferDst);
+            }
+            if (keeps_depth()) {
+                at.depth.emplace(*context_, config_.extents[gaze::index(eye)]);
             }
         }
         slots_.push_back(std::move(slot));
@@ -343,7 +348,7 @@ latency::SampleCounts FrameRenderer::render(const FrameRequest& request) {
         record_log_polar(slot, request);
     }
     slot.timed_segments = slot.segments;
-    if (config_.hash) {
+    if (config_.hash || keeps_depth()) {
         record_copies(slot, request);
     }
     end_segments(slot);
@@ -475,8 +480,28 @@ void FrameRenderer::draw_resolve(const Slot& slot, const foveation::SamplingPlan
     draw_tiles(commands, plan.disc_tiles, 0);
 }
 
+/// What the host reads of the frame.
 void FrameRenderer::record_copies(Slot& slot, const FrameRequest& request) {
     begin_segment(slot, std::nullopt);
+    if (config_.hash) {
+        record_picture_copies(slot, request);
+    }
+    if (keeps_depth()) {
+        record_depth_copies(slot, request);
+    }
+    const vk::MemoryBarrier2 to_host(Stage::eCopy, Access::eTransferWrite, Stage::eHost,
+                                     Access::eHostRead);
+    slot.commands().pipelineBarrier2(vk::DependencyInfo({}, to_host));
+}
+
+void FrameRenderer::record_depth_copies(Slot& slot, const FrameRequest& request) {
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        slot.eyes[e].depth->record(slot.commands(), eyes_[e]->direct_buffer().image(),
+                                   request.views[e], request.foveae[e], plans_[e].disc_bands);
+    }
+}
+
+void FrameRenderer::record_picture_copies(Slot& slot, const FrameRequest& request) {
     const vk::raii::CommandBuffer& commands = slot.commands();
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
@@ -495,9 +520,6 @@ void FrameRenderer::record_copies(Slot& slot, const FrameRequest& request) {
                               Stage::eCopy, Access::eNone, Stage::eColorAttachmentOutput,
                               Access::eColorAttachmentRead | Access::eColorAttachmentWrite));
     }
-    const vk::MemoryBarrier2 to_host(Stage::eCopy, Access::eTransferWrite, Stage::eHost,
-                                     Access::eHostRead);
-    commands.pipelineBarrier2(vk::DependencyInfo({}, to_host));
 }
 
 void FrameRenderer::submit(Slot& slot) {
@@ -546,6 +568,11 @@ latency::FrameGpuRecord FrameRenderer::collect(Slot& slot) {
             XXH3_64bits_update(&state, pixels.data(), pixels.size());
         }
         record.pixel_hash = XXH3_64bits_digest(&state);
+    }
+    if (keeps_depth()) {
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            slot.eyes[e].depth->collect(seen_depth_[e]);
+        }
     }
     return record;
 }

@@ -10,6 +10,7 @@
 
 #include "runtime/foveation/hidden_area.h"
 #include "runtime/foveation/sampling_plan.h"
+#include "runtime/gaze/seen_depth.h"
 #include "runtime/gaze/view.h"
 #include "runtime/latency/frame_record.h"
 #include "runtime/render/gpu_clock.h"
@@ -31,6 +32,7 @@ struct RendererConfig {
     vk::Format depth_format = vk::Format::eUndefined;
     bool profile = true;                 ///< a submit and a pair of timestamps for each pass
     bool hash = false;                   ///< read every picture back and hash it
+    bool seen_depth = false;             ///< read back how far away it is around the foveae
     std::uint32_t frames_in_flight = 2;  ///< [1, 3]
     /// Radiance that texels outside the plan hold; unset: anything, since no pixel reads them.
     std::optional<std::array<float, 4>> lp_background;
@@ -96,12 +98,19 @@ class FrameRenderer {
     /// anything.
     [[nodiscard]] const LogPolarEye* log_polar_eye(gaze::Eye eye) const;
     [[nodiscard]] const foveation::SamplingPlan& last_plan(gaze::Eye eye) const;
+    /// How far away it was around the foveae, in the frame that next_finished() returned last.
+    /// Patches are empty where the configuration does not ask for them, and where no pixel was
+    /// shaded directly at the fovea: off screen, without a disc, by Method::Full.
+    [[nodiscard]] const gaze::SeenDepth& seen_depth() const { return seen_depth_; }
     [[nodiscard]] std::uint64_t clock_deviation_ns() const { return clock_.max_deviation_ns(); }
 
   private:
     struct EyeSlot;
     struct Slot;
 
+    [[nodiscard]] bool keeps_depth() const {
+        return config_.seen_depth && config_.method != Method::Full;
+    }
     void make_slots();
     void put_eye(std::size_t eye, std::unique_ptr<LogPolarEye> made);
     void begin_segment(Slot& slot, std::optional<latency::Pass> pass);
@@ -115,6 +124,8 @@ class FrameRenderer {
     void record_full(Slot& slot, const FrameRequest& request);
     void record_log_polar(Slot& slot, const FrameRequest& request);
     void record_copies(Slot& slot, const FrameRequest& request);
+    void record_picture_copies(Slot& slot, const FrameRequest& request);
+    void record_depth_copies(Slot& slot, const FrameRequest& request);
     void submit(Slot& slot);
     [[nodiscard]] latency::FrameGpuRecord collect(Slot& slot);
 
@@ -134,6 +145,7 @@ class FrameRenderer {
     std::uint64_t collected_ = 0;
     gaze::PerEye<std::unique_ptr<LogPolarEye>> eyes_;
     gaze::PerEye<foveation::SamplingPlan> plans_;
+    gaze::SeenDepth seen_depth_;
     std::vector<std::unique_ptr<Slot>> slots_;
 };
 

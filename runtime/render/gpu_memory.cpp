@@ -19,12 +19,16 @@ HostBuffer::HostBuffer(const VulkanContext& context, vk::DeviceSize bytes,
     const vk::raii::Device& device = context.device();
     buffer_ = vk::raii::Buffer(device, vk::BufferCreateInfo({}, bytes, usage));
     const vk::MemoryRequirements needs = buffer_.getMemoryRequirements();
+    using Property = vk::MemoryPropertyFlagBits;
+    const vk::MemoryPropertyFlags shared = Property::eHostVisible | Property::eHostCoherent;
+    const vk::MemoryPropertyFlags cached = shared | Property::eHostCached;
+    const bool read_back = static_cast<bool>(usage & vk::BufferUsageFlagBits::eTransferDst);
+    const auto cached_type =
+        read_back ? context.find_memory_type(needs.memoryTypeBits, cached) : std::nullopt;
     memory_ = vk::raii::DeviceMemory(
-        device,
-        vk::MemoryAllocateInfo(needs.size,
-                               context.memory_type(needs.memoryTypeBits,
-                                                   vk::MemoryPropertyFlagBits::eHostVisible |
-                                                       vk::MemoryPropertyFlagBits::eHostCoherent)));
+        device, vk::MemoryAllocateInfo(
+                    needs.size, cached_type ? *cached_type
+                                            : context.memory_type(needs.memoryTypeBits, shared)));
     buffer_.bindMemory(*memory_, 0);
     // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): needs the bound memory
     mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));

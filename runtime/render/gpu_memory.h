@@ -10,7 +10,8 @@
 namespace gazeloop::render {
 
 /// A buffer with memory of its own that the host maps for as long as it lives. Host-visible and
-/// coherent: everything here is either small and rewritten every frame, or read back.
+/// coherent: everything here is either small and rewritten every frame, or read back; what is read
+/// back (TransferDst) lies in memory that the host caches, where the device has such.
 class HostBuffer {
   public:
     HostBuffer() = default;

@@ -15,7 +15,8 @@ LogPolarEye::LogPolarEye(const VulkanContext& context, Map map, foveation::LpSiz
                  vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled |
                      vk::ImageUsageFlagBits::eTransferSrc),
       direct_buffer_(context, vk::Extent2D(image.width_px, image.height_px), kLpFormat,
-                     vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled),
+                     vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled |
+                         vk::ImageUsageFlagBits::eTransferSrc),
       map_buffers_(context, tables) {}
 
 LogPolarEye::LogPolarEye(const VulkanContext& context, const foveation::KfrParameters& parameters,

@@ -205,11 +205,19 @@ void VulkanContext::create_device(VulkanFactory* factory) {
     queue_ = vk::raii::Queue(device_, queue_family_, 0);
 }
 
-std::uint32_t VulkanContext::memory_type(std::uint32_t mask, vk::MemoryPropertyFlags wanted) const {
+std::optional<std::uint32_t> VulkanContext::find_memory_type(std::uint32_t mask,
+                                                             vk::MemoryPropertyFlags wanted) const {
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
         if ((mask & (1U << i)) != 0 && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) {
             return i;
         }
+    }
+    return std::nullopt;
+}
+
+std::uint32_t VulkanContext::memory_type(std::uint32_t mask, vk::MemoryPropertyFlags wanted) const {
+    if (const auto found = find_memory_type(mask, wanted)) {
+        return *found;
     }
     throw SetupError(ExitCode::NoDevice, fmt::format("'{}' has no memory that is {}", device_name(),
                                                      vk::to_string(wanted)));

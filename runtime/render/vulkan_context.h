@@ -40,7 +40,11 @@ class VulkanContext {
     /// Valid bits of the queue's timestamps, 36 to 64.
     [[nodiscard]] std::uint32_t timestamp_bits() const { return timestamp_bits_; }
 
-    /// A memory type that the mask allows and that has the wanted properties. Throws SetupError.
+    /// A memory type that the mask allows and that has the wanted properties; none if there is
+    /// none.
+    [[nodiscard]] std::optional<std::uint32_t> find_memory_type(
+        std::uint32_t mask, vk::MemoryPropertyFlags wanted) const;
+    /// Likewise. Throws SetupError if there is none.
     [[nodiscard]] std::uint32_t memory_type(std::uint32_t mask,
                                             vk::MemoryPropertyFlags wanted) const;
 

@@ -12,6 +12,7 @@
 #include "tests/bench/bench.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/watch/played_gaze.h"
 #include "tests/support/watch/watched_call.h"
 #include "tests/support/watch/watched_loop.h"
 
@@ -80,6 +81,32 @@ void add_work(const Case& at, const std::vector<WatchedFrame>& frames,
     add("Vulkan and OpenXR calls", percentile(calls, 0.5), "", std::nullopt);
 }
 
+/// A runtime's one ray for both eyes, split at a distance or where the last frame's depth says:
+/// turn by turn, so that what else the machine does meets both.
+void add_split_gaze(const Options& options, std::vector<Figure>& figures) {
+    const std::array cases{Case{"openxr gaze, by distance",
+                                {.openxr = true,
+                                 .openxr_gaze = true,
+                                 .from_depth = false,
+                                 .scale = 0.25,
+                                 .frames = 560},
+                                true},
+                           Case{"openxr gaze, by depth",
+                                {.openxr = true, .openxr_gaze = true, .scale = 0.25, .frames = 560},
+                                true}};
+    std::array<std::vector<WatchedFrame>, cases.size()> frames;
+    const tests::PlayedGaze gaze;
+    for (unsigned round = 0; round < options.rounds; ++round) {
+        for (std::size_t i = 0; i < cases.size(); ++i) {
+            const auto more = tests::run_watched_loop(cases[i].loop);
+            frames[i].insert(frames[i].end(), more.begin() + kWarmUp, more.end());
+        }
+    }
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        add_work(cases[i], frames[i], figures);
+    }
+}
+
 /// Growth of the process over the second half of 10,000 frames, by least squares.
 void add_memory(std::vector<Figure>& figures) {
     const tests::TemporaryFolder folder;
@@ -146,6 +173,7 @@ std::vector<Figure> loop(const Options& options) {
         add_work(at, tests::run_watched_loop(watched), figures);
     }
     add_memory(figures);
+    add_split_gaze(options, figures);
     for (const char* target : {"headless", "openxr"}) {
         add_start_up(target, options, figures);
     }

@@ -22,6 +22,10 @@ void require(bool held) {
     }
 }
 
+/// Of the pictures whose depth is known, in part of the answers.
+constexpr std::uint32_t kSide = 24;
+constexpr std::size_t kSamples = std::size_t{kSide} * kSide;
+
 /// What a runtime hands over, as it lies in memory.
 struct Answer {
     std::uint8_t flags;
@@ -40,6 +44,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     drivers::GazeReader reader(size > 0 ? 0.1 * data[0] : 1.5);
     std::int64_t now_ns = 1'000'000'000'000;
     std::uint64_t sequence = 0;
+    gaze::SeenDepth seen;
+    for (gaze::DepthPatch& patch : seen) {
+        patch.view = {
+            .pose = {}, .fov = {-0.7, 0.7, 0.6, -0.6}, .width_px = kSide, .height_px = kSide};
+        patch.columns = patch.rows = kSide;
+    }
     for (; size >= sizeof(Answer); data += sizeof(Answer), size -= sizeof(Answer)) {
         Answer raw{};
         std::memcpy(&raw, data, sizeof raw);
@@ -49,6 +59,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             .focused = !flag(0),
             .bound = !flag(1),
             .active = !flag(2),
+            .in_time = raw.advance % 16 != 0,
             .valid = !flag(3),
             .tracked = !flag(4),
             .pose = {},
@@ -66,9 +77,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             reader.place_eyes({glm::dvec3{raw.eyes[0].x, raw.eyes[0].y, raw.eyes[0].z},
                                glm::dvec3{raw.eyes[1].x, raw.eyes[1].y, raw.eyes[1].z}});
         }
-        const auto sample = reader.take(answer, gates);
+        auto sample = reader.take(answer, gates);
         if (!sample) {
             continue;
+        }
+        if (flag(7)) {
+            seen[raw.advance & 1U].nearness.assign(kSamples, static_cast<std::uint16_t>(raw.given));
+        }
+        if (raw.advance % 3 != 0) {
+            reader.meet_at_depth(*sample, openxr::from_xr(raw.pose), seen);
         }
         require(sample->sequence == ++sequence);
         require(!sample->sampled.known() || sample->sampled.ns <= now_ns + drivers::kClockNoise_ns);

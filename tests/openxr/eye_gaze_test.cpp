@@ -1,6 +1,7 @@
 // Eye gaze of an OpenXR runtime. Monado lists the extension and has no eye tracker: a layer between
 // the program and Monado supplies the gaze, from a file (tests/support/openxr_layer). The
 // validation layer stands above both, and sees every call of the program.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -165,7 +166,7 @@ TEST_F(EyeGaze, ArrivesWithItsTimeAndItsHead) {
 // The same gaze by two ways: one ray from the runtime, and a trace that has each eye's own ray to
 // the same points, replayed. The foveae must be the same for the same sample.
 TEST_F(EyeGaze, LeadsWhereAReplayOfTheSameTraceDoes) {
-    ASSERT_EQ(run("").exit_code, 0);
+    ASSERT_EQ(run("", {"--set", "gaze.fixation_from_depth=false"}).exit_code, 0);
     const session::SessionFile live = recorded();
     const gaze::PerEye<gaze::EyeRay>& first = live.samples.front().sample.eyes;
     ASSERT_LT(first[0].origin_m.x, first[1].origin_m.x);
@@ -234,7 +235,10 @@ TEST_F(EyeGaze, LeadsWhereAReplayOfTheSameTraceDoes) {
 
 // What the eyes look at is not where the setting has it: the error stays under what is stated.
 TEST_F(EyeGaze, StatesHowFarOffTheEyesMayBe) {
-    ASSERT_EQ(run("", {"--set", "gaze.fixation_distance_m=0.8"}).exit_code, 0);
+    ASSERT_EQ(run("", {"--set", "gaze.fixation_distance_m=0.8", "--set",
+                       "gaze.fixation_from_depth=false"})
+                  .exit_code,
+              0);
     const session::SessionFile session = recorded();
     for (const auto& [frame, sample] : session.samples) {
         ASSERT_TRUE(sample.parallax_rad.has_value());
@@ -252,6 +256,101 @@ TEST_F(EyeGaze, StatesHowFarOffTheEyesMayBe) {
     }
     EXPECT_EQ(session.frames.back().frame.fovea.eyes[0].parallax_rad,
               session.samples.back().sample.parallax_rad);
+}
+
+/// The wearer looks at the floor where nothing stands, and slowly from one side to the other.
+class EyeGazeOnTheFloor : public EyeGaze {
+  protected:
+    static constexpr double kFloorM = -1.4;    ///< of the scene, below the world's origin
+    static constexpr double kAssumedM = 0.75;  ///< where nothing is
+    static constexpr double kHalfBetweenEyesM = 0.0315;
+
+    void SetUp() override {
+        std::ostringstream lines;
+        for (std::size_t i = 0; i < kSamples; ++i) {
+            const double t = static_cast<double>(i) / kRateHz;
+            lines << t << ' ' << 0.45 + 0.05 * std::sin(t) << " -0.8 -1\n";
+        }
+        gaze_file_ = folder_.write("gaze.txt", lines.str());
+    }
+
+    ProgramResult look(const std::vector<std::string>& more) {
+        std::vector<std::string> words{"--set", "render.scale=0.25", "--set",
+                                       fmt::format("gaze.fixation_distance_m={}", kAssumedM)};
+        words.insert(words.end(), more.begin(), more.end());
+        return run("", words);
+    }
+
+    struct Look {
+        double meets_m;  ///< where both eyes' rays come nearest, from their middle
+        double floor_m;  ///< where the gaze meets the floor, likewise
+        double parallax_deg;
+    };
+
+    /// Of every sample of a recording, but for those while it all begins.
+    [[nodiscard]] std::vector<Look> looks() const {
+        std::vector<Look> all;
+        for (const auto& [frame, sample] : recorded().samples) {
+            if (frame < 30 || !sample.eyes[0].valid || !sample.head) {
+                continue;
+            }
+            const glm::dvec3 middle_m = (sample.eyes[0].origin_m + sample.eyes[1].origin_m) / 2.0;
+            const glm::dvec3 aside_m = sample.eyes[1].origin_m - sample.eyes[0].origin_m;
+            const glm::dvec3& left = sample.eyes[0].direction;
+            const glm::dvec3& right = sample.eyes[1].direction;
+            const double cosine = glm::dot(left, right);
+            const double along = (glm::dot(aside_m, left) - glm::dot(aside_m, right) * cosine) /
+                                 (1.0 - cosine * cosine);
+            const glm::dvec3 meeting_m = sample.eyes[0].origin_m + along * left;
+            const glm::dvec3 direction =
+                sample.head->orientation * glm::normalize(meeting_m - middle_m);
+            const glm::dvec3 from_m = gaze::transform_point(*sample.head, middle_m);
+            all.push_back({glm::length(meeting_m - middle_m), (kFloorM - from_m.y) / direction.y,
+                           glm::degrees(sample.parallax_rad.value_or(180.0))});
+        }
+        return all;
+    }
+};
+
+// The eyes' rays meet at what is looked at.
+TEST_F(EyeGazeOnTheFloor, MeetsWhereTheLastFramesDepthSays) {
+    for (const char* method : {"kfr", "acuity"}) {
+        const ProgramResult result = look({"--method", method});
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        expect_no_validation_messages(result);
+        EXPECT_THAT(result.err, HasSubstr("they meet where the last frame's depth says, else at"));
+        const std::vector<Look> all = looks();
+        ASSERT_GT(all.size(), 30U);
+        for (const Look& look : all) {
+            EXPECT_NEAR(1.0 / look.meets_m, 1.0 / look.floor_m, 0.01);
+            EXPECT_LT(look.parallax_deg, 0.1);
+            // The floor is where the gaze meets it to within what is stated and the samples' size.
+            const double off_rad =
+                std::abs(1.0 / look.meets_m - 1.0 / look.floor_m) * kHalfBetweenEyesM;
+            EXPECT_LT(glm::degrees(off_rad), look.parallax_deg + 0.02);
+        }
+        // What was found stands in the recording: a replay needs no depth.
+        const ProgramResult replayed = run_gazeloop({"replay", session(), "--hash"});
+        EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+        EXPECT_THAT(replayed.out, HasSubstr("foveae bit-equal in 80 of 80 frames"));
+        std::filesystem::remove(session());
+    }
+}
+
+TEST_F(EyeGazeOnTheFloor, MeetsWhereTheSettingSaysWhenDepthIsNotAsked) {
+    for (const std::vector<std::string>& how :
+         {std::vector<std::string>{"--set", "gaze.fixation_from_depth=false"},
+          {"--method", "full"}}) {
+        const ProgramResult result = look(how);
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_THAT(result.err, HasSubstr("they meet at 0.75 m"));
+        ASSERT_GT(looks().size(), 30U);
+        for (const Look& look : looks()) {
+            EXPECT_NEAR(look.meets_m, kAssumedM, 1e-6);
+            EXPECT_GT(look.parallax_deg, 1.0);
+        }
+        std::filesystem::remove(session());
+    }
 }
 
 struct Gate {
@@ -314,7 +413,10 @@ INSTANTIATE_TEST_SUITE_P(
              true},
         Gate{"no_rotation", "gaze@20+20=zero-pose", "pose valid: no (what the runtime gives is no",
              true},
-        Gate{"not_located", "gaze@20+20=XR_ERROR_TIME_INVALID", "pose valid: no", true},
+        Gate{"not_located", "gaze@20+20=XR_ERROR_TIME_INVALID",
+             "pose valid: no (the runtime has none for this time", true},
+        Gate{"no_time_to_ask_for", "xrConvertTimespecTimeToTimeKHR@20+20=XR_ERROR_RUNTIME_FAILURE",
+             "pose valid: no (the runtime has none for this time", true},
         Gate{"negative_time", "gaze@20+20=negative-time", "sample time known: no (an absurd", true},
         Gate{"absurd_time", "gaze@20+20=absurd-time", "sample time known: no (an absurd", true},
         Gate{"no_time", "gaze@20+20=no-time", "sample time known: no (the runtime gives no time",
@@ -406,6 +508,11 @@ TEST_F(EyeGazeDevices, SaysWhichGateIsShutAndWhatOpensIt) {
     EXPECT_EQ(open(inactive),
               (std::vector<nlohmann::json>{true, true, true, true, false, none, none}));
     EXPECT_THAT(inactive["problems"].dump(), HasSubstr("allow eye tracking for this program"));
+    const nlohmann::json timeless = list(layers("gaze@1+999999=XR_ERROR_TIME_INVALID"), 4);
+    EXPECT_EQ(open(timeless),
+              (std::vector<nlohmann::json>{true, true, true, true, true, false, none}));
+    EXPECT_THAT(timeless["problems"].dump(),
+                testing::AllOf(HasSubstr("restart the runtime"), Not(HasSubstr("calibrate"))));
     const nlohmann::json ageless = list(layers("gaze@1+999999=no-time"), 0);
     EXPECT_EQ(open(ageless),
               (std::vector<nlohmann::json>{true, true, true, true, true, true, false}));

@@ -44,7 +44,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"key_of_a_group",
                  {"run", "--set", "gaze.nothing=2"},
                  2,
-                 "unknown key 'gaze.nothing'; known: gaze.fixation_distance_m, gaze.hold_ms, "
+                 "unknown key 'gaze.nothing'; known: gaze.fixation_distance_m, "
+                 "gaze.fixation_from_depth, gaze.hold_ms, "
                  "gaze.minimum_confidence, gaze.return_ms, gaze.stale_ms\n"},
         BadInput{"key_of_no_group",
                  {"run", "--set", "x.y=2"},

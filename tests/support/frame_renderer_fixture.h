@@ -52,6 +52,7 @@ class FrameRendererTest : public testing::Test {
         gaze::PerEye<std::vector<float>> depths;  ///< where the configuration has a depth format
         latency::SampleCounts counts;
         latency::FrameGpuRecord gpu;
+        gaze::SeenDepth seen_depth;
         gaze::PerEye<foveation::SamplingPlan> plans;
     };
 
@@ -78,6 +79,7 @@ class FrameRendererTest : public testing::Test {
         const auto finished = renderer.next_finished();
         EXPECT_TRUE(finished.has_value());
         rendered.gpu = finished.value_or(latency::FrameGpuRecord{});
+        rendered.seen_depth = renderer.seen_depth();
         EXPECT_FALSE(renderer.next_finished().has_value());
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
             rendered.pictures[e] =

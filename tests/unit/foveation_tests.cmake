@@ -3,6 +3,7 @@ gazeloop_test(unit_foveation
         foveation/log_polar_map_test.cpp foveation/map_tables_test.cpp
         foveation/map_traps_test.cpp foveation/mpfr_test.cpp foveation/radial_kernel_test.cpp
         foveation/sampling_plan_test.cpp foveation/screen_wedge_test.cpp
+        foveation/shaded_around_test.cpp
     LINK gazeloop::foveation mpfr
     LABELS unit)
 gazeloop_test(unit_sampling_demand

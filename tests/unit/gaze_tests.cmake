@@ -1,6 +1,6 @@
 gazeloop_test(unit_gaze
     SOURCES gaze/combined_gaze_test.cpp gaze/view_test.cpp gaze/head_track_test.cpp
-        gaze/gaze_to_fovea_test.cpp
+        gaze/fixation_test.cpp gaze/gaze_to_fovea_test.cpp gaze/vergence_test.cpp
     LINK gazeloop::gaze
     LABELS unit)
 gazeloop_test(unit_drivers

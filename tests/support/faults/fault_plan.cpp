@@ -44,7 +44,10 @@ FaultPlan FaultPlan::from_environment(const char* variable) {
 }
 
 std::optional<std::string_view> FaultPlan::call(std::string_view function) {
-    const auto counted = calls_.try_emplace(std::string(function), 0).first;
+    auto counted = calls_.find(function);
+    if (counted == calls_.end()) {  // later calls allocate nothing, which some tests count
+        counted = calls_.emplace(function, 0).first;
+    }
     const std::uint64_t number = ++counted->second;
     const auto due = std::ranges::find_if(faults_, [&](const Fault& fault) {
         return fault.function == function && number >= fault.first &&

@@ -259,6 +259,7 @@ PFN_xrVoidFunction frame_hook(std::string_view wanted) {
     GAZELOOP_FAILING(xrAcquireSwapchainImage)
     GAZELOOP_FAILING(xrWaitSwapchainImage)
     GAZELOOP_FAILING(xrReleaseSwapchainImage)
+    GAZELOOP_FAILING(xrConvertTimespecTimeToTimeKHR)
 #undef GAZELOOP_FAILING
     if (wanted == "xrGetVulkanGraphicsRequirements2KHR") {
         return as_hook(&vulkan_requirements);

@@ -46,6 +46,7 @@ class MarkingSource final : public drivers::GazeSource {
         mark_gaze();
         source_->poll(now_ns, samples);
     }
+    void see(const gaze::SeenDepth& seen) override { source_->see(seen); }
     [[nodiscard]] std::vector<drivers::SourceEvent> take_events() override {
         return source_->take_events();
     }
@@ -130,6 +131,7 @@ std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
     config.extents = target->extents();
     config.format = target->format();
     config.hash = options.hash;
+    config.seen_depth = options.openxr_gaze && options.from_depth;
     render::FrameRenderer renderer(*context, config);
     gaze::GazeToFovea gaze{gaze::FoveaPolicy{}};
 
@@ -149,8 +151,9 @@ std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
             [&](std::int64_t start_ns) {
                 std::unique_ptr<drivers::GazeSource> source;
                 if (options.openxr_gaze) {
-                    source = std::make_unique<drivers::OpenXrSource>(shared->session(),
-                                                                     drivers::OpenXrGazeOptions{});
+                    source = std::make_unique<drivers::OpenXrSource>(
+                        shared->session(),
+                        drivers::OpenXrGazeOptions{.from_depth = options.from_depth});
                 } else {
                     source = std::make_unique<drivers::TraceSource>(sim::generate_gaze({}, 300.0),
                                                                     start_ns, 10'000'000);

@@ -22,6 +22,7 @@ struct WatchedFrame {
 struct WatchedLoop {
     bool openxr = false;       ///< else headless
     bool openxr_gaze = false;  ///< with openxr: its eye gaze, else simulated gaze with blinks
+    bool from_depth = true;    ///< with openxr_gaze: split where the last frame's depth says
     bool paced = true;         ///< headless: at the display's rate
     bool hash = false;
     double scale = 0.05;  ///< of the display's size

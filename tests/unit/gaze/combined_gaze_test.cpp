@@ -110,16 +110,35 @@ TEST(CombinedGaze, TakesEyesThatCannotBeForTheHeadsMiddle) {
 }
 
 TEST(CombinedGaze, StatesNoErrorWhereThereIsNone) {
-    EXPECT_EQ(parallax_error_rad({glm::dvec3{0.0}, glm::dvec3{0.0}}, 1.0, 0.5), 0.0);
-    EXPECT_NEAR(parallax_error_rad(kEyes_m, 1.0, 0.5), 0.0315 / (1.0 - 0.063 * 0.063), 1e-12);
-    EXPECT_NEAR(parallax_error_rad(kEyes_m, kInfinity, 0.5), 0.063 / (1.0 - 0.063 * 0.063), 1e-12);
+    EXPECT_EQ(parallax_error_rad({glm::dvec3{0.0}, glm::dvec3{0.0}}, 1.0, {0.5}), 0.0);
+    EXPECT_NEAR(parallax_error_rad(kEyes_m, 1.0, {0.5}), 0.0315 / (1.0 - 0.063 * 0.063), 1e-12);
+    EXPECT_NEAR(parallax_error_rad(kEyes_m, kInfinity, {0.5}), 0.063 / (1.0 - 0.063 * 0.063),
+                1e-12);
 }
 
 TEST(CombinedGaze, StatesWhereNothingIsKnown) {
-    EXPECT_EQ(parallax_error_rad(kEyes_m, 1.0, 0.03), std::numbers::pi);
-    EXPECT_EQ(parallax_error_rad(kEyes_m, 1.0, 1e-300), std::numbers::pi);
-    EXPECT_LT(parallax_error_rad(kEyes_m, kNan, 0.5), std::numbers::pi);
-    EXPECT_EQ(parallax_error_rad({glm::dvec3{kNan}, kEyes_m[1]}, 1.0, 0.5), std::numbers::pi);
+    for (const double nearest_m : {0.03, 1e-300, 1e-310, 0.0, -1.0, -kInfinity, kNan}) {
+        EXPECT_EQ(parallax_error_rad(kEyes_m, 1.0, {nearest_m}), std::numbers::pi) << nearest_m;
+    }
+    EXPECT_LT(parallax_error_rad(kEyes_m, kNan, {0.5}), std::numbers::pi);
+    EXPECT_EQ(parallax_error_rad({glm::dvec3{kNan}, kEyes_m[1]}, 1.0, {0.5}), std::numbers::pi);
+}
+
+// The less is known of the distance, the larger the error; nothing is left of it where it is known.
+TEST(CombinedGaze, StatesLessWhereMoreIsKnown) {
+    EXPECT_EQ(parallax_error_rad(kEyes_m, 0.8, {0.8, 0.8}), 0.0);
+    EXPECT_EQ(parallax_error_rad(kEyes_m, kInfinity, {kInfinity, kInfinity}), 0.0);
+    const double u = 0.0315 / 0.7;
+    EXPECT_NEAR(parallax_error_rad(kEyes_m, 0.8, {0.7, 1.0}),
+                0.0315 / (1.0 - u * u) * (1.0 / 0.8 - 1.0), 1e-12);
+    EXPECT_NEAR(parallax_error_rad(kEyes_m, 1.5, {0.4, 0.5}),
+                0.0315 / (1.0 - 0.07875 * 0.07875) * (2.5 - 1.0 / 1.5), 1e-12)
+        << "all of the range is nearer";
+    EXPECT_GT(parallax_error_rad(kEyes_m, 0.05, {0.05, 0.06}), 0.1);
+    for (const double farthest_m : {0.0, -1.0, kNan}) {
+        EXPECT_EQ(parallax_error_rad(kEyes_m, 1.0, {0.5, farthest_m}),
+                  parallax_error_rad(kEyes_m, 1.0, {0.5, kInfinity}));
+    }
 }
 
 /// A number between two, of any of a million steps.
@@ -134,10 +153,11 @@ RC_GTEST_PROP(CombinedGazeProperty, IsNeverFartherOffThanStated, ()) {
     const PerEye<glm::dvec3> eyes_m{glm::dvec3{-half_m, 0.0, 0.0}, glm::dvec3{half_m, 0.0, 0.0}};
     const double nearest_m = between(0.1, 2.0);
     const double distance_m = between(0.1, 10.0);
-    const double depth_m = nearest_m / between(1e-6, 1.0);
+    const double farthest_m = nearest_m / between(1e-6, 1.0);
+    const double depth_m = 1.0 / std::lerp(1.0 / nearest_m, 1.0 / farthest_m, between(0.0, 1.0));
     const glm::dvec3 to = towards(between(-90.0, 90.0), between(-60.0, 60.0));
     const PerEye<EyeRay> rays = eye_rays({glm::dvec3{0.0}, to}, eyes_m, distance_m);
-    const double bound_rad = parallax_error_rad(eyes_m, distance_m, nearest_m);
+    const double bound_rad = parallax_error_rad(eyes_m, distance_m, {nearest_m, farthest_m});
     for (const EyeRay& ray : rays) {
         RC_ASSERT(angle_rad(ray.direction, depth_m * to - ray.origin_m) <= bound_rad + 1e-12);
     }

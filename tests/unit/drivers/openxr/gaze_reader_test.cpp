@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "runtime/gaze/direction.h"
+#include "tests/unit/gaze/painted_depth.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -23,6 +24,7 @@ GazeAnswer answer(std::int64_t now_ms, double right_rad = 0.1) {
     return {.focused = true,
             .bound = true,
             .active = true,
+            .in_time = true,
             .valid = true,
             .tracked = true,
             .pose = looking(right_rad),
@@ -99,6 +101,7 @@ TEST_F(GazeReaderTest, TellsALossOnce) {
     const std::pair<GazeGate, Shut> ways[] = {
         {GazeGate::Focus, [](GazeAnswer& a) { a.focused = false; }},
         {GazeGate::Active, [](GazeAnswer& a) { a.active = false; }},
+        {GazeGate::Pose, [](GazeAnswer& a) { a.in_time = a.valid = false; }},
         {GazeGate::Pose, [](GazeAnswer& a) { a.pose.reset(); }},
         {GazeGate::SampleTime, [](GazeAnswer& a) { a.time.given = -1; }}};
     std::int64_t now_ms = 1000;
@@ -122,6 +125,24 @@ TEST_F(GazeReaderTest, LosesNothingBeforeTheFirstSample) {
     GazeAnswer nothing;
     EXPECT_FALSE(take(nothing).has_value());
     EXPECT_EQ(gates_.state(GazeGate::Pose), std::nullopt) << "not reached";
+}
+
+// Not the eyes are at fault where the runtime knows no pose for the time it is asked for.
+TEST_F(GazeReaderTest, BlamesTheClockForAPoseThatCannotBeAskedFor) {
+    EXPECT_TRUE(take(answer(1000)).has_value());
+    GazeAnswer gap = answer(1014);
+    gap.in_time = gap.valid = false;
+    gap.pose.reset();
+    EXPECT_FALSE(take(gap)->eyes[0].valid);
+    const auto& state = gates_.state(GazeGate::Pose);
+    EXPECT_NE(state->found.find("clock"), std::string_view::npos) << state->found;
+    EXPECT_EQ(state->remedy.find("calibrate"), std::string_view::npos) << state->remedy;
+    EXPECT_FALSE(state->remedy.empty());
+    GazeAnswer unseen = answer(1028);
+    unseen.valid = false;
+    EXPECT_TRUE(take(unseen).has_value());
+    EXPECT_EQ(gates_.state(GazeGate::Pose)->found, "the eyes are not seen");
+    EXPECT_TRUE(gates_.state(GazeGate::Pose)->remedy.empty());
 }
 
 // A blink: the tracker answers, each time, that it sees no eye.
@@ -165,6 +186,58 @@ TEST_F(GazeReaderTest, KeepsTheTimeOfAPredictedPose) {
     const auto next = take(answer(1005, 0.2));
     EXPECT_TRUE(next->sampled.known());
     EXPECT_GT(next->device_ns, 0);
+}
+
+/// Where both eyes' rays come nearest to each other, from the head's origin.
+double meeting_m(const gaze::GazeSample& sample) {
+    const glm::dvec3 aside = sample.eyes[1].origin_m - sample.eyes[0].origin_m;
+    const glm::dvec3& a = sample.eyes[0].direction;
+    const glm::dvec3& b = sample.eyes[1].direction;
+    const double ab = glm::dot(a, b);
+    const double along_a = (glm::dot(aside, a) - glm::dot(aside, b) * ab) / (1.0 - ab * ab);
+    return glm::length(sample.eyes[0].origin_m + along_a * a);
+}
+
+TEST_F(GazeReaderTest, LetsTheEyesMeetWhereTheGazeMeetsTheScene) {
+    const gaze::SeenDepth seen = gaze::painted(gaze::wall(0.4, -1.0, 1.0));
+    auto sample = take(answer(1000, 0.0));
+    EXPECT_NEAR(meeting_m(*sample), 1.5, 1e-9);
+    const double assumed_rad = *sample->parallax_rad;
+    reader_.meet_at_depth(*sample, gaze::Pose{}, seen);
+    EXPECT_NEAR(meeting_m(*sample), 0.4, 0.002);
+    EXPECT_LT(*sample->parallax_rad, 0.1 * assumed_rad);
+    EXPECT_EQ(sample->eyes[0].confidence, -1.0);
+    // A head elsewhere looks at the wall from there.
+    GazeAnswer next = answer(1014, 0.2);
+    sample = take(next);
+    reader_.meet_at_depth(*sample, gaze::Pose{.position_m = {0.0, 0.0, -0.1}}, seen);
+    EXPECT_NEAR(meeting_m(*sample), 0.3 / std::cos(0.2), 0.003);
+}
+
+TEST_F(GazeReaderTest, AssumesTheDistanceWhereNoDepthSaysIt) {
+    const gaze::SeenDepth seen = gaze::painted(gaze::wall(0.4, -1.0, 1.0));
+    auto sample = take(answer(1000, 0.0));
+    const double assumed_rad = *sample->parallax_rad;
+    reader_.meet_at_depth(*sample, gaze::Pose{}, {});
+    EXPECT_NEAR(meeting_m(*sample), 1.5, 1e-9);
+    EXPECT_EQ(sample->parallax_rad, assumed_rad);
+    sample = take(answer(1014, 0.01));
+    reader_.meet_at_depth(*sample, std::nullopt, seen);
+    EXPECT_NEAR(meeting_m(*sample), 1.5, 1e-9) << "no head, no place in the world";
+    sample = take(answer(1028, 1.2));
+    reader_.meet_at_depth(*sample, gaze::Pose{}, seen);
+    EXPECT_NEAR(meeting_m(*sample), 1.5, 1e-9) << "out of the picture";
+}
+
+TEST_F(GazeReaderTest, LeavesASampleWithoutGazeAlone) {
+    EXPECT_TRUE(take(answer(1000)).has_value());
+    GazeAnswer without = answer(1014);
+    without.active = false;
+    auto loss = take(without);
+    ASSERT_TRUE(loss.has_value());
+    reader_.meet_at_depth(*loss, gaze::Pose{}, gaze::painted(gaze::wall(0.4, -1.0, 1.0)));
+    EXPECT_FALSE(loss->eyes[0].valid);
+    EXPECT_FALSE(loss->parallax_rad.has_value());
 }
 
 TEST_F(GazeReaderTest, DoesNotTrustATimeThatStandsStill) {

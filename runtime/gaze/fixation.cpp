@@ -1,0 +1,249 @@
+#include "runtime/gaze/fixation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+#include <limits>
+
+#include "runtime/gaze/direction.h"
+
+namespace gazeloop::gaze {
+namespace {
+
+constexpr double kGreatestNearness = 1.0 / kNearestLook_m;
+constexpr double kContentNearness = 1.0 / kNearestContent_m;
+
+/// A position in a patch, in samples; whole numbers are samples.
+struct At {
+    double column;
+    double row;
+};
+
+/// How many samples apart, on the axis where it is more.
+double apart(const At& a, const At& b) {
+    return std::max(std::abs(a.column - b.column), std::abs(a.row - b.row));
+}
+
+/// What one eye sees on the gaze, 1/m.
+struct Found {
+    std::optional<double> hit;
+    double unseen = 0.0;  ///< the nearest point before the hit that may hold something; 0: none
+};
+
+/// What one eye sees within the tracker's accuracy of the gaze, 1/m.
+struct Around {
+    double nearest = 0.0;
+    double farthest = std::numeric_limits<double>::infinity();
+    bool all_rows = false;    ///< of the picture are in the patch
+    bool to_the_end = false;  ///< so is where the gaze is infinitely far
+};
+
+/// A gaze as one eye's picture has it. Points of the gaze are given by their nearness n to its
+/// origin, homogeneously: the eye sees the point n in the direction towards_ + n * aside_m_.
+class LineOfSight {
+  public:
+    LineOfSight(const CombinedGaze& gaze_in_world, const DepthPatch& patch) : patch_(patch) {
+        const glm::dquat to_view = glm::conjugate(patch.view.pose.orientation);
+        towards_ = to_view * gaze_in_world.direction;
+        aside_m_ = to_view * (gaze_in_world.origin_m - patch.view.pose.position_m);
+        const FieldOfView& fov = patch.view.fov;
+        left_ = std::tan(fov.left_rad);
+        up_ = std::tan(fov.up_rad);
+        px_per_x_ = patch.view.width_px / (std::tan(fov.right_rad) - left_);
+        px_per_y_ = patch.view.height_px / (std::tan(fov.down_rad) - up_);
+    }
+
+    [[nodiscard]] Found follow() const {
+        Found found;
+        const int steps = step_count();
+        double least_apart = kOnTheLine;
+        for (int i = steps; i >= 0; --i) {
+            const double n = kGreatestNearness * i / std::max(steps, 1);
+            const auto here = at(n);
+            const auto surface = here ? nearness_along(*here) : std::nullopt;
+            const auto there = surface ? at(*surface) : std::nullopt;
+            const double miss = there ? apart(*there, *here) : kOnTheLine;
+            if (miss < least_apart) {
+                least_apart = miss;
+                found.hit = surface;
+            } else if (found.hit) {
+                break;
+            } else if (n <= kContentNearness && (!surface || *surface > n)) {
+                found.unseen = std::max(found.unseen, n);
+            }
+        }
+        return found;
+    }
+
+    /// Samples a quarter of the accuracy apart are enough.
+    [[nodiscard]] Around look_around() const {
+        Around around;
+        const auto far = at(0.0);
+        if (!far) {
+            return around;
+        }
+        // A tangent grows by 1 + tangent^2 for an angle, and less on the other axis.
+        const double x = towards_.x / towards_.z;
+        const double y = towards_.y / towards_.z;
+        const double reach = kTrackerAccuracy_rad * (1.0 + x * x + y * y);
+        const double columns = reach * px_per_x_ / patch_.step_x_px;
+        const double rows = reach * -px_per_y_ / patch_.step_y_px;
+        const auto near = at(kContentNearness).value_or(*far);
+        const Side down{std::min(far->row, near.row) - rows,
+                        std::max(far->row, near.row) + rows,
+                        patch_.y0_px,
+                        patch_.step_y_px,
+                        patch_.rows,
+                        patch_.view.height_px};
+        const Side across{far->column - columns, far->column + columns, patch_.x0_px,
+                          patch_.step_x_px,      patch_.columns,        patch_.view.width_px};
+        around.all_rows = down.complete();
+        around.to_the_end = around.all_rows && across.complete();
+        const auto every = [](double samples) {
+            return static_cast<std::size_t>(std::clamp(samples / 4.0, 1.0, 1e6));
+        };
+        for (std::size_t row = down.begin(); row < down.end(); row += every(rows)) {
+            for (std::size_t column = 0; column < patch_.columns; column += every(columns)) {
+                const At here{static_cast<double>(column), static_cast<double>(row)};
+                const auto surface = along(sample(column, row), here);
+                const auto there = surface ? at(*surface) : std::nullopt;
+                if (there && std::abs(there->column - here.column) <= columns &&
+                    std::abs(there->row - here.row) <= rows) {
+                    around.nearest = std::max(around.nearest, *surface);
+                    around.farthest = std::min(around.farthest, *surface);
+                }
+            }
+        }
+        return around;
+    }
+
+  private:
+    /// The line is walked a sample at a time, so that what it crosses is met within half a sample,
+    /// and twice that where the surface slopes as steeply as the line.
+    static constexpr double kOnTheLine = 1.0;
+    /// More samples than a patch has across, many times over.
+    static constexpr double kMostSteps = 1024.0;
+
+    [[nodiscard]] std::optional<At> at(double n) const {
+        const glm::dvec3 seen = towards_ + n * aside_m_;
+        if (!(seen.z < 0.0)) {
+            return std::nullopt;
+        }
+        const At position{
+            ((seen.x / -seen.z - left_) * px_per_x_ - 0.5 - patch_.x0_px) / patch_.step_x_px,
+            ((seen.y / -seen.z - up_) * px_per_y_ - 0.5 - patch_.y0_px) / patch_.step_y_px};
+        return std::isfinite(position.column) && std::isfinite(position.row)
+                   ? std::optional(position)
+                   : std::nullopt;
+    }
+
+    [[nodiscard]] int step_count() const {
+        const auto far = at(0.0);
+        const auto near = at(kGreatestNearness);
+        return far && near
+                   ? static_cast<int>(std::ceil(std::clamp(apart(*far, *near), 0.0, kMostSteps)))
+                   : static_cast<int>(kMostSteps);
+    }
+
+    /// How near to the gaze's origin a surface is that the eye sees by a half float at a place.
+    [[nodiscard]] std::optional<double> along(std::uint16_t half, const At& place) const {
+        const double nearness = glm::unpackHalf1x16(half);
+        const glm::dvec3 ray = glm::normalize(glm::dvec3{
+            (patch_.x0_px + 0.5 + place.column * patch_.step_x_px) / px_per_x_ + left_,
+            (patch_.y0_px + 0.5 + place.row * patch_.step_y_px) / px_per_y_ + up_, -1.0});
+        const double ahead = glm::dot(towards_, ray) - nearness * glm::dot(towards_, aside_m_);
+        return is_known(half) && ahead > 0.0 ? std::optional(nearness / ahead) : std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<double> nearness_along(const At& place) const {
+        const At nearest{std::round(place.column), std::round(place.row)};
+        if (!(nearest.column >= 0.0 && nearest.column < patch_.columns && nearest.row >= 0.0 &&
+              nearest.row < patch_.rows)) {
+            return std::nullopt;
+        }
+        return along(
+            sample(static_cast<std::size_t>(nearest.column), static_cast<std::size_t>(nearest.row)),
+            nearest);
+    }
+
+    [[nodiscard]] std::uint16_t sample(std::size_t column, std::size_t row) const {
+        return patch_.nearness[row * patch_.columns + column];
+    }
+
+    /// Neither negative nor infinitely near nor no number.
+    static bool is_known(std::uint16_t half) {
+        constexpr std::uint16_t kInfinite = 0x7C00;
+        return half < kInfinite;
+    }
+
+    /// An interval of one axis of the patch, in samples.
+    struct Side {
+        double from;
+        double to;
+        std::uint32_t first_px;
+        std::uint32_t step_px;
+        std::uint32_t samples;
+        std::uint32_t picture_px;
+
+        [[nodiscard]] std::size_t within(double place) const {
+            return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(samples)));
+        }
+        [[nodiscard]] std::size_t begin() const { return within(std::ceil(from)); }
+        [[nodiscard]] std::size_t end() const { return within(std::floor(to) + 1.0); }
+        /// Whether the patch has all that the picture has of it.
+        [[nodiscard]] bool complete() const {
+            const std::uint64_t end_px = first_px + std::uint64_t{samples} * step_px;
+            return (from >= 0.0 || first_px < step_px) &&
+                   (to <= samples - 1.0 || end_px >= picture_px);
+        }
+    };
+
+    const DepthPatch& patch_;
+    glm::dvec3 towards_{};
+    glm::dvec3 aside_m_{};
+    double left_ = 0.0;
+    double up_ = 0.0;
+    double px_per_x_ = 0.0;
+    double px_per_y_ = 0.0;  ///< negative: rows count down
+};
+
+double distance_m(double nearness) {
+    return nearness > 0.0 ? 1.0 / nearness : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::optional<Fixation> find_fixation(const CombinedGaze& gaze_in_world, const SeenDepth& seen) {
+    const auto direction = unit(gaze_in_world.direction);
+    if (!direction || !is_finite(gaze_in_world.origin_m)) {
+        return std::nullopt;
+    }
+    const CombinedGaze gaze{gaze_in_world.origin_m, *direction};
+    std::optional<double> hit;
+    double unseen = kContentNearness;
+    Around around;
+    for (const DepthPatch& patch : seen) {
+        if (patch.nearness.empty()) {
+            continue;
+        }
+        const LineOfSight line(gaze, patch);
+        const Found found = line.follow();
+        unseen = std::min(unseen, found.unseen);
+        hit = found.hit ? std::max(hit.value_or(0.0), *found.hit) : hit;
+        const Around one = line.look_around();
+        around.nearest = std::max(around.nearest, one.nearest);
+        around.farthest = std::min(around.farthest, one.farthest);
+        around.all_rows = around.all_rows || one.all_rows;
+        around.to_the_end = around.to_the_end || one.to_the_end;
+    }
+    if (!hit) {
+        return std::nullopt;
+    }
+    const double nearest =
+        std::max({around.nearest, *hit, around.all_rows ? unseen : kContentNearness});
+    const double farthest = around.to_the_end ? std::min(around.farthest, *hit) : 0.0;
+    return Fixation{*hit, {distance_m(nearest), distance_m(farthest)}};
+}
+
+}  // namespace gazeloop::gaze
