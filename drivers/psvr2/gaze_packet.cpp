@@ -17,20 +17,11 @@ constexpr std::size_t kCalibrationId = 60;
 constexpr std::size_t kTimestamp = 80;
 constexpr std::size_t kFrame = 88;
 constexpr gaze::PerEye<std::size_t> kEye{92, 164};
-constexpr std::size_t kCombinedOrigin = 236;
-constexpr std::size_t kCombinedDirection = 252;
 constexpr std::size_t kFoveatedTimestamp = 272;
-constexpr std::size_t kFoveatedFrame = 280;
-constexpr std::size_t kTrackingState = 284;
-constexpr gaze::PerEye<std::size_t> kFoveatedDirection{288, 300};
-constexpr std::size_t kFoveatedCombined = 312;
-constexpr std::size_t kConvergence = 324;
 // Within an eye's block; each begins with whether it is valid.
 constexpr std::size_t kOrigin = 0;
 constexpr std::size_t kDirection = 16;
 constexpr std::size_t kPupil = 32;
-constexpr std::size_t kPupilInSensor = 40;
-constexpr std::size_t kPositionGuide = 52;
 constexpr std::size_t kBlink = 64;
 
 constexpr double kFarthestOrigin_mm = 200.0;
@@ -52,7 +43,6 @@ class Reader {
         return std::bit_cast<std::int64_t>(u32(at) | std::uint64_t{u32(at + 4)} << 32U);
     }
     [[nodiscard]] double f32(std::size_t at) const { return std::bit_cast<float>(u32(at)); }
-    [[nodiscard]] glm::dvec2 vector2(std::size_t at) const { return {f32(at), f32(at + 4)}; }
     [[nodiscard]] glm::dvec3 vector3(std::size_t at) const {
         return {f32(at), f32(at + 4), f32(at + 8)};
     }
@@ -71,13 +61,6 @@ class Reader {
     [[nodiscard]] std::optional<glm::dvec3> direction(std::size_t at) {
         return flag(at) ? checked_unit(vector3(at + 4)) : std::nullopt;
     }
-    [[nodiscard]] std::optional<glm::dvec2> pair(std::size_t at) {
-        if (!flag(at)) {
-            return std::nullopt;
-        }
-        const glm::dvec2 value = vector2(at + 4);
-        return checked(value, std::isfinite(value.x) && std::isfinite(value.y));
-    }
     [[nodiscard]] std::optional<double> pupil_mm(std::size_t at) {
         if (!flag(at)) {
             return std::nullopt;
@@ -91,9 +74,6 @@ class Reader {
         }
         return checked(flag(at + 4), u32(at + 4) <= 1);
     }
-    [[nodiscard]] static std::optional<glm::dvec3> unit(const glm::dvec3& v) {
-        return std::abs(glm::length(v) - 1.0) <= kUnitTolerance ? gaze::unit(v) : std::nullopt;
-    }
 
   private:
     template <typename T>
@@ -102,7 +82,8 @@ class Reader {
         return plausible ? std::optional(value) : std::nullopt;
     }
     [[nodiscard]] std::optional<glm::dvec3> checked_unit(const glm::dvec3& v) {
-        const auto normalized = unit(v);
+        const auto normalized =
+            std::abs(glm::length(v) - 1.0) <= kUnitTolerance ? gaze::unit(v) : std::nullopt;
         return checked(normalized.value_or(v), normalized.has_value());
     }
 
@@ -114,26 +95,7 @@ EyeBlock eye_block(Reader& reader, std::size_t at) {
     return {.origin_mm = reader.origin_mm(at + kOrigin),
             .direction = reader.direction(at + kDirection),
             .pupil_mm = reader.pupil_mm(at + kPupil),
-            .pupil_in_sensor = reader.pair(at + kPupilInSensor),
-            .position_guide = reader.pair(at + kPositionGuide),
             .blink = reader.blink(at + kBlink)};
-}
-
-FoveatedBlock foveated_block(const Reader& reader) {
-    FoveatedBlock block;
-    block.timestamp_us = reader.i64(kFoveatedTimestamp);
-    block.frame = reader.u32(kFoveatedFrame);
-    block.tracking_state = reader.u32(kTrackingState);
-    for (const gaze::Eye eye : gaze::kEyes) {
-        const std::size_t i = gaze::index(eye);
-        block.directions[i] = Reader::unit(reader.vector3(kFoveatedDirection[i]));
-    }
-    block.combined_direction = Reader::unit(reader.vector3(kFoveatedCombined));
-    const double convergence = reader.f32(kConvergence);
-    if (std::isfinite(convergence) && convergence > 0.0) {
-        block.convergence_mm = convergence;
-    }
-    return block;
 }
 
 }  // namespace
@@ -160,9 +122,7 @@ std::expected<GazePacket, PacketFault> decode_gaze_packet(std::span<const std::u
                       .timestamp_us = reader.i64(kTimestamp),
                       .frame = reader.u32(kFrame),
                       .eyes = {eye_block(reader, kEye[0]), eye_block(reader, kEye[1])},
-                      .combined_origin_mm = reader.origin_mm(kCombinedOrigin),
-                      .combined_direction = reader.direction(kCombinedDirection),
-                      .foveated = foveated_block(reader),
+                      .foveated_timestamp_us = reader.i64(kFoveatedTimestamp),
                       .implausible = 0};
     packet.implausible = reader.refused();
     return packet;

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <expected>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
@@ -20,30 +19,18 @@ struct EyeBlock {
     std::optional<glm::dvec3> origin_mm;  ///< within 200 mm of the headset's origin
     std::optional<glm::dvec3> direction;  ///< unit vector
     std::optional<double> pupil_mm;       ///< diameter, 0 to 15
-    std::optional<glm::dvec2> pupil_in_sensor;
-    std::optional<glm::dvec2> position_guide;
-    std::optional<bool> blink;  ///< closed
+    std::optional<bool> blink;            ///< closed
 };
 
-/// What the headset itself would steer foveated rendering by. Has no flags of validity.
-struct FoveatedBlock {
-    std::int64_t timestamp_us = 0;
-    std::uint32_t frame = 0;
-    std::uint32_t tracking_state = 0;  ///< of unknown meaning
-    gaze::PerEye<std::optional<glm::dvec3>> directions;
-    std::optional<glm::dvec3> combined_direction;
-    std::optional<double> convergence_mm;
-};
-
+/// What is used of a packet.
 struct GazePacket {
     std::uint16_t version = 0;
     std::uint32_t calibration_id = 0;
     std::int64_t timestamp_us = 0;  ///< of 64 bits, or of 32 in the lower half
     std::uint32_t frame = 0;        ///< up by one with every packet
     gaze::PerEye<EyeBlock> eyes;
-    std::optional<glm::dvec3> combined_origin_mm;
-    std::optional<glm::dvec3> combined_direction;
-    FoveatedBlock foveated;
+    /// Of the block that the headset itself would steer foveated rendering by.
+    std::int64_t foveated_timestamp_us = 0;
     /// Values that the headset vouches for and that cannot be: not finite, no unit vector, out of
     /// range. They are absent above.
     std::uint32_t implausible = 0;

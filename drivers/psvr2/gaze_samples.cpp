@@ -33,6 +33,9 @@ std::optional<gaze::GazeSample> GazeSamples::take(std::span<const std::uint8_t> 
         if (block.blink) {
             ray.openness = *block.blink ? 0.0 : 1.0;
         }
+        if (block.pupil_mm) {
+            pupils_mm_[gaze::index(eye)] = block.pupil_mm;
+        }
         if (agrees && block.direction) {
             ray.direction = axes_.to_head(*block.direction);
             ray.valid = !block.blink.value_or(false);
@@ -85,6 +88,11 @@ void GazeSamples::tell_axes(AxesVerdict before) {
         case AxesVerdict::FromData:
             news_.emplace_back(
                 "axes: NOT as published; taken from where the eyes are and look. Please report it");
+            break;
+        case AxesVerdict::Contradictory:
+            news_.emplace_back(
+                "axes: the eyes' places contradict each other: no gaze is used until they agree. "
+                "Please report it");
             break;
     }
 }

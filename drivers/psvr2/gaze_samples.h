@@ -18,7 +18,7 @@ namespace gazeloop::drivers::psvr2 {
 /// changes it has something to say about.
 ///
 /// An eye is valid where the headset vouches for its direction, the axes agree, and it is not
-/// closed. The combined ray is not used: it is no more than what remains where one eye is lost.
+/// closed.
 class GazeSamples {
   public:
     explicit GazeSamples(const TrackerDelay& delay) : clock_(kWide, kMicrosecond_ns, delay) {}
@@ -37,6 +37,8 @@ class GazeSamples {
     /// Packets that are cut short, too long, or hold what cannot be, are damaged; those of
     /// calibration and raw data are others.
     [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
+    /// The diameter of each pupil, as the headset last vouched for it.
+    [[nodiscard]] const PupilsMm& pupils_mm() const { return pupils_mm_; }
     /// Null before the first sample.
     [[nodiscard]] const latency::ClockFit* clock() const {
         return counts_.samples > 0 ? &clock_.fit() : nullptr;
@@ -53,6 +55,7 @@ class GazeSamples {
     PacketTimestamp timestamp_;
     SampleClock clock_;
     TrackerCounts counts_;
+    PupilsMm pupils_mm_;
     std::uint64_t lost_before_last_ = 0;
     std::uint32_t last_frame_ = 0;
     std::int64_t last_arrived_ns_ = 0;

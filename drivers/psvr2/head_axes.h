@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -10,10 +11,11 @@ namespace gazeloop::drivers::psvr2 {
 
 /// How the headset's axes were found to lie.
 enum class AxesVerdict : std::uint8_t {
-    Unchecked,    ///< too few packets yet: no direction can be trusted
-    AsPublished,  ///< as below
-    Unconfirmed,  ///< as below as far as can be seen: the eyes' places do not come
-    FromData,     ///< otherwise, as the eyes' places and the way they look say
+    Unchecked,      ///< too few packets yet: no direction can be trusted
+    AsPublished,    ///< as below
+    Unconfirmed,    ///< as below as far as can be seen: the eyes' places do not come
+    FromData,       ///< otherwise, as the eyes' places and the way they look say
+    Contradictory,  ///< the packets contradict each other: no direction can be trusted
 };
 
 /// From the headset's axes to the head's (+X right, +Y up, -Z forward).
@@ -24,13 +26,15 @@ enum class AxesVerdict : std::uint8_t {
 /// headsets and glasses.
 ///
 /// So that gaze is never mirrored in silence, every packet is held against anatomy: the left eye is
-/// left of the right one, and eyes look forward. Eight packets in a row that agree decide, and what
-/// they say counts more than what is published; until then nothing is passed on. A packet that
-/// contradicts afterwards is not to be trusted. Which way is up cannot be checked.
+/// left of the right one, and eyes look forward. Two thirds of the packets decide, and what they
+/// say counts more than what is published: at first 8 of the last 12; then 120 of the last 180, a
+/// second's worth at 120 Hz, which can turn every verdict. Where no more than half of the last
+/// 180 agree with the verdict, or so many gave none, nothing can be trusted until they do.
+/// A packet that contradicts the verdict is never passed on. Which way is up cannot be checked.
 class HeadAxes {
   public:
-    /// Takes a packet. False where its directions are not to be used: nothing is decided yet, or
-    /// it contradicts what was.
+    /// Takes a packet. False where its directions are not to be used: nothing is decided, or it
+    /// contradicts what is.
     [[nodiscard]] bool agrees(const GazePacket& packet);
 
     [[nodiscard]] AxesVerdict verdict() const { return verdict_; }
@@ -41,7 +45,7 @@ class HeadAxes {
     }
 
   private:
-    /// What a packet says of an axis: +1 as the head's, -1 against it, 0 nothing.
+    /// What a packet says of an axis: +1 as the head's, -1 against it, 0 nothing or both.
     struct Signs {
         int x = 0;
         int z = 0;
@@ -49,16 +53,21 @@ class HeadAxes {
         friend bool operator==(const Signs&, const Signs&) = default;
     };
     static constexpr Signs kPublished{-1, -1};
+    static constexpr std::size_t kWindow = 180;
 
     [[nodiscard]] static Signs seen_in(const GazePacket& packet);
-    [[nodiscard]] bool contradicts(const Signs& seen) const;
-    void decide(const Signs& seen);
+    [[nodiscard]] static bool contradicts(const Signs& seen, const Signs& signs);
+    void remember(const Signs& seen);
+    void decide();
+    [[nodiscard]] bool decided() const;
+    /// Of the last `of` packets that were remembered, how many satisfy.
+    template <typename Predicate>
+    [[nodiscard]] std::size_t count(std::size_t of, Predicate predicate) const;
 
     AxesVerdict verdict_ = AxesVerdict::Unchecked;
     Signs signs_ = kPublished;
-    Signs last_seen_;
-    std::size_t in_a_row_ = 0;
-    std::size_t without_places_ = 0;
+    std::array<Signs, kWindow> seen_{};  ///< of the last packets with a direction, in a ring
+    std::size_t remembered_ = 0;         ///< all that ever were
 };
 
 }  // namespace gazeloop::drivers::psvr2

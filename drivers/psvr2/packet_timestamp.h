@@ -22,7 +22,7 @@ class PacketTimestamp {
         if (!last_us_) {
             foveated_ = packet.timestamp_us == 0;
         }
-        const auto raw = static_cast<std::uint64_t>(foveated_ ? packet.foveated.timestamp_us
+        const auto raw = static_cast<std::uint64_t>(foveated_ ? packet.foveated_timestamp_us
                                                               : packet.timestamp_us);
         if (!last_us_) {
             // An upper half that would be centuries is none.

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 #include <libusb.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
+#include <new>
 #include <span>
+#include <thread>
 #include <utility>
 
 #include "runtime/latency/clock.h"
@@ -23,6 +27,8 @@ constexpr int kMostFailures = 5;
 /// A headset that is pulled out fails at once, and its hub tells the kernel of it a moment later
 /// (hubs are polled four times a second and more).
 constexpr std::int64_t kMayStillGo_ns = 500'000'000;
+/// For all that is under way to end, of a device that is let go.
+constexpr std::int64_t kLongestEnd_ns = 2'000'000'000;
 
 std::unexpected<Error> no_device(const FoundDevice& found, const std::string& what) {
     return std::unexpected(Error{ExitCode::NoDevice, fmt::format("{}: {}", found.text(), what)});
@@ -145,30 +151,66 @@ UsbHeadset::UsbHeadset(UsbContext context, UsbHandle handle, const FoundDevice& 
       handle_(std::move(handle)),
       samples_(options.delay),
       keeper_(latency::monotonic_ns()) {
-    for (Transfer& transfer : data_) {
-        transfer.owner = this;
-        transfer.transfer.reset(libusb_alloc_transfer(0));
-        libusb_fill_bulk_transfer(transfer.transfer.get(), handle_.get(), handle_.endpoint(),
-                                  transfer.bytes.data(), static_cast<int>(transfer.bytes.size()),
-                                  on_data, &transfer, 0);
+    for (std::unique_ptr<Transfer>& transfer : data_) {
+        transfer = new_transfer();
+        libusb_fill_bulk_transfer(transfer->transfer.get(), handle_.get(), handle_.endpoint(),
+                                  transfer->bytes.data(), static_cast<int>(transfer->bytes.size()),
+                                  on_data, transfer.get(), 0);
     }
-    request_.owner = this;
-    request_.transfer.reset(libusb_alloc_transfer(0));
+    request_ = new_transfer();
     submit_all();
+}
+
+std::unique_ptr<UsbHeadset::Transfer> UsbHeadset::new_transfer() {
+    auto transfer = std::make_unique<Transfer>();
+    transfer->owner = this;
+    transfer->transfer.reset(libusb_alloc_transfer(0));
+    if (!transfer->transfer) {
+        throw std::bad_alloc();
+    }
+    return transfer;
 }
 
 UsbHeadset::~UsbHeadset() {
     feed_ = nullptr;
+    const std::int64_t until_ns = latency::monotonic_ns() + kLongestEnd_ns;
     cancel_all();
-    while (any_under_way() || request_.under_way) {
-        wait(kLongestRead);
-    }
-    if (!gone_) {
+    bool ended = end_all(until_ns);
+    if (ended && !gone_) {
         ask(Asking::Stop, latency::monotonic_ns());
-        while (request_.under_way) {
-            wait(kLongestRead);
+        ended = end_all(until_ns);
+    }
+    if (!ended) {
+        leave_what_is_under_way();
+    }
+}
+
+bool UsbHeadset::end_all(std::int64_t until_ns) {
+    while (any_under_way() || request_->under_way) {
+        if (latency::monotonic_ns() >= until_ns || !wait(kLongestRead)) {
+            return false;
         }
     }
+    return true;
+}
+
+/// Closing the device takes them off it, so that nobody is called back; but libusb has no way to
+/// free one that has not ended.
+void UsbHeadset::leave_what_is_under_way() {
+    static std::atomic<Transfer*> left{nullptr};  // so that all of them can still be reached
+    const auto leave = [](std::unique_ptr<Transfer>& transfer) {
+        if (!transfer->under_way) {
+            return 0;
+        }
+        Transfer* const kept = transfer.release();
+        kept->left_before = left.exchange(kept);
+        return 1;
+    };
+    int count = leave(request_);
+    for (std::unique_ptr<Transfer>& transfer : data_) {
+        count += leave(transfer);
+    }
+    spdlog::warn("{}: {} of its transfers do not end: left, and the device closed", text_, count);
 }
 
 Expected<void> UsbHeadset::read(std::chrono::milliseconds longest, DeviceFeed& feed) {
@@ -181,8 +223,11 @@ Expected<void> UsbHeadset::read(std::chrono::milliseconds longest, DeviceFeed& f
     const auto until_due = std::chrono::nanoseconds(
         std::max<std::int64_t>(failure_.empty() ? keeper_.next_ns() - now_ns : kMayStillGo_ns,
                                std::chrono::nanoseconds(std::chrono::milliseconds(1)).count()));
-    wait(std::min(std::chrono::duration_cast<std::chrono::microseconds>(longest),
-                  std::chrono::duration_cast<std::chrono::microseconds>(until_due)));
+    const auto pause = std::min(std::chrono::duration_cast<std::chrono::microseconds>(longest),
+                                std::chrono::duration_cast<std::chrono::microseconds>(until_due));
+    if (!wait(pause) && !gone_) {
+        std::this_thread::sleep_for(pause);  // libusb did not: no turning in circles
+    }
     if (halted_ && !any_under_way() && failure_.empty()) {
         recover();
     }
@@ -206,10 +251,15 @@ std::optional<std::string> UsbHeadset::why_over(std::int64_t now_ns) {
     return now_ns - *failed_ns_ < kMayStillGo_ns ? std::nullopt : std::optional(failure_);
 }
 
-void UsbHeadset::wait(std::chrono::microseconds longest) {
+bool UsbHeadset::wait(std::chrono::microseconds longest) {
     constexpr std::int64_t kSecond_us = 1'000'000;
     timeval time{.tv_sec = longest.count() / kSecond_us, .tv_usec = longest.count() % kSecond_us};
-    libusb_handle_events_timeout_completed(context_.get(), &time, nullptr);
+    const int result = libusb_handle_events_timeout_completed(context_.get(), &time, nullptr);
+    if (result == 0 || result == LIBUSB_ERROR_INTERRUPTED) {
+        return true;
+    }
+    note(result, "waiting for its data");
+    return false;
 }
 
 void UsbHeadset::on_data(libusb_transfer* transfer) {
@@ -264,20 +314,23 @@ void UsbHeadset::submit(Transfer& transfer) {
 }
 
 void UsbHeadset::submit_all() {
-    for (Transfer& transfer : data_) {
-        submit(transfer);
+    for (const std::unique_ptr<Transfer>& transfer : data_) {
+        submit(*transfer);
     }
 }
 
 void UsbHeadset::cancel_all() {
-    for (Transfer& transfer : data_) {
-        if (transfer.under_way) {
-            libusb_cancel_transfer(transfer.transfer.get());
+    for (const std::unique_ptr<Transfer>& transfer : data_) {
+        if (transfer->under_way) {
+            libusb_cancel_transfer(transfer->transfer.get());
         }
     }
 }
 
-bool UsbHeadset::any_under_way() const { return std::ranges::any_of(data_, &Transfer::under_way); }
+bool UsbHeadset::any_under_way() const {
+    return std::ranges::any_of(
+        data_, [](const std::unique_ptr<Transfer>& transfer) { return transfer->under_way; });
+}
 
 /// Takes the result of a libusb call.
 void UsbHeadset::note(int result, std::string_view doing) {
@@ -290,12 +343,12 @@ void UsbHeadset::note(int result, std::string_view doing) {
 }
 
 void UsbHeadset::ask(Asking what, std::int64_t now_ns) {
-    if (request_.under_way) {
+    if (request_->under_way) {
         return;
     }
     keeper_.asked(now_ns);
     libusb_fill_control_setup(
-        request_.bytes.data(),
+        request_->bytes.data(),
         static_cast<std::uint8_t>(static_cast<unsigned>(LIBUSB_ENDPOINT_OUT) |
                                   static_cast<unsigned>(LIBUSB_REQUEST_TYPE_VENDOR) |
                                   static_cast<unsigned>(LIBUSB_RECIPIENT_ENDPOINT)),
@@ -303,11 +356,11 @@ void UsbHeadset::ask(Asking what, std::int64_t now_ns) {
     // Report id and subcommand of two bytes each, and a length of four: no more follows.
     const std::array<std::uint8_t, kRequestBytes> request{kGazeStream, 0,
                                                           static_cast<std::uint8_t>(what)};
-    std::ranges::copy(request, request_.bytes.begin() + LIBUSB_CONTROL_SETUP_SIZE);
-    libusb_fill_control_transfer(request_.transfer.get(), handle_.get(), request_.bytes.data(),
-                                 on_asked, &request_, kRequestTimeout_ms);
-    const int result = libusb_submit_transfer(request_.transfer.get());
-    request_.under_way = result == 0;
+    std::ranges::copy(request, request_->bytes.begin() + LIBUSB_CONTROL_SETUP_SIZE);
+    libusb_fill_control_transfer(request_->transfer.get(), handle_.get(), request_->bytes.data(),
+                                 on_asked, request_.get(), kRequestTimeout_ms);
+    const int result = libusb_submit_transfer(request_->transfer.get());
+    request_->under_way = result == 0;
     note(result, "asking for gaze");
 }
 

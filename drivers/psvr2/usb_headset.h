@@ -53,9 +53,10 @@ class UsbHandle {
 };
 
 /// A headset that is being read (open_headset). All of it happens in read(), on the caller's
-/// thread.
+/// thread. Its end takes 2 s at the most: transfers that have not ended then are left as they are.
 class UsbHeadset final : public TrackerDevice {
   public:
+    /// Throws std::bad_alloc.
     UsbHeadset(UsbContext context, UsbHandle handle, const FoundDevice& found,
                const Psvr2Options& options);
     UsbHeadset(const UsbHeadset&) = delete;
@@ -66,6 +67,7 @@ class UsbHeadset final : public TrackerDevice {
     [[nodiscard]] const std::vector<std::string>& remarks() const override { return remarks_; }
     [[nodiscard]] Expected<void> read(std::chrono::milliseconds longest, DeviceFeed& feed) override;
     [[nodiscard]] TrackerCounts counts() const override { return samples_.counts(); }
+    [[nodiscard]] PupilsMm pupils_mm() const override { return samples_.pupils_mm(); }
     [[nodiscard]] const latency::ClockFit* clock() const override { return samples_.clock(); }
 
   private:
@@ -77,7 +79,7 @@ class UsbHeadset final : public TrackerDevice {
 
     enum class Asking : std::uint8_t { Start = 1, Stop = 2 };
 
-    /// One libusb transfer and its memory.
+    /// One libusb transfer and its memory, which stays where it is.
     struct Transfer {
         struct Free {
             void operator()(libusb_transfer* transfer) const;
@@ -86,21 +88,28 @@ class UsbHeadset final : public TrackerDevice {
         std::unique_ptr<libusb_transfer, Free> transfer;
         std::array<std::uint8_t, kTransferBytes> bytes{};
         bool under_way = false;
+        Transfer* left_before = nullptr;  ///< see leave_what_is_under_way()
     };
 
+    [[nodiscard]] std::unique_ptr<Transfer> new_transfer();
     static void on_data(libusb_transfer* transfer);
     static void on_asked(libusb_transfer* transfer);
     void take(Transfer& transfer, std::int64_t arrived_ns);
     void submit(Transfer& transfer);
     void submit_all();
     void cancel_all();
-    [[nodiscard]] bool any_under_way() const;
+    [[nodiscard]] bool any_under_way() const;  ///< of those for data
+    /// Waits until no transfer is under way; false where that takes too long or cannot be waited
+    /// for.
+    [[nodiscard]] bool end_all(std::int64_t until_ns);
+    void leave_what_is_under_way();
     void ask(Asking what, std::int64_t now_ns);
     void keep_alive(std::int64_t now_ns);
     void recover();
     void note(int result, std::string_view doing);
     [[nodiscard]] std::optional<std::string> why_over(std::int64_t now_ns);
-    void wait(std::chrono::microseconds longest);
+    /// False where libusb cannot wait for this device any more.
+    bool wait(std::chrono::microseconds longest);
 
     std::string text_;
     std::string path_;
@@ -109,8 +118,8 @@ class UsbHeadset final : public TrackerDevice {
     UsbHandle handle_;
     GazeSamples samples_;
     StreamKeeper keeper_;
-    std::array<Transfer, kTransfers> data_;
-    Transfer request_;
+    std::array<std::unique_ptr<Transfer>, kTransfers> data_;
+    std::unique_ptr<Transfer> request_;
 
     DeviceFeed* feed_ = nullptr;  ///< of the read() that runs
     bool halted_ = false;         ///< what is under way has to end first

@@ -131,6 +131,7 @@ void EmulatedPsvr2::unplug() {
 void EmulatedPsvr2::set_fault(Fault fault) {
     const std::lock_guard lock(mutex_);
     fault_ = fault;
+    show_whether_any_has_ended();
 }
 
 void EmulatedPsvr2::set_mode(unsigned mode) const {
@@ -222,6 +223,9 @@ void EmulatedPsvr2::answer(UMockdevIoctlClient* client) {
         }
         case USBDEVFS_RELEASEINTERFACE:
             ++seen_.releases;
+            // Nobody asks for them again: the node is closed next.
+            forget(waiting_);
+            forget(ended_);
             complete(client);
             return;
         case USBDEVFS_CLEAR_HALT:
@@ -291,6 +295,10 @@ void EmulatedPsvr2::take_request(const Urb& urb) {
 }
 
 void EmulatedPsvr2::reap(UMockdevIoctlClient* client) {
+    if (fault_ == Fault::EventsFail) {
+        complete(client, EIO);
+        return;
+    }
     if (ended_.empty()) {
         complete(client, gone_ ? ENODEV : EAGAIN);
         return;
@@ -314,6 +322,10 @@ void EmulatedPsvr2::discard(UMockdevIoctlClient* client) {
         waiting_, [&](const Urb& urb) { return urb.urb->client_addr == address; });
     if (found == waiting_.end()) {
         complete(client, EINVAL);
+        return;
+    }
+    if (fault_ == Fault::NothingEnds) {
+        complete(client);
         return;
     }
     const Urb urb = *found;
@@ -347,7 +359,7 @@ void EmulatedPsvr2::show_whether_any_has_ended() const {
     if (fifo_ < 0) {
         return;
     }
-    if (ended_.empty() && !gone_) {
+    if (ended_.empty() && !gone_ && fault_ != Fault::EventsFail) {
         while (write(fifo_, kFull.data(), kFull.size()) > 0) {
         }
     } else {

@@ -27,7 +27,9 @@ class EmulatedPsvr2 {
         KernelDriver,
         RequestStalls,
         HaltStays,
-        PulledOut
+        PulledOut,
+        EventsFail,   ///< whether a transfer has ended cannot be asked
+        NothingEnds,  ///< transfers that are discarded do not end
     };
 
     EmulatedPsvr2();

@@ -1,11 +1,17 @@
 // The USB path on an emulated PlayStation VR2: found, claimed, asked, read, halted, pulled out.
+#include <dlfcn.h>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <libusb.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <functional>
+#include <sstream>
 #include <thread>
 
 #include "drivers/psvr2/psvr2_source.h"
@@ -14,6 +20,19 @@
 #include "tests/device/as_nobody.h"
 #include "tests/device/emulated_psvr2.h"
 #include "tests/device/thread_time.h"
+
+namespace {
+
+std::atomic<bool> g_no_memory{false};
+
+}  // namespace
+
+/// In the place of libusb's, which is called but where there is to be no memory.
+extern "C" libusb_transfer* libusb_alloc_transfer(int packets) {
+    const auto real =
+        reinterpret_cast<libusb_transfer* (*)(int)>(dlsym(RTLD_NEXT, "libusb_alloc_transfer"));
+    return g_no_memory ? nullptr : real(packets);
+}
 
 namespace gazeloop::drivers::psvr2 {
 namespace {
@@ -231,6 +250,69 @@ TEST_F(Psvr2Device, ComesLateGoesAndComesBack) {
         samples_.clear();
         events_.clear();
     }
+}
+
+/// What is logged while this lives.
+class Log {
+  public:
+    Log() : before_(spdlog::default_logger()) {
+        spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+            "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(lines_)));
+    }
+    Log(const Log&) = delete;
+    Log& operator=(const Log&) = delete;
+    ~Log() { spdlog::set_default_logger(before_); }
+    [[nodiscard]] std::string text() const { return lines_.str(); }
+
+  private:
+    std::shared_ptr<spdlog::logger> before_;
+    std::ostringstream lines_;
+};
+
+TEST_F(Psvr2Device, ThatCannotBeWaitedForIsGoneAndOpenedAgain) {
+    const Log log;
+    headset_->plug_in();
+    Psvr2Source source({});
+    send();
+    until(source, [&] { return tracking(); });
+    headset_->set_fault(EmulatedPsvr2::Fault::EventsFail);
+    until_event(source, "gone: " + headset_->node() + ": waiting for its data failed: ");
+    EXPECT_FALSE(samples_.back().eyes[0].valid || samples_.back().eyes[1].valid);
+    events_.clear();
+    samples_.clear();
+    headset_->set_fault(EmulatedPsvr2::Fault::None);
+    until_event(source, "plugged in");
+    send();
+    until(source, [&] { return tracking(); });
+    EXPECT_NE(log.text().find("of its transfers do not end: left"), std::string::npos);
+}
+
+// Whatever the device does, the program ends.
+TEST_F(Psvr2Device, WhoseTransfersDoNotEndIsLeft) {
+    const Log log;
+    headset_->plug_in();
+    {
+        Psvr2Source source({});
+        send();
+        until(source, [&] { return tracking() && headset_->seen().listening == 4; });
+        headset_->set_fault(EmulatedPsvr2::Fault::NothingEnds);
+    }
+    EXPECT_NE(log.text().find("4 of its transfers do not end: left, and the device closed"),
+              std::string::npos)
+        << log.text();
+    EXPECT_EQ(headset_->seen().releases, 1);
+}
+
+TEST_F(Psvr2Device, WithoutMemoryForTransfersIsTriedAgain) {
+    headset_->plug_in();
+    g_no_memory = true;
+    Psvr2Source source({});
+    until_event(source, "reading the tracker failed: ");
+    EXPECT_FALSE(contains(events_, "plugged in"));
+    g_no_memory = false;
+    until_event(source, "plugged in");
+    send();
+    until(source, [&] { return tracking(); });
 }
 
 TEST_F(Psvr2Device, SaysWhoHasItAndGoesOnOnceItIsFree) {

@@ -104,6 +104,37 @@ TEST(Psvr2Samples, TellWhenTheAxesAreNotAsPublished) {
     EXPECT_EQ(samples.counts().damaged, 1U);
 }
 
+TEST(Psvr2Samples, TellWhenTheAxesTurnOrContradictEachOther) {
+    GazeSamples samples(kDelay);
+    std::uint32_t frame = 0;
+    const auto take = [&](bool odd) {
+        ++frame;
+        PacketBytes bytes = good_packet(8333 * frame, frame);
+        if (odd) {
+            bytes.set<float>(92 + 4, -31.F).set<float>(164 + 4, 31.F);
+        }
+        return samples.take(bytes.bytes, 8'333'000LL * frame)->eyes[0].valid;
+    };
+    int valid = 0;
+    for (int i = 0; i < 400; ++i) {
+        valid += take(i < 8) ? 1 : 0;
+    }
+    EXPECT_EQ(valid, 1 + 400 - 8 - 119);
+    EXPECT_EQ(samples.counts().damaged, 119U);
+    std::vector<std::string> axes;
+    for (int i = 0; i < 600; ++i) {
+        (void)take(i % 2 == 0);
+    }
+    for (const std::string& line : changes(samples)) {
+        if (line.starts_with("axes: ")) {
+            axes.push_back(line.substr(6, 15));
+        }
+    }
+    EXPECT_EQ(axes,
+              (std::vector<std::string>{"NOT as publishe", "as published (l", "the eyes' place"}));
+    EXPECT_EQ(samples.pupils_mm(), (PupilsMm{3.25, 4.5}));
+}
+
 TEST(Psvr2Samples, MissPacketsThatTheHeadsetCounted) {
     GazeSamples samples(kDelay);
     const auto lost_before = [&](std::uint32_t frame, std::int64_t at_ms) {
@@ -129,7 +160,7 @@ std::vector<std::uint64_t> unwrapped(const std::vector<std::uint64_t>& raw) {
     for (const std::uint64_t us : raw) {
         GazePacket packet;
         packet.timestamp_us = static_cast<std::int64_t>(us);
-        packet.foveated.timestamp_us = 77;
+        packet.foveated_timestamp_us = 77;
         times.push_back(timestamp.unwrapped_us(packet));
     }
     return times;
@@ -166,7 +197,7 @@ TEST(Psvr2Timestamp, IsTheFoveatedBlocksWhereThePacketHasNone) {
     PacketTimestamp timestamp;
     for (const std::int64_t us : {500, 8833, 17'166}) {
         GazePacket packet;
-        packet.foveated.timestamp_us = us;
+        packet.foveated_timestamp_us = us;
         EXPECT_EQ(timestamp.unwrapped_us(packet), static_cast<std::uint64_t>(us));
     }
 }

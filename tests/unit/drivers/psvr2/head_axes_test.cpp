@@ -69,14 +69,81 @@ TEST(HeadAxes, OnePacketDoesNotTurnThemAround) {
 
 TEST(HeadAxes, WithoutPlacesAreUnconfirmedUntilThereAreSome) {
     HeadAxes axes;
-    for (int i = 0; i < 240; ++i) {
-        EXPECT_EQ(axes.agrees(packet_with(-1, -1, false)), i == 239);
+    for (int i = 0; i < 180; ++i) {
+        EXPECT_EQ(axes.agrees(packet_with(-1, -1, false)), i == 179);
     }
     EXPECT_EQ(axes.verdict(), AxesVerdict::Unconfirmed);
     for (int i = 0; i < 8; ++i) {
         EXPECT_EQ(axes.agrees(packet_with(1, -1)), i == 7) << "places that contradict";
     }
     EXPECT_EQ(axes.verdict(), AxesVerdict::FromData);
+}
+
+// What a second's worth of packets says counts more than what the first of them said.
+TEST(HeadAxes, AreTurnedByASecondOfContradiction) {
+    HeadAxes axes;
+    for (int i = 0; i < 8; ++i) {
+        EXPECT_EQ(axes.agrees(packet_with(1, -1)), i == 7);
+    }
+    EXPECT_EQ(axes.verdict(), AxesVerdict::FromData);
+    int used = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const GazePacket packet = packet_with(-1, -1);
+        if (axes.agrees(packet)) {
+            ++used;
+            EXPECT_LT(axes.to_head(*packet.eyes[0].origin_mm).x,
+                      axes.to_head(*packet.eyes[1].origin_mm).x);
+        }
+    }
+    EXPECT_EQ(used, 1000 - 119);
+    EXPECT_EQ(axes.verdict(), AxesVerdict::AsPublished);
+    // And back, should the headset be told to send otherwise.
+    for (int i = 0; i < 120; ++i) {
+        EXPECT_EQ(axes.agrees(packet_with(1, -1)), i == 119);
+    }
+    EXPECT_EQ(axes.verdict(), AxesVerdict::FromData);
+}
+
+TEST(HeadAxes, AFewOddPacketsAreLeftOutAndNoMore) {
+    HeadAxes axes;
+    int used = 0;
+    for (int i = 0; i < 700; ++i) {
+        const bool odd = i % 7 == 3;
+        const bool agrees = axes.agrees(packet_with(odd ? 1 : -1, -1));
+        EXPECT_FALSE(odd && agrees);
+        used += agrees ? 1 : 0;
+    }
+    EXPECT_EQ(used, 600 - 7) << "all that are not odd, from the eighth on";
+    EXPECT_EQ(axes.verdict(), AxesVerdict::AsPublished);
+}
+
+TEST(HeadAxes, ThatContradictEachOtherAreNotUsedUntilTheyAgree) {
+    HeadAxes axes;
+    for (int i = 0; i < 1000; ++i) {
+        EXPECT_FALSE(axes.agrees(packet_with(i % 2 == 0 ? 1 : -1, -1)));
+        EXPECT_EQ(axes.verdict(), i < 179 ? AxesVerdict::Unchecked : AxesVerdict::Contradictory);
+    }
+    int needed = 1;
+    while (!axes.agrees(packet_with(-1, -1)) && needed < 1000) {
+        ++needed;
+    }
+    EXPECT_EQ(needed, 59) << "two thirds of the last 180";
+    EXPECT_EQ(axes.verdict(), AxesVerdict::AsPublished);
+    // A verdict that half of them contradict is none either.
+    int used = 0;
+    for (int i = 0; i < 1000; ++i) {
+        used += axes.agrees(packet_with(i % 3 == 0 ? -1 : 1, i % 2 == 0 ? -1 : 1)) ? 1 : 0;
+    }
+    EXPECT_EQ(axes.verdict(), AxesVerdict::Contradictory);
+    EXPECT_LT(used, 100);
+}
+
+TEST(HeadAxes, OfEyesThatLookBackWithoutPlacesAreNotTaken) {
+    HeadAxes axes;
+    for (int i = 0; i < 300; ++i) {
+        EXPECT_FALSE(axes.agrees(packet_with(-1, 1, false)));
+    }
+    EXPECT_EQ(axes.verdict(), AxesVerdict::Contradictory);
 }
 
 TEST(HeadAxes, EyesInOnePlaceOrMilesApartSayNothing) {
