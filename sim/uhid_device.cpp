@@ -57,9 +57,7 @@ Expected<UhidDevice> UhidDevice::create(const Identity& identity,
 }
 
 UhidDevice::UhidDevice(UhidDevice&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)),
-      answers_(std::move(other.answers_)),
-      opened_(other.opened_) {}
+    : fd_(std::exchange(other.fd_, -1)), answers_(std::move(other.answers_)) {}
 
 UhidDevice::~UhidDevice() {
     if (fd_ >= 0) {
@@ -80,33 +78,31 @@ Expected<void> UhidDevice::send(std::span<const std::uint8_t> report) {
     return {};
 }
 
-void UhidDevice::answer_for(std::chrono::nanoseconds time) {
+void UhidDevice::answer_for(std::chrono::nanoseconds time, const std::function<bool()>& stop) {
     const auto until = std::chrono::steady_clock::now() + time;
+    int asking = fd_;
     for (auto left = time; left.count() > 0; left = until - std::chrono::steady_clock::now()) {
-        pollfd file{fd_, POLLIN, 0};
+        pollfd file{asking, POLLIN, 0};
         const timespec wait{left.count() / 1'000'000'000, left.count() % 1'000'000'000};
-        if (ppoll(&file, 1, &wait, nullptr) < 0) {
-            return;  // a signal: the caller looks whether it is to end
+        const int ready = ppoll(&file, 1, &wait, nullptr);
+        if (ready < 0 && stop()) {
+            return;
         }
-        if ((file.revents & POLLIN) != 0) {
-            answer();
+        const bool asked = ready > 0 && (file.revents & POLLIN) != 0;
+        if (ready > 0 && (!asked || !answer())) {
+            asking = -1;  // which poll() passes over: only the time is left to wait for
         }
     }
 }
 
-void UhidDevice::answer() {
+bool UhidDevice::answer() {
     uhid_event event{};
-    if (read(fd_, &event, sizeof(event)) <= 0) {
-        return;
+    const ssize_t bytes = read(fd_, &event, sizeof(event));
+    if (bytes <= 0) {
+        return bytes < 0 && (errno == EAGAIN || errno == EINTR);
     }
     uhid_event reply{};
     switch (event.type) {
-        case UHID_OPEN:
-            opened_ = true;
-            break;
-        case UHID_CLOSE:
-            opened_ = false;
-            break;
         case UHID_GET_REPORT: {
             reply.type = UHID_GET_REPORT_REPLY;
             uhid_get_report_reply_req& answer = reply.u.get_report_reply;
@@ -137,6 +133,7 @@ void UhidDevice::answer() {
         default:
             break;
     }
+    return true;
 }
 
 }  // namespace gazeloop::sim

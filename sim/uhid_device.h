@@ -41,19 +41,16 @@ class UhidDevice {
     /// Sends an input report, id first. Errors (NoDevice): the kernel does not take it.
     [[nodiscard]] Expected<void> send(std::span<const std::uint8_t> report);
 
-    /// Answers what the kernel asks for so long.
-    void answer_for(std::chrono::nanoseconds time);
-
-    /// Whether somebody has it open.
-    [[nodiscard]] bool opened() const { return opened_; }
+    /// Answers what the kernel asks for so long, or until a signal comes and `stop` says so.
+    void answer_for(std::chrono::nanoseconds time, const std::function<bool()>& stop);
 
   private:
     UhidDevice(int fd, Answers answers) : fd_(fd), answers_(std::move(answers)) {}
-    void answer();
+    /// False where the kernel asks nothing any more.
+    bool answer();
 
     int fd_;
     Answers answers_;
-    bool opened_ = false;
 };
 
 }  // namespace gazeloop::sim

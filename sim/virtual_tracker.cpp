@@ -72,7 +72,8 @@ std::optional<glm::dvec3> met_by(const gaze::EyeRay& ray) {
 
 std::span<const std::uint8_t> virtual_tracker_descriptor() { return kDescriptor; }
 
-VirtualReport virtual_tracker_report(const gaze::GazeSample& sample, std::uint64_t time_us) {
+VirtualReport virtual_tracker_report(const gaze::GazeSample& sample, std::uint64_t time_us,
+                                     std::uint8_t modes) {
     VirtualReport report{};
     std::size_t at = 0;
     put(report, at, std::uint8_t{0x10});
@@ -85,14 +86,16 @@ VirtualReport virtual_tracker_report(const gaze::GazeSample& sample, std::uint64
             points += 1.0;
         }
     }
-    const std::int32_t x = points > 0.0 ? micrometres(point.x / points) : kNoData;
-    const std::int32_t y = points > 0.0 ? micrometres(point.y / points) : kNoData;
+    const bool has_gaze = points > 0.0 && (modes & kVirtualGaze) != 0;
+    const bool has_eyes = (modes & kVirtualEyes) != 0;
+    const std::int32_t x = has_gaze ? micrometres(point.x / points) : kNoData;
+    const std::int32_t y = has_gaze ? micrometres(point.y / points) : kNoData;
     put(report, at, x);
     put(report, at, y);
     for (const gaze::EyeRay& ray : sample.eyes) {
         const glm::dvec3 eye = on_screen(ray.origin_m);
         for (const double coordinate : {eye.x, eye.y, eye.z}) {
-            put(report, at, ray.valid ? micrometres(coordinate) : kNoData);
+            put(report, at, has_eyes && ray.valid ? micrometres(coordinate) : kNoData);
         }
     }
     return report;

@@ -26,10 +26,17 @@ using VirtualReport = std::array<std::uint8_t, kVirtualReportBytes>;
 
 [[nodiscard]] std::span<const std::uint8_t> virtual_tracker_descriptor();
 
+// What it can be asked to send (Device Mode Request).
+inline constexpr std::uint8_t kVirtualGaze = 1;
+inline constexpr std::uint8_t kVirtualEyes = 2;
+
 /// The input report of a sample: eyes where its rays begin, the gaze point between those of both
-/// eyes on the screen. Without a valid eye, or off the range of 2 m, it says "no data".
+/// eyes on the screen. Without a valid eye, off the range of 2 m, and for what is not among the
+/// `modes`, it says "no data".
 [[nodiscard]] VirtualReport virtual_tracker_report(const gaze::GazeSample& sample,
-                                                   std::uint64_t time_us);
+                                                   std::uint64_t time_us,
+                                                   std::uint8_t modes = kVirtualGaze |
+                                                                        kVirtualEyes);
 
 /// A feature report, id first; none for an id that it does not have.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> virtual_tracker_feature(

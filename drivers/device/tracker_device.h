@@ -10,6 +10,7 @@
 
 #include "drivers/device/device_feed.h"
 #include "runtime/error.h"
+#include "runtime/gaze/eye.h"
 #include "runtime/latency/clock_fit.h"
 
 namespace gazeloop::drivers {
@@ -37,6 +38,9 @@ struct TrackerCounts {
     std::uint64_t lost = 0;     ///< reports that were certainly lost on the way
 };
 
+/// The diameter of each pupil; none where the tracker has not said.
+using PupilsMm = gaze::PerEye<std::optional<double>>;
+
 /// A tracker that was opened and asked to send, read by one thread. It is stopped when this goes.
 class TrackerDevice {
   public:
@@ -54,6 +58,8 @@ class TrackerDevice {
                                               DeviceFeed& feed) = 0;
 
     [[nodiscard]] virtual TrackerCounts counts() const = 0;
+    /// As it was last seen.
+    [[nodiscard]] virtual PupilsMm pupils_mm() const { return {}; }
     /// Of the samples' timestamps; null before, and for a tracker without them.
     [[nodiscard]] virtual const latency::ClockFit* clock() const = 0;
 

@@ -46,6 +46,7 @@ TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& dev
     }
     probe.seconds = static_cast<double>(latency::monotonic_ns() - begin_ns) * 1e-9;
     probe.counts = (*tracker)->counts();
+    probe.pupils_mm = (*tracker)->pupils_mm();
     if (probe.counts.samples > 1 && last_ns > *first_ns) {
         probe.rate_hz = static_cast<double>(probe.counts.samples - 1) * 1e9 /
                         static_cast<double>(last_ns - *first_ns);

@@ -28,6 +28,7 @@ struct TrackerProbe {
     TrackerCounts counts;
     std::uint64_t with_gaze = 0;             ///< samples in which at least one eye is valid
     std::optional<double> rate_hz;           ///< samples a second, between the first and the last
+    PupilsMm pupils_mm;                      ///< as they were last seen
     std::optional<latency::ClockFit> clock;  ///< of its timestamps, where it sends any
 };
 

@@ -10,11 +10,16 @@ namespace {
 using Payload = std::span<const std::uint8_t>;
 
 std::optional<std::uint32_t> count_of(const std::optional<ReportValue>& value, Payload payload) {
-    const auto raw = value ? value->raw(payload) : std::nullopt;
-    if (!raw || *raw < 0 || *raw > std::numeric_limits<std::uint32_t>::max()) {
+    const auto number = value ? value->number(payload) : std::nullopt;
+    if (!number || *number < 0 || *number > std::numeric_limits<std::uint32_t>::max()) {
         return std::nullopt;
     }
-    return static_cast<std::uint32_t>(*raw);
+    return static_cast<std::uint32_t>(*number);
+}
+
+/// Zero of what there is says nothing.
+std::optional<std::uint32_t> nonzero(std::optional<std::uint32_t> count) {
+    return count == 0U ? std::nullopt : count;
 }
 
 std::optional<glm::dvec3> position_of(const PositionFields& fields, std::size_t axes,
@@ -43,7 +48,7 @@ StatusReport decode_status(const StatusLayout& layout, std::uint8_t id, Payload 
         }
     }
     if (layout.sampling_hz && layout.sampling_hz->report_id == id) {
-        report.sampling_hz = count_of(layout.sampling_hz, payload);
+        report.sampling_hz = nonzero(count_of(layout.sampling_hz, payload));
     }
     return report;
 }
@@ -78,13 +83,6 @@ class FeatureReader {
         return value ? count_of(value, payload(value->report_id)) : std::nullopt;
     }
 
-    /// Of a thing that has one: 0 is none.
-    [[nodiscard]] std::optional<std::uint32_t> number(
-        const std::optional<ReportValue>& value) const {
-        const auto number = count(value);
-        return number == 0U ? std::nullopt : number;
-    }
-
     [[nodiscard]] std::optional<double> length_m(const std::optional<ReportValue>& value) const {
         const auto metres = value ? value->si(payload(value->report_id)) : std::nullopt;
         return metres && *metres > 0.0 ? metres : std::nullopt;
@@ -99,30 +97,52 @@ class FeatureReader {
     std::span<const FeatureReport> reports_;
 };
 
-/// Trackers work, and screens measure, between 1 cm and 10 m: one wrong factor of 1000 shows.
-void correct_capabilities(TrackerFeatures& features) {
+struct StatedLength {
+    std::string_view of;
+    std::optional<double>* metres;
+};
+
+/// Trackers work, and screens measure, between 1 cm and 10 m.
+bool is_plausible(double metres) {
     constexpr double kLeast_m = 0.01;
     constexpr double kGreatest_m = 10.0;
-    const std::array<std::optional<double>*, 5> lengths{
-        &features.minimum_distance_m, &features.optimum_distance_m, &features.maximum_distance_m,
-        &features.maximum_width_m, &features.maximum_height_m};
-    for (const double factor : {1.0, 1e3, 1e-3}) {
-        const bool plausible = std::ranges::all_of(lengths, [&](const auto* length) {
-            return !*length || (**length * factor >= kLeast_m && **length * factor <= kGreatest_m);
+    return metres >= kLeast_m && metres <= kGreatest_m;
+}
+
+/// Multiplies the lengths by the one factor that makes most of them plausible, and leaves out those
+/// that even so are not. Returns the factor.
+double correct(std::span<const StatedLength> lengths, std::vector<ImplausibleLength>& left_out) {
+    const auto plausible_by = [&](double factor) {
+        return std::ranges::count_if(lengths, [&](const StatedLength& length) {
+            return *length.metres && is_plausible(**length.metres * factor);
         });
-        if (plausible) {
-            features.capability_correction = factor;
-            for (std::optional<double>* const length : lengths) {
-                if (*length) {
-                    **length *= factor;
-                }
-            }
-            return;
+    };
+    const double factor = std::ranges::max(std::array{1.0, 1e3, 1e-3}, {}, plausible_by);
+    for (const auto& [of, metres] : lengths) {
+        if (!*metres) {
+            continue;
+        }
+        if (is_plausible(**metres * factor)) {
+            **metres *= factor;
+        } else {
+            left_out.push_back({of, **metres});
+            metres->reset();
         }
     }
-    for (std::optional<double>* const length : lengths) {
-        length->reset();
-    }
+    return factor;
+}
+
+void correct(TrackerFeatures& features) {
+    const std::array<StatedLength, 5> capabilities{
+        {{"its least distance", &features.minimum_distance_m},
+         {"its best distance", &features.optimum_distance_m},
+         {"its greatest distance", &features.maximum_distance_m},
+         {"its screen's greatest width", &features.maximum_width_m},
+         {"its screen's greatest height", &features.maximum_height_m}}};
+    const std::array<StatedLength, 2> screen{{{"its screen's width", &features.screen_width_m},
+                                              {"its screen's height", &features.screen_height_m}}};
+    features.capability_correction = correct(capabilities, features.implausible);
+    features.screen_correction = correct(screen, features.implausible);
 }
 
 }  // namespace
@@ -172,16 +192,16 @@ TrackerFeatures decode_features(const EyeTrackerLayout& layout,
     features.maximum_distance_m = read.length_m(layout.maximum_distance);
     features.maximum_width_m = read.length_m(layout.maximum_width);
     features.maximum_height_m = read.length_m(layout.maximum_height);
-    correct_capabilities(features);
-    features.display_manufacturer = read.number(layout.display_manufacturer);
-    features.display_product = read.number(layout.display_product);
-    features.display_serial = read.number(layout.display_serial);
+    features.display_manufacturer = nonzero(read.count(layout.display_manufacturer));
+    features.display_product = nonzero(read.count(layout.display_product));
+    features.display_serial = nonzero(read.count(layout.display_serial));
     features.screen_width_m = read.length_m(layout.screen_width);
     features.screen_height_m = read.length_m(layout.screen_height);
+    correct(features);
     if (const auto number = read.count(layout.status_feature.status)) {
         features.status.status = status_of(*number);
     }
-    features.status.sampling_hz = read.count(layout.status_feature.sampling_hz);
+    features.status.sampling_hz = nonzero(read.count(layout.status_feature.sampling_hz));
     return features;
 }
 

@@ -52,15 +52,22 @@ using InputReport = std::variant<OtherReport, TrackingReport, StatusReport>;
 [[nodiscard]] InputReport decode_input(const EyeTrackerLayout& layout,
                                        std::span<const std::uint8_t> bytes);
 
-/// What the device said of itself. Zero and no data are absent.
+/// A length that the device states and that cannot be.
+struct ImplausibleLength {
+    std::string_view of;  ///< "its screen's width"
+    double metres = 0.0;
+};
+
+/// What the device said of itself. Zero and no data are absent, and lengths that cannot be: those
+/// below 1 cm or above 10 m, but for a common factor of 1000.
 struct TrackerFeatures {
     std::optional<double> minimum_distance_m;
     std::optional<double> optimum_distance_m;
     std::optional<double> maximum_distance_m;
     std::optional<double> maximum_width_m;
     std::optional<double> maximum_height_m;
-    /// By how much the distances and sizes above were multiplied to be plausible (1, 1000 or
-    /// 0.001): some devices miss the unit they state by that.
+    /// By how much the distances and sizes above were multiplied for most of them to be plausible
+    /// (1, 1000 or 0.001): some devices miss the unit they state by that.
     double capability_correction = 1.0;
     /// As in the EDID of the display that it is set up for.
     std::optional<std::uint32_t> display_manufacturer;
@@ -68,6 +75,8 @@ struct TrackerFeatures {
     std::optional<std::uint32_t> display_serial;
     std::optional<double> screen_width_m;
     std::optional<double> screen_height_m;
+    double screen_correction = 1.0;              ///< the same of the screen
+    std::vector<ImplausibleLength> implausible;  ///< absent above; as stated
     StatusReport status;
 };
 
@@ -86,7 +95,6 @@ enum TrackerMode : std::uint8_t {
     kModeStop = 0,
     kModeGaze = 1,
     kModeEyePosition = 2,
-    kModeHead = 4,
 };
 
 /// The feature report that asks for these modes, id first; none where the device has no control.

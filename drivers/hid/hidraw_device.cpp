@@ -14,6 +14,12 @@
 #include <utility>
 
 namespace gazeloop::drivers::hid {
+namespace {
+
+/// The size in a request's code has 14 bits.
+constexpr std::size_t kLongestFeature = _IOC_SIZEMASK;
+
+}  // namespace
 
 std::unexpected<Error> HidrawDevice::error(const std::string& what) const {
     return std::unexpected(Error{ExitCode::NoDevice, fmt::format("{}: {}", path_, what)});
@@ -63,7 +69,7 @@ Expected<std::size_t> HidrawDevice::read(std::span<std::uint8_t> report,
 
 std::optional<std::vector<std::uint8_t>> HidrawDevice::feature(std::uint8_t id,
                                                                std::size_t payload_bytes) {
-    std::vector<std::uint8_t> report(1 + payload_bytes, 0);
+    std::vector<std::uint8_t> report(std::min(1 + payload_bytes, kLongestFeature), 0);
     report.front() = id;
     const int bytes = ioctl(fd_, HIDIOCGFEATURE(report.size()), report.data());
     if (bytes <= 0) {
@@ -74,6 +80,10 @@ std::optional<std::vector<std::uint8_t>> HidrawDevice::feature(std::uint8_t id,
 }
 
 Expected<void> HidrawDevice::send_feature(std::span<const std::uint8_t> report) {
+    if (report.size() > kLongestFeature) {
+        return error(fmt::format("a request of {} bytes cannot be sent: at most {}", report.size(),
+                                 kLongestFeature));
+    }
     // The kernel only reads what it is told to send.
     if (ioctl(fd_, HIDIOCSFEATURE(report.size()), report.data()) < 0) {
         return error("does not take the request");

@@ -31,14 +31,15 @@ class HidrawDevice {
     [[nodiscard]] Expected<std::size_t> read(std::span<std::uint8_t> report,
                                              std::chrono::milliseconds longest);
 
-    /// A feature report of at most `payload_bytes`, id first; none where the device does not give
-    /// it.
+    /// A feature report of at most `payload_bytes` (and 16,383 bytes in all, which is what a
+    /// request can say), id first; none where the device does not give it.
     [[nodiscard]] std::optional<std::vector<std::uint8_t>> feature(std::uint8_t id,
                                                                    std::size_t payload_bytes);
     /// Whether no other HidrawDevice, of any process, has this node open.
     [[nodiscard]] bool nobody_else_reads() const;
 
-    /// Sends a feature report, id first. Errors (NoDevice): the device does not take it.
+    /// Sends a feature report, id first. Errors (NoDevice): the device does not take it, or it
+    /// is longer than 16,383 bytes.
     [[nodiscard]] Expected<void> send_feature(std::span<const std::uint8_t> report);
 
   private:

@@ -46,7 +46,7 @@ struct ReportField {
     std::uint32_t bit_offset = 0;  ///< of the first element, after the report id's byte
     std::uint32_t bits = 0;        ///< > 0
     std::uint32_t count = 0;       ///< > 0
-    std::uint32_t flags = 0;       ///< the item's data, see below
+    std::uint32_t flags = 0;       ///< the item's data (HID 1.11, 6.2.2.4)
     std::int64_t logical_minimum = 0;
     std::int64_t logical_maximum = 0;
     std::int64_t physical_minimum = 0;  ///< both 0: as the logical ones
@@ -56,8 +56,6 @@ struct ReportField {
     std::vector<UsageRange> usages;         ///< in order; may be empty
     std::optional<std::size_t> collection;  ///< index of the innermost one around it
 
-    [[nodiscard]] bool constant() const { return (flags & 1U) != 0; }
-    [[nodiscard]] bool variable() const { return (flags & 2U) != 0; }
     /// Of an element of a variable field: the last usage serves all elements beyond it.
     [[nodiscard]] Usage usage_of(std::uint32_t element) const;
 };

@@ -83,14 +83,21 @@ std::optional<std::int64_t> ReportValue::raw(std::span<const std::uint8_t> paylo
     return static_cast<std::int64_t>(*value);
 }
 
-std::optional<double> ReportValue::si(std::span<const std::uint8_t> payload) const {
+std::optional<std::int64_t> ReportValue::number(std::span<const std::uint8_t> payload) const {
+    constexpr std::uint32_t kWord = 32;
     const std::optional<std::int64_t> value = raw(payload);
     const auto no_data = static_cast<std::int64_t>(low_bits(is_signed ? bits - 1 : bits));
     if (!value || *value == no_data ||
+        (bits == kWord && *value == std::numeric_limits<std::int32_t>::max()) ||
         (least < greatest && (*value < least || *value > greatest))) {
         return std::nullopt;
     }
-    return static_cast<double>(*value) * scale + offset;
+    return value;
+}
+
+std::optional<double> ReportValue::si(std::span<const std::uint8_t> payload) const {
+    const std::optional<std::int64_t> value = number(payload);
+    return value ? std::optional(static_cast<double>(*value) * scale + offset) : std::nullopt;
 }
 
 double unit_size(const ReportField& field, Quantity quantity) {

@@ -35,8 +35,12 @@ struct ReportValue {
     /// unsigned number is above the greatest signed one.
     [[nodiscard]] std::optional<std::int64_t> raw(std::span<const std::uint8_t> payload) const;
 
-    /// In SI units; none where raw() has none, outside the range, and for the greatest number that
-    /// the field can hold, which devices send for "no data" whatever their range.
+    /// What the device says with it; none where raw() has none, outside the range, and for what
+    /// devices send for "no data" whatever their range: the greatest number that the field can hold
+    /// and, of 32 bits, the greatest signed one.
+    [[nodiscard]] std::optional<std::int64_t> number(std::span<const std::uint8_t> payload) const;
+
+    /// number() in SI units.
     [[nodiscard]] std::optional<double> si(std::span<const std::uint8_t> payload) const;
 };
 

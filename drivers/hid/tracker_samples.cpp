@@ -9,8 +9,8 @@
 namespace gazeloop::drivers::hid {
 
 TrackerSamples::TrackerSamples(EyeTrackerLayout layout, const ScreenGeometry& geometry,
-                               const TrackerDelay& delay)
-    : layout_(std::move(layout)), geometry_(geometry) {
+                               const TrackerDelay& delay, std::optional<TrackerStatus> status)
+    : layout_(std::move(layout)), geometry_(geometry), status_(status) {
     for (const TrackingLayout& tracking : layout_.tracking) {
         std::optional<SampleClock>& clock = clocks_.emplace_back();
         if (tracking.timestamp) {
@@ -22,6 +22,7 @@ TrackerSamples::TrackerSamples(EyeTrackerLayout layout, const ScreenGeometry& ge
 std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_t> report,
                                                      std::int64_t arrived_ns) {
     const InputReport input = decode_input(layout_, report);
+    tracked_last_ = std::holds_alternative<TrackingReport>(input);
     if (const auto* const status = std::get_if<StatusReport>(&input)) {
         // Status and rate may come in reports of their own.
         status_changed_ = status->status && status->status != status_;
@@ -55,7 +56,6 @@ std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_
     const auto index = static_cast<std::size_t>(std::distance(layout_.tracking.begin(), layout));
     std::optional<SampleClock>& clock = clocks_[index];
     lost_before_last_ = 0;
-    last_clock_.reset();
     if (clock && tracking->ticks) {
         clock->stamp(*tracking->ticks, arrived_ns, sample);
         last_clock_ = index;

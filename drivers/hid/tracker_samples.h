@@ -18,13 +18,16 @@ namespace gazeloop::drivers::hid {
 /// changes it has something to say about.
 class TrackerSamples {
   public:
+    /// `status` is what the tracker said of itself before: no change.
     TrackerSamples(EyeTrackerLayout layout, const ScreenGeometry& geometry,
-                   const TrackerDelay& delay);
+                   const TrackerDelay& delay, std::optional<TrackerStatus> status = {});
 
     /// The sample of a report that had arrived by `arrived_ns`, all but its number; none where the
     /// report is of something else, or of the eyes' positions alone.
     [[nodiscard]] std::optional<gaze::GazeSample> take(std::span<const std::uint8_t> report,
                                                        std::int64_t arrived_ns);
+    /// Whether the last report was of gaze or eyes, not of something else.
+    [[nodiscard]] bool tracked_last() const { return tracked_last_; }
     /// Reports that are missing before the last sample.
     [[nodiscard]] std::uint64_t lost_before_last() const { return lost_before_last_; }
 
@@ -33,7 +36,7 @@ class TrackerSamples {
 
     /// Reports that were cut short are damaged, and samples nevertheless.
     [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
-    /// Of the report that came last; null before, and for a tracker without timestamps.
+    /// Of the report with a timestamp that came last; null before, and for a tracker without any.
     [[nodiscard]] const latency::ClockFit* clock() const;
 
   private:
@@ -54,6 +57,7 @@ class TrackerSamples {
     SeenEyes eyes_;
     std::optional<TrackerStatus> status_;
     bool status_changed_ = false;
+    bool tracked_last_ = false;
     TrackerCounts counts_;
 };
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "runtime/latency/clock.h"
@@ -45,7 +47,8 @@ TrackerSession::TrackerSession(std::string text, HidrawDevice device,
     : text_(std::move(text)),
       device_(std::move(device)),
       features_(features),
-      samples_(layout, merged(options.geometry, features_), options.delay) {
+      samples_(layout, merged(options.geometry, features_), options.delay,
+               features_.status.status) {
     describe(layout, merged(options.geometry, features_));
     if (auto start = encode_mode_request(layout, kModeGaze | kModeEyePosition)) {
         if (const auto sent = device_.send_feature(*start); sent) {
@@ -84,6 +87,14 @@ void TrackerSession::describe(const EyeTrackerLayout& layout, const ScreenGeomet
         remarks_.push_back(fmt::format("its distances are wrong by a factor of {}: corrected",
                                        features_.capability_correction));
     }
+    if (features_.screen_correction != 1.0) {
+        remarks_.push_back(fmt::format("its screen's size is wrong by a factor of {}: corrected",
+                                       features_.screen_correction));
+    }
+    for (const auto& [of, metres] : features_.implausible) {
+        remarks_.push_back(
+            fmt::format("states {:.3g} m as {}, which cannot be: left out", metres, of));
+    }
     if (auto problem = geometry_problem(layout, geometry)) {
         remarks_.push_back(std::move(*problem));
     }
@@ -110,8 +121,10 @@ Expected<TrackerSession> TrackerSession::open(const FoundTracker& tracker,
             Error{ExitCode::Interrupted,
                   fmt::format("{}: interrupted while it was opened", tracker.device.text())});
     }
+    HidOptions of_this = options;
+    of_this.delay.polling_ns = tracker.polling_ns;
     return TrackerSession(tracker.device.text(), std::move(*device), *features, *tracker.layout,
-                          options);
+                          of_this);
 }
 
 TrackerFacts TrackerSession::facts() const {
@@ -153,9 +166,13 @@ Expected<void> TrackerSession::read(std::chrono::milliseconds longest, DeviceFee
         ask_again(arrived_ns);
         return {};
     }
-    last_heard_ns_ = arrived_ns;
     if (auto sample = samples_.take({report.data(), *bytes}, arrived_ns)) {
         feed.push(*sample, samples_.lost_before_last());
+    }
+    if (samples_.tracked_last()) {
+        last_heard_ns_ = arrived_ns;
+    } else {
+        ask_again(arrived_ns);  // its status comes from a stopped one, too
     }
     if (auto change = samples_.take_change()) {
         feed.tell({arrived_ns, latency::StampKind::Measured}, std::move(*change));
@@ -179,10 +196,18 @@ Expected<std::unique_ptr<TrackerDevice>> opened(const FoundTracker& tracker,
 
 Expected<std::unique_ptr<TrackerDevice>> open_tracker(const HidOptions& options,
                                                       const StopRequested& stop) {
+    // A rule of udev's may have given the node another name as well.
+    std::error_code why;
+    const std::string node =
+        options.path.empty() ? "" : std::filesystem::canonical(options.path, why).string();
+    if (why) {
+        return std::unexpected(Error{ExitCode::NoDevice, fmt::format("{}: {}: waiting for it",
+                                                                     options.path, why.message())});
+    }
     // The first that can be used; if none can, why the first cannot.
     std::optional<Error> first_error;
     for (const FoundTracker& tracker : find_trackers()) {
-        if (!options.path.empty() && tracker.device.path != options.path) {
+        if (!options.path.empty() && tracker.device.path != node) {
             continue;
         }
         auto session = opened(tracker, options, stop);

@@ -17,12 +17,12 @@ namespace gazeloop::drivers::hid {
 
 /// What the user configured about trackers of this kind.
 struct HidOptions {
-    std::string path;  ///< only the device at this node; empty: the first that there is
+    std::string path;  ///< only the device at this node or link; empty: the first that there is
     TrackerDelay delay;
     ScreenGeometry geometry;  ///< what is not 0 counts instead of what the device states
 };
 
-/// An eye tracker that was opened and asked to send, and asked again when it is silent for a
+/// An eye tracker that was opened and asked to send, and asked again when no gaze comes for a
 /// second. Stops it when it goes, unless another program of ours reads it.
 class TrackerSession final : public TrackerDevice {
   public:
@@ -63,7 +63,8 @@ class TrackerSession final : public TrackerDevice {
     TrackerSamples samples_;
 };
 
-/// Opens the tracker that the options ask for.
+/// Opens the tracker that the options ask for; null where none is plugged in, or what is at the
+/// path is none. Errors: as open(), and NoDevice where there is nothing at the path.
 [[nodiscard]] Expected<std::unique_ptr<TrackerDevice>> open_tracker(const HidOptions& options,
                                                                     const StopRequested& stop);
 

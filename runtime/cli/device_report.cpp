@@ -87,6 +87,17 @@ void append_range(std::string& text, const drivers::TrackerFacts& facts) {
     }
 }
 
+void append_pupils(std::string& text, const drivers::PupilsMm& pupils_mm) {
+    const auto& [left, right] = pupils_mm;
+    const auto one = [](const std::optional<double>& mm) {
+        return mm ? fmt::format("{:.1f} mm", *mm) : std::string("unknown");
+    };
+    if (left || right) {
+        fmt::format_to(std::back_inserter(text), "  pupils    {} left, {} right\n", one(left),
+                       one(right));
+    }
+}
+
 }  // namespace
 
 std::string devices_text(const std::vector<TrackerProbe>& probes) {
@@ -114,6 +125,7 @@ std::string devices_text(const std::vector<TrackerProbe>& probes) {
             }
             text += "\n";
         }
+        append_pupils(text, probe.pupils_mm);
         if (probe.clock) {
             fmt::format_to(out, "  {}\n", drivers::describe(*probe.clock));
         } else if (probe.counts.samples > 0) {
@@ -156,6 +168,7 @@ Json devices_json(const std::vector<TrackerProbe>& probes) {
                         {"samples_lost", probe.counts.lost},
                         {"reports_damaged", probe.counts.damaged},
                         {"measured_hz", or_null(probe.rate_hz)},
+                        {"pupils_mm", {or_null(probe.pupils_mm[0]), or_null(probe.pupils_mm[1])}},
                         {"clock", probe.clock ? clock_json(*probe.clock) : Json(nullptr)},
                         {"remarks", probe.remarks},
                         {"problems", diagnosis(probe)}});

@@ -66,14 +66,15 @@ ExitCode simulate_tracker(const SimulateTrackerCommand& command) {
     while (!over()) {
         for (const gaze::GazeSample& sample : trace.samples) {
             const std::int64_t wait_ns = lap_ns + sample.sampled.ns - latency::monotonic_ns();
-            device.answer_for(std::chrono::nanoseconds(std::max<std::int64_t>(wait_ns, 1)));
+            device.answer_for(std::chrono::nanoseconds(std::max<std::int64_t>(wait_ns, 1)),
+                              [] { return interrupted(); });
             if (over()) {
                 break;
             }
-            if (modes != 0) {
+            if ((modes & (sim::kVirtualGaze | sim::kVirtualEyes)) != 0) {
                 const std::int64_t taken_ns = lap_ns + sample.sampled.ns - begin_ns;
                 value_or_throw(device.send(sim::virtual_tracker_report(
-                    sample, static_cast<std::uint64_t>(taken_ns / 1000))));
+                    sample, static_cast<std::uint64_t>(taken_ns / 1000), modes)));
                 ++sent;
             }
         }

@@ -166,6 +166,15 @@ void EmulatedTracker::set_mode(unsigned mode) const {
     chmod(real_node_.c_str(), mode);
 }
 
+void EmulatedTracker::set_link(const std::string& name, const std::string& target) const {
+    // Past umockdev, which would look for the testbed's folder in the testbed.
+    const std::filesystem::path link =
+        taken(umockdev_testbed_get_root_dir(testbed_)) + "/dev/" + name;
+    std::filesystem::create_directories(link.parent_path());
+    std::filesystem::remove(link);
+    std::filesystem::create_symlink(target, link);
+}
+
 void EmulatedTracker::wake_reader() const {
     const std::uint8_t any = 0;
     (void)!write(fifo_, &any, 1);

@@ -45,6 +45,8 @@ class EmulatedTracker {
     void send(std::span<const std::uint8_t> report) const;
     void set_fault(Fault fault);
     void set_mode(unsigned mode) const;
+    /// /dev/NAME is another name of /dev/TARGET from here on, as udev makes them.
+    void set_link(const std::string& name, const std::string& target) const;
     /// Another number each time it is plugged in, from 0.
     [[nodiscard]] std::string node() const;
 

@@ -10,6 +10,7 @@
 #include <functional>
 #include <thread>
 
+#include "drivers/device/usb_polling.h"
 #include "drivers/hid/hid_source.h"
 #include "runtime/latency/clock.h"
 #include "tests/device/as_nobody.h"
@@ -189,6 +190,78 @@ TEST_F(HidDevice, IsAskedAgainWhenSomethingStoppedIt) {
     EXPECT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 3}));
 }
 
+// A stopped tracker that goes on to send its status is asked again, too.
+TEST_F(HidDevice, IsAskedAgainWhileItsStatusComes) {
+    tracker_->plug_in();
+    auto session = TrackerSession::open(find_trackers().at(0), {}, never);
+    ASSERT_TRUE(session.has_value());
+    {
+        auto device = HidrawDevice::open(tracker_->node());
+        ASSERT_TRUE(device.has_value());
+        ASSERT_TRUE(device->send_feature(std::vector<std::uint8_t>{0x14, 0}).has_value());
+    }
+    DeviceFeed feed;
+    for (int i = 0; i < 1000 && tracker_->sent(0x14)->at(1) == 0; ++i) {
+        tracker_->send(std::vector<std::uint8_t>{0x13, 1, 120, 0});
+        ASSERT_TRUE(session->read(std::chrono::milliseconds(5), feed).has_value());
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 3}));
+    EXPECT_TRUE(feed.take_events().empty()) << "the status was told when it was opened";
+}
+
+TEST_F(HidDevice, TellsWhatItStatesThatCannotBe) {
+    std::vector<std::uint8_t> configuration(19, 0);
+    configuration[0] = 0x12;
+    const std::int32_t size_um[] = {527, 0x7FFFFFFF};
+    std::memcpy(configuration.data() + 11, size_um, sizeof(size_um));
+    tracker_->set_feature(0x12, configuration);
+    std::vector<std::uint8_t> capabilities(22, 0);
+    capabilities[0] = 0x11;
+    const std::int32_t lengths_um[] = {450'000, 600'000, 900'000, 600'000, 1};
+    std::memcpy(capabilities.data() + 2, lengths_um, sizeof(lengths_um));
+    tracker_->set_feature(0x11, capabilities);
+    tracker_->set_feature(0x13, {0x13, 1, 0, 0});
+    tracker_->plug_in();
+    auto session = TrackerSession::open(find_trackers().at(0), {}, never);
+    ASSERT_TRUE(session.has_value());
+    const std::vector<std::string>& remarks = session->remarks();
+    EXPECT_TRUE(contains(remarks, "its screen's size is wrong by a factor of 1000: corrected"));
+    EXPECT_TRUE(contains(
+        remarks, "states 1e-06 m as its screen's greatest height, which cannot be: left out"));
+    EXPECT_FALSE(contains(remarks, "calibrated to a screen")) << "its height is no data";
+    EXPECT_FALSE(contains(remarks, " Hz"));
+}
+
+TEST_F(HidDevice, AsksForNoMoreThanARequestCanSay) {
+    tracker_->plug_in();
+    auto device = HidrawDevice::open(tracker_->node());
+    ASSERT_TRUE(device.has_value());
+    for (const std::size_t payload_bytes :
+         {kLongestReport - 2, kLongestReport - 1, kLongestReport}) {
+        const auto report = device->feature(0x12, payload_bytes);
+        ASSERT_TRUE(report.has_value()) << payload_bytes;
+        EXPECT_EQ(report->size(), 19U) << payload_bytes;
+    }
+    std::vector<std::uint8_t> request(kLongestReport + 1, 0);
+    request[0] = 0x14;
+    EXPECT_FALSE(device->send_feature(request).has_value());
+    EXPECT_FALSE(tracker_->sent(0x14).has_value()) << "nor one byte of it";
+}
+
+TEST_F(HidDevice, IsKnownByItsOtherNames) {
+    HidSource source({.path = "/dev/my-tracker", .delay = {}, .geometry = {}});
+    until_event(source, "/dev/my-tracker: No such file or directory: waiting for it");
+    tracker_->plug_in();
+    tracker_->set_link("my-tracker", "..");
+    until_event(source, "/dev/my-tracker is no HID eye tracker: waiting for one");
+    EXPECT_FALSE(contains(events_, "plugged in"));
+    tracker_->set_link("my-tracker", "hidraw0");
+    until_event(source, "plugged in");
+    tracker_->send(report_at(1000));
+    until(source, [&] { return !samples_.empty() && samples_.back().eyes[0].valid; });
+}
+
 TEST_F(HidDevice, WorksWithoutFeaturesToo) {
     tracker_->plug_in();
     tracker_->set_fault(EmulatedTracker::Fault::FeaturesStall);
@@ -283,8 +356,9 @@ TEST_F(HidDevice, GivesTimesOnceItsClockIsKnown) {
     EXPECT_EQ(last.ready.ns - last.sampled.ns, 4'000'000);
     EXPECT_GE(last.uncertainty_ns.value_or(0), 1'000'000);
     EXPECT_LE(last.ready.ns, last.arrived.ns);
-    // The line lies below no point but by its slope, and no report arrives before it is sent.
-    EXPECT_GE(static_cast<double>(last.ready.ns - start_ns),
+    // The line lies below no point but by its slope, and no report arrives before it is sent; half
+    // the time between two askings is taken off.
+    EXPECT_GE(static_cast<double>(last.ready.ns + kUsualPolling_ns / 2 - start_ns),
               static_cast<double>(last.device_ns) * (1.0 - latency::ClockFit::kGreatestSkew));
 }
 

@@ -77,6 +77,10 @@ TEST_F(Psvr2Program, IsListedWithWhatItDoes) {
     EXPECT_EQ(headset["reports_damaged"], 0);
     EXPECT_TRUE(headset["clock"].is_object());
     EXPECT_TRUE(headset["problems"].empty()) << list.dump(2);
+    EXPECT_EQ(headset["pupils_mm"], (nlohmann::json{3.5, 3.5}));
+    const ProgramResult text = run_gazeloop({"devices", "--seconds", "0.5"});
+    EXPECT_NE(text.out.find("pupils    3.5 mm left, 3.5 mm right"), std::string::npos) << text.out;
+    EXPECT_EQ(silent.out.find("pupils"), std::string::npos) << silent.out;
     const ProgramResult live = run_gazeloop({"devices", "--watch", "--seconds", "1"});
     EXPECT_EQ(live.exit_code, 0) << live.err;
     EXPECT_NE(live.out.find("plugged in: PlayStation VR2"), std::string::npos) << live.out;

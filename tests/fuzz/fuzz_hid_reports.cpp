@@ -52,7 +52,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!bytes.empty()) {
         const FeatureReport feature{bytes[0], {bytes.begin(), bytes.end()}};
         const TrackerFeatures features = decode_features(layout, std::span(&feature, 1));
-        for (const auto& length : {features.minimum_distance_m, features.maximum_width_m}) {
+        for (const auto& length : {features.minimum_distance_m, features.maximum_width_m,
+                                   features.screen_width_m, features.screen_height_m}) {
             require(!length || (*length >= 0.01 && *length <= 10.0));
         }
     }

@@ -25,7 +25,7 @@ constexpr std::uint16_t kProduct = 0xE7E8;
 std::optional<std::string> rdesc(sim::UhidDevice& device) {
     constexpr int kLooks = 2000;
     for (int i = 0; i < kLooks; ++i) {
-        device.answer_for(std::chrono::milliseconds(5));
+        device.answer_for(std::chrono::milliseconds(5), [] { return false; });
         for (const auto& entry : std::filesystem::directory_iterator("/sys/bus/hid/devices")) {
             const std::string name = entry.path().filename();
             if (name.find(fmt::format("{:04X}:{:04X}", kVendor, kProduct)) == std::string::npos ||

@@ -1,12 +1,18 @@
 #include "sim/virtual_tracker.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/uhid.h>
 #include <sys/stat.h>
+#include <sys/time.h>
+#include <termios.h>
 #include <unistd.h>
 
-#include <fcntl.h>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <ctime>
 
 #include "drivers/hid/eye_tracker_reports.h"
 #include "drivers/hid/screen_gaze.h"
@@ -92,6 +98,25 @@ TEST(VirtualTracker, LookingAwayFromTheScreenIsNoData) {
     EXPECT_FALSE(gaze_of().has_value()) << "13 m to the right";
 }
 
+TEST(VirtualTracker, SendsWhatItWasAskedFor) {
+    gaze::GazeSample sample;
+    sample.eyes[0].origin_m = {-0.03, 0.0, 0.0};
+    sample.eyes[1].origin_m = {0.03, 0.0, 0.0};
+    for (gaze::EyeRay& ray : sample.eyes) {
+        ray.valid = true;
+    }
+    const auto sent = [&](std::uint8_t modes) {
+        const auto report = std::get<TrackingReport>(
+            decode_input(layout(), virtual_tracker_report(sample, 7, modes)));
+        EXPECT_EQ(report.ticks, 7U);
+        EXPECT_EQ(report.eye_m[0].has_value(), report.eye_m[1].has_value());
+        return std::pair(report.gaze_m.has_value(), report.eye_m[0].has_value());
+    };
+    EXPECT_EQ(sent(kModeGaze), std::pair(true, false));
+    EXPECT_EQ(sent(kModeEyePosition), std::pair(false, true));
+    EXPECT_EQ(sent(kModeGaze | kModeEyePosition), std::pair(true, true));
+}
+
 TEST(UhidDevice, IsRefusedWithTheRemedyWhereThereIsNone) {
     const auto device =
         UhidDevice::create({"x", 1, 2}, virtual_tracker_descriptor(), {}, "/nowhere/uhid");
@@ -122,6 +147,63 @@ TEST(UhidDevice, TellsTheKernelDescriptorAndReports) {
     EXPECT_EQ(event.type, static_cast<std::uint32_t>(UHID_INPUT2));
     ASSERT_EQ(event.u.input2.size, report.size());
     EXPECT_EQ(std::memcmp(event.u.input2.data, report.data(), report.size()), 0);
+    close(kernel);
+}
+
+/// A terminal that nobody holds the other end of any more: it can always be read, and has nothing.
+TEST(UhidDevice, ThatHangsUpIsNotAskedOverAndOver) {
+    const int kernel = posix_openpt(O_RDWR | O_NOCTTY);
+    ASSERT_EQ(grantpt(kernel) | unlockpt(kernel), 0);
+    const std::string path = ptsname(kernel);
+    {
+        const int other_end = open(path.c_str(), O_RDWR | O_NOCTTY);
+        termios plain{};
+        cfmakeraw(&plain);
+        ASSERT_EQ(tcsetattr(other_end, TCSANOW, &plain), 0);
+        close(other_end);
+    }
+    auto device =
+        value_or_throw(UhidDevice::create({"eyes", 1, 2}, virtual_tracker_descriptor(), {}, path));
+    close(kernel);
+    const auto cpu_ns = [] {
+        timespec now{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+        return now.tv_sec * 1'000'000'000 + now.tv_nsec;
+    };
+    const auto begin = std::chrono::steady_clock::now();
+    const std::int64_t cpu_begin_ns = cpu_ns();
+    device.answer_for(std::chrono::milliseconds(300), [] { return false; });
+    EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(300));
+    EXPECT_LT(cpu_ns() - cpu_begin_ns, 30'000'000) << "it slept";
+}
+
+void ignore_signal(int) {}
+
+TEST(UhidDevice, WaitsThroughSignalsThatDoNotEndTheProgram) {
+    const tests::TemporaryFolder folder;
+    const std::string path = (folder / "uhid").string();
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    const int kernel = open(path.c_str(), O_RDWR | O_NONBLOCK);
+    auto device =
+        value_or_throw(UhidDevice::create({"eyes", 1, 2}, virtual_tracker_descriptor(), {}, path));
+    uhid_event event{};
+    ASSERT_GT(read(kernel, &event, sizeof(event)), 0);  // what the kernel would take
+
+    struct sigaction handler{};
+    struct sigaction before{};
+    handler.sa_handler = ignore_signal;
+    ASSERT_EQ(sigaction(SIGALRM, &handler, &before), 0);
+    const itimerval every_5_ms{{0, 5000}, {0, 5000}};
+    ASSERT_EQ(setitimer(ITIMER_REAL, &every_5_ms, nullptr), 0);
+    int asked = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    device.answer_for(std::chrono::milliseconds(100), [&] { return ++asked < 0; });
+    EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(100));
+    EXPECT_GT(asked, 0);
+    device.answer_for(std::chrono::hours(1), [] { return true; });  // ends with the next signal
+    const itimerval none{};
+    setitimer(ITIMER_REAL, &none, nullptr);
+    sigaction(SIGALRM, &before, nullptr);
     close(kernel);
 }
 

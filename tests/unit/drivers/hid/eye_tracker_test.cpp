@@ -259,7 +259,9 @@ TEST(EyeTracker, StatusComesAsInputAndAsFeature) {
     EXPECT_EQ(std::get<StatusReport>(odd), (StatusReport{TrackerStatus::Unknown, std::nullopt}));
 }
 
-std::vector<FeatureReport> features_in_um(double factor) {
+std::vector<FeatureReport> features_in_um(double factor, std::int32_t screen_width_um = 527'040,
+                                          std::int32_t screen_height_um = 296'460,
+                                          std::uint16_t hz = 90) {
     const auto um = [factor](double value) { return static_cast<std::int32_t>(value * factor); };
     Bytes capabilities;
     capabilities.add(std::uint8_t{0x11}).add(std::uint8_t{2});
@@ -267,8 +269,10 @@ std::vector<FeatureReport> features_in_um(double factor) {
     Bytes configuration;
     configuration.add(std::uint8_t{0x12}).add<std::uint16_t>({0x4D10, 0x1234});
     configuration.add(std::uint32_t{99}).add(std::uint16_t{7});
-    configuration.add<std::int32_t>({527'040, 296'460});
-    return {{0x11, capabilities.bytes()}, {0x12, configuration.bytes()}, {0x13, {0x13, 1, 90, 0}}};
+    configuration.add<std::int32_t>({screen_width_um, screen_height_um});
+    Bytes status;
+    status.add(std::uint8_t{0x13}).add(std::uint8_t{1}).add(hz);
+    return {{0x11, capabilities.bytes()}, {0x12, configuration.bytes()}, {0x13, status.bytes()}};
 }
 
 TEST(EyeTracker, FeaturesAreReadByUsage) {
@@ -294,6 +298,69 @@ TEST(EyeTracker, CapabilitiesOffByAThousandAreCorrectedAndSaidSo) {
     EXPECT_DOUBLE_EQ(large.capability_correction, 1e-3);
     const TrackerFeatures absurd = decode_features(layout, features_in_um(1e-5));
     EXPECT_FALSE(absurd.optimum_distance_m.has_value());
+    EXPECT_EQ(absurd.implausible.size(), 5U) << "each is told";
+}
+
+// One that cannot be, or is no data, does not take the others with it.
+TEST(EyeTracker, CapabilitiesAreJudgedEachByItself) {
+    const EyeTrackerLayout layout = layout_of(first_layout());
+    std::vector<FeatureReport> reports = features_in_um(1.0);
+    const auto set_minimum = [&](std::int32_t um) {
+        std::memcpy(&reports[0].bytes[2], &um, sizeof(um));
+        return decode_features(layout, reports);
+    };
+    const TrackerFeatures no_data = set_minimum(kNoData);
+    EXPECT_FALSE(no_data.minimum_distance_m.has_value());
+    EXPECT_DOUBLE_EQ(*no_data.optimum_distance_m, 0.65);
+    EXPECT_TRUE(no_data.implausible.empty()) << "no data is no fault";
+    const TrackerFeatures far = set_minimum(100'000'000);
+    EXPECT_FALSE(far.minimum_distance_m.has_value());
+    EXPECT_DOUBLE_EQ(*far.optimum_distance_m, 0.65);
+    EXPECT_DOUBLE_EQ(*far.maximum_height_m, 0.34);
+    EXPECT_DOUBLE_EQ(far.capability_correction, 1.0);
+    ASSERT_EQ(far.implausible.size(), 1U);
+    EXPECT_EQ(far.implausible[0].of, "its least distance");
+    EXPECT_DOUBLE_EQ(far.implausible[0].metres, 100.0);
+}
+
+TEST(EyeTracker, TheScreenIsHeldAgainstTheSameRange) {
+    const EyeTrackerLayout layout = layout_of(first_layout());
+    const auto with_screen = [&](std::int32_t width_um, std::int32_t height_um) {
+        return decode_features(layout, features_in_um(1.0, width_um, height_um));
+    };
+    const TrackerFeatures no_data = with_screen(kNoData, kNoData);
+    EXPECT_FALSE(no_data.screen_width_m || no_data.screen_height_m);
+    const TrackerFeatures small = with_screen(527, 296);
+    EXPECT_NEAR(*small.screen_width_m, 0.527, 1e-12);
+    EXPECT_NEAR(*small.screen_height_m, 0.296, 1e-12);
+    EXPECT_DOUBLE_EQ(small.screen_correction, 1e3);
+    EXPECT_DOUBLE_EQ(small.capability_correction, 1.0);
+    const TrackerFeatures large = with_screen(527'000'000, 296'000'000);
+    EXPECT_NEAR(*large.screen_width_m, 0.527, 1e-12);
+    EXPECT_DOUBLE_EQ(large.screen_correction, 1e-3);
+    const TrackerFeatures odd = with_screen(527'000, 2'147'483'646);
+    EXPECT_DOUBLE_EQ(*odd.screen_width_m, 0.527);
+    EXPECT_FALSE(odd.screen_height_m.has_value());
+    ASSERT_EQ(odd.implausible.size(), 1U);
+    EXPECT_EQ(odd.implausible[0].of, "its screen's height");
+}
+
+TEST(EyeTracker, CountsOfZeroAndWithoutDataAreNotStated) {
+    const EyeTrackerLayout layout = layout_of(first_layout());
+    for (const std::uint16_t hz : {std::uint16_t{0}, std::uint16_t{0xFFFF}}) {
+        const auto reports = features_in_um(1.0, 527'040, 296'460, hz);
+        EXPECT_EQ(decode_features(layout, reports).status,
+                  (StatusReport{TrackerStatus::Ready, std::nullopt}));
+        EXPECT_EQ(std::get<StatusReport>(decode_input(layout, reports[2].bytes)),
+                  (StatusReport{TrackerStatus::Ready, std::nullopt}));
+    }
+    std::vector<FeatureReport> none = features_in_um(1.0);
+    for (const std::uint8_t byte : {std::uint8_t{0}, std::uint8_t{0xFF}}) {
+        std::fill_n(none[1].bytes.begin() + 1, 10, byte);
+        const TrackerFeatures features = decode_features(layout, none);
+        EXPECT_FALSE(features.display_manufacturer || features.display_product ||
+                     features.display_serial);
+    }
 }
 
 TEST(EyeTracker, FeaturesThatCouldNotBeReadAreAbsent) {

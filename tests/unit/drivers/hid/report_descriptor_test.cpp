@@ -42,8 +42,8 @@ TEST(ReportDescriptor, ReadsTheStandardsOwnMouse) {
     ASSERT_EQ(mouse.fields.size(), 3U);
     EXPECT_EQ(mouse.fields[0].usage_of(0), usage(9, 1));
     EXPECT_EQ(mouse.fields[0].usage_of(2), usage(9, 3));
-    EXPECT_TRUE(mouse.fields[0].variable());
-    EXPECT_TRUE(mouse.fields[1].constant());
+    EXPECT_EQ(mouse.fields[0].flags, 2U) << "variable";
+    EXPECT_EQ(mouse.fields[1].flags & 1U, 1U) << "constant";
     EXPECT_EQ(mouse.fields[1].bit_offset, 3U);
     EXPECT_EQ(mouse.fields[2].bit_offset, 8U);
     EXPECT_EQ(mouse.fields[2].usage_of(1), usage(1, 0x31));

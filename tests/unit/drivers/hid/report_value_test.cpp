@@ -25,6 +25,23 @@ TEST(ReportValue, ReadsSignedAndUnsignedNumbers) {
     EXPECT_FALSE(raw(std::numeric_limits<std::uint32_t>::max(), 8, false).has_value());
 }
 
+TEST(ReportValue, KnowsNoData) {
+    const auto number = [](std::uint64_t value, std::uint32_t bits, bool is_signed) {
+        std::vector<std::uint8_t> bytes(8);
+        write_bits(bytes, 0, bits, value);
+        return ReportValue{.bits = bits, .is_signed = is_signed}.number(bytes).has_value();
+    };
+    EXPECT_FALSE(number(0xFF, 8, false));
+    EXPECT_TRUE(number(0x7F, 8, false));
+    EXPECT_FALSE(number(0x7F, 8, true));
+    EXPECT_FALSE(number(0xFFFF'FFFF, 32, false));
+    EXPECT_FALSE(number(0x7FFF'FFFF, 32, false)) << "INT32_MAX, whatever the field's sign";
+    EXPECT_FALSE(number(0x7FFF'FFFF, 32, true));
+    EXPECT_TRUE(number(0x7FFF'FFFE, 32, false));
+    EXPECT_TRUE(number(0x7FFF'FFFF, 64, false));
+    EXPECT_TRUE(number(0x7FFF, 16, false));
+}
+
 RC_GTEST_PROP(ReportValue, WhatIsWrittenIsRead, (const std::vector<std::uint8_t>& before)) {
     const auto size = static_cast<std::uint32_t>(8 * before.size());
     RC_PRE(size > 0U);

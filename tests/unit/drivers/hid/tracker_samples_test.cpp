@@ -26,6 +26,22 @@ std::array<std::uint8_t, 65> report_at(std::uint64_t time_us) {
     return report;
 }
 
+/// Gaze in report 3, one eye after the other in report 4; tenths of a millimetre.
+std::vector<std::uint8_t> eyes_apart() {
+    using namespace eye_tracker;
+    DescriptorItems d;
+    d.page(0x12).open(CollectionType::Application, kEyeTracker).logical(-32768, 32767);
+    d.unit(0x11).exponent(0x0E);
+    d.report_id(3).open(CollectionType::Logical, kGazePoint);
+    d.usage(kPositionX).usage(kPositionY).fields(16, 2).input(DescriptorItems::kVariable).close();
+    d.report_id(4);
+    for (const Usage eye : {kLeftEyePosition, kRightEyePosition}) {
+        d.open(CollectionType::Logical, eye).usage(kPositionX).usage(kPositionY).usage(kPositionZ);
+        d.fields(16, 3).input(DescriptorItems::kVariable).close();
+    }
+    return d.close().bytes();
+}
+
 TEST(TrackerSamples, HaveTimesOnceTheClockIsKnownAndTheProfilesDelayBeforeIt) {
     TrackerSamples samples = samples_of(first_layout());
     std::optional<gaze::GazeSample> last;
@@ -64,6 +80,24 @@ TEST(TrackerSamples, AreOfUnknownAgeWhereTheTimestampsLie) {
     EXPECT_FALSE(samples.take_change().has_value()) << "told once";
 }
 
+// What is known of the clock does not go with it.
+TEST(TrackerSamples, KeepTheClockWhenAReportIsCutOffBeforeItsTimestamp) {
+    TrackerSamples samples = samples_of(first_layout());
+    EXPECT_EQ(samples.clock(), nullptr);
+    for (int i = 0; i < 100; ++i) {
+        const auto report = report_at(static_cast<std::uint64_t>(i) * 10'000);
+        EXPECT_TRUE(samples.take(report, i * 10 * kMs).has_value());
+    }
+    const latency::ClockFit* const before = samples.clock();
+    ASSERT_NE(before, nullptr);
+    constexpr std::size_t kCutOff = 5;
+    const auto whole = report_at(1'000'000);
+    const auto sample = samples.take(std::span(whole).first(kCutOff), 1000 * kMs);
+    ASSERT_TRUE(sample.has_value());
+    EXPECT_FALSE(sample->sampled.known());
+    EXPECT_EQ(samples.clock(), before);
+}
+
 TEST(TrackerSamples, TellChangesOfTheStatusOnce) {
     TrackerSamples samples = samples_of(first_layout());
     const std::vector<std::uint8_t> ready{0x13, 1, 120, 0};
@@ -76,20 +110,28 @@ TEST(TrackerSamples, TellChangesOfTheStatusOnce) {
     EXPECT_NE(samples.take_change().value_or("").find("calibrat"), std::string::npos);
 }
 
-/// Gaze in report 3, one eye after the other in report 4; tenths of a millimetre.
-std::vector<std::uint8_t> eyes_apart() {
-    using namespace eye_tracker;
-    DescriptorItems d;
-    d.page(0x12).open(CollectionType::Application, kEyeTracker).logical(-32768, 32767);
-    d.unit(0x11).exponent(0x0E);
-    d.report_id(3).open(CollectionType::Logical, kGazePoint);
-    d.usage(kPositionX).usage(kPositionY).fields(16, 2).input(DescriptorItems::kVariable).close();
-    d.report_id(4);
-    for (const Usage eye : {kLeftEyePosition, kRightEyePosition}) {
-        d.open(CollectionType::Logical, eye).usage(kPositionX).usage(kPositionY).usage(kPositionZ);
-        d.fields(16, 3).input(DescriptorItems::kVariable).close();
-    }
-    return d.close().bytes();
+TEST(TrackerSamples, DoNotTellAStatusThatWasToldBefore) {
+    TrackerSamples samples(
+        value_or_throw(find_eye_tracker(value_or_throw(parse_report_descriptor(first_layout())))),
+        {}, {}, TrackerStatus::Ready);
+    (void)samples.take(std::vector<std::uint8_t>{0x13, 1, 120, 0}, 1);
+    EXPECT_FALSE(samples.take_change().has_value());
+    (void)samples.take(std::vector<std::uint8_t>{0x13, 3, 120, 0}, 2);
+    EXPECT_TRUE(samples.take_change().has_value());
+}
+
+TEST(TrackerSamples, KnowWhetherItWasTrackingThatCame) {
+    TrackerSamples samples = samples_of(eyes_apart());
+    const std::vector<std::uint8_t> eyes(13, 4);
+    (void)samples.take(eyes, 1);
+    EXPECT_TRUE(samples.tracked_last()) << "eyes without gaze are";
+    (void)samples.take(std::vector<std::uint8_t>{0x77, 1, 2, 3}, 2);
+    EXPECT_FALSE(samples.tracked_last());
+    TrackerSamples others = samples_of(first_layout());
+    (void)others.take(report_at(5), 3);
+    EXPECT_TRUE(others.tracked_last());
+    (void)others.take(std::vector<std::uint8_t>{0x13, 1, 120, 0}, 4);
+    EXPECT_FALSE(others.tracked_last());
 }
 
 TEST(TrackerSamples, TakeEyesThatAreReportedApartFromTheGaze) {
