@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     for (const ReportField& field : parsed->fields) {
-        const ReportSize* const report = parsed->report(field.kind, field.report_id);
+        const ReportSize* const report = find_report(parsed->reports, field.kind, field.report_id);
         require(report != nullptr && field.bits > 0 && field.count > 0);
         require(std::uint64_t{field.bit_offset} + std::uint64_t{field.bits} * field.count <=
                 report->bits);
@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 field.usages.size() > 1);
     }
     const auto inside = [&](const ReportValue& value) {
-        const ReportSize* const report = parsed->report(value.kind, value.report_id);
+        const ReportSize* const report = find_report(parsed->reports, value.kind, value.report_id);
         require(report != nullptr && value.bits >= 1 && value.bits <= 64 &&
                 value.bit_offset + value.bits <= report->bits);
     };
