@@ -358,7 +358,8 @@ TEST_F(HidDevice, GivesTimesOnceItsClockIsKnown) {
     EXPECT_LE(last.ready.ns, last.arrived.ns);
     // The line lies below no point but by its slope, and no report arrives before it is sent; half
     // the time between two askings is taken off.
-    EXPECT_GE(static_cast<double>(last.ready.ns + kUsualPolling_ns / 2 - start_ns),
+    const std::int64_t asked_ns = last.ready.ns + kUsualPolling_ns / 2;
+    EXPECT_GE(static_cast<double>(asked_ns - start_ns),
               static_cast<double>(last.device_ns) * (1.0 - latency::ClockFit::kGreatestSkew));
 }
 

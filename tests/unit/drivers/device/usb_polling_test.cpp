@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/temporary_folder.h"
+
 namespace gazeloop::drivers {
 namespace {
 
@@ -14,8 +16,7 @@ namespace fs = std::filesystem;
 /// A USB device with one interface, as sysfs shows it.
 class SysfsFolder : public testing::Test {
   protected:
-    SysfsFolder() { fs::create_directories(hidraw()); }
-    ~SysfsFolder() override { fs::remove_all(root_); }
+    void SetUp() override { fs::create_directories(hidraw()); }
 
     [[nodiscard]] fs::path interface() const { return root_ / "usb1/1-1/1-1:1.2"; }
     [[nodiscard]] std::string hidraw() const {
@@ -34,8 +35,8 @@ class SysfsFolder : public testing::Test {
     }
 
   private:
-    fs::path root_ = fs::path(testing::TempDir()) /
-                     testing::UnitTest::GetInstance()->current_test_info()->name();
+    tests::TemporaryFolder folder_;
+    fs::path root_ = folder_.path();
 };
 
 TEST_F(SysfsFolder, GivesTheLongestIntervalOfWhatIsPolledForInput) {

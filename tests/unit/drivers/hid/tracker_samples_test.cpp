@@ -46,7 +46,7 @@ TEST(TrackerSamples, HaveTimesOnceTheClockIsKnownAndTheProfilesDelayBeforeIt) {
     TrackerSamples samples = samples_of(first_layout());
     std::optional<gaze::GazeSample> last;
     for (int i = 0; i < 600; ++i) {
-        const std::int64_t taken_ns = i * 10 * kMs;
+        const std::int64_t taken_ns = i * (10 * kMs);
         // 3 ms at the least, every fifth 2 ms later.
         const std::int64_t arrived_ns = taken_ns + 3 * kMs + (i % 5 == 4 ? 2 * kMs : 0);
         last = samples.take(report_at(static_cast<std::uint64_t>(taken_ns / 1000)), arrived_ns);
@@ -66,7 +66,7 @@ TEST(TrackerSamples, HaveTimesOnceTheClockIsKnownAndTheProfilesDelayBeforeIt) {
 TEST(TrackerSamples, AreOfUnknownAgeWhereTheTimestampsLie) {
     TrackerSamples samples = samples_of(first_layout());
     for (int i = 0; i < 600; ++i) {
-        const std::int64_t arrived_ns = i * 10 * kMs;
+        const std::int64_t arrived_ns = i * (10 * kMs);
         const auto sample =
             samples.take(report_at(static_cast<std::uint64_t>(i / 100)), arrived_ns);
         EXPECT_FALSE(sample->sampled.known());
@@ -86,7 +86,7 @@ TEST(TrackerSamples, KeepTheClockWhenAReportIsCutOffBeforeItsTimestamp) {
     EXPECT_EQ(samples.clock(), nullptr);
     for (int i = 0; i < 100; ++i) {
         const auto report = report_at(static_cast<std::uint64_t>(i) * 10'000);
-        EXPECT_TRUE(samples.take(report, i * 10 * kMs).has_value());
+        EXPECT_TRUE(samples.take(report, i * (10 * kMs)).has_value());
     }
     const latency::ClockFit* const before = samples.clock();
     ASSERT_NE(before, nullptr);
@@ -184,7 +184,7 @@ TEST(TrackerSamples, CountALossOnlyBehindAFullBacklog) {
     const std::int64_t awake_ns = taken_ns + 2000 * kMs;
     for (int i = 0; i < 63; ++i) {
         taken_ns += 10 * kMs;
-        (void)take(awake_ns + i * 1000);
+        (void)take(awake_ns + i * std::int64_t{1000});
         EXPECT_EQ(samples.lost_before_last(), 0U);
     }
     taken_ns += 1380 * kMs;

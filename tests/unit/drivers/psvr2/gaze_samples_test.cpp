@@ -109,7 +109,7 @@ TEST(Psvr2Samples, TellWhenTheAxesTurnOrContradictEachOther) {
     std::uint32_t frame = 0;
     const auto take = [&](bool odd) {
         ++frame;
-        PacketBytes bytes = good_packet(8333 * frame, frame);
+        PacketBytes bytes = good_packet(frame * std::int64_t{8333}, frame);
         if (odd) {
             bytes.set<float>(92 + 4, -31.F).set<float>(164 + 4, 31.F);
         }
