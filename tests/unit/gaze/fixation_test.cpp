@@ -176,6 +176,17 @@ TEST(Fixation, IsNoneWhereNothingIsSeen) {
     EXPECT_FALSE(find_fixation({glm::dvec3{0.0}, {0.0, kInfinity, -1.0}}, seen).has_value());
 }
 
+// Each eye meets another surface on the gaze, as where something came between the two pictures.
+TEST(Fixation, IsTheNearestThatEitherEyeMeets) {
+    const SeenDepth near = painted(wide_wall(0.4));
+    const SeenDepth far = painted(wide_wall(3.0));
+    for (const SeenDepth& seen : {SeenDepth{near[0], far[1]}, SeenDepth{far[0], near[1]}}) {
+        const auto fixation = find_fixation({}, seen);
+        ASSERT_TRUE(fixation.has_value());
+        EXPECT_NEAR(fixation->nearness, 2.5, 2.0 * kNearnessError);
+    }
+}
+
 TEST(Fixation, IsOneEyesWhereTheOtherSeesNothing) {
     SeenDepth seen = painted(wide_wall(0.5));
     seen[1] = {};
