@@ -1,9 +1,9 @@
 #include "runtime/gaze/fixation.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/packing.hpp>
 #include <limits>
 
 #include "runtime/gaze/direction.h"
@@ -52,6 +52,11 @@ class LineOfSight {
         up_ = std::tan(fov.up_rad);
         px_per_x_ = patch.view.width_px / (std::tan(fov.right_rad) - left_);
         px_per_y_ = patch.view.height_px / (std::tan(fov.down_rad) - up_);
+        first_x_ = (patch.x0_px + 0.5) / px_per_x_ + left_;
+        first_y_ = (patch.y0_px + 0.5) / px_per_y_ + up_;
+        x_per_column_ = patch.step_x_px / px_per_x_;
+        y_per_row_ = patch.step_y_px / px_per_y_;
+        aside_ahead_m_ = glm::dot(towards_, aside_m_);
     }
 
     [[nodiscard]] Found follow() const {
@@ -87,8 +92,8 @@ class LineOfSight {
         const double x = towards_.x / towards_.z;
         const double y = towards_.y / towards_.z;
         const double reach = kTrackerAccuracy_rad * (1.0 + x * x + y * y);
-        const double columns = reach * px_per_x_ / patch_.step_x_px;
-        const double rows = reach * -px_per_y_ / patch_.step_y_px;
+        const double columns = reach / x_per_column_;
+        const double rows = reach / -y_per_row_;
         const auto near = at(kContentNearness).value_or(*far);
         const Side down{std::min(far->row, near.row) - rows,
                         std::max(far->row, near.row) + rows,
@@ -104,14 +109,19 @@ class LineOfSight {
             return static_cast<std::size_t>(std::clamp(samples / 4.0, 1.0, 1e6));
         };
         for (std::size_t row = down.begin(); row < down.end(); row += every(rows)) {
+            const double at_y = tangent_y(static_cast<double>(row));
             for (std::size_t column = 0; column < patch_.columns; column += every(columns)) {
-                const At here{static_cast<double>(column), static_cast<double>(row)};
-                const auto surface = along(sample(column, row), here);
-                const auto there = surface ? at(*surface) : std::nullopt;
-                if (there && std::abs(there->column - here.column) <= columns &&
-                    std::abs(there->row - here.row) <= rows) {
-                    around.nearest = std::max(around.nearest, *surface);
-                    around.farthest = std::min(around.farthest, *surface);
+                const double at_x = tangent_x(static_cast<double>(column));
+                const Surface surface = surface_at(sample(column, row), at_x, at_y);
+                // Where the gaze at the surface's distance is in the picture, times a depth: with
+                // some thousand samples a frame, one that is elsewhere must not cost a division.
+                const glm::dvec3 there = surface.ahead * towards_ + surface.near * aside_m_;
+                const double tolerance = reach * -there.z;
+                if (std::abs(there.x + at_x * there.z) <= tolerance &&
+                    std::abs(there.y + at_y * there.z) <= tolerance && surface.ahead > 0.0) {
+                    const double nearness = surface.near / surface.ahead;
+                    around.nearest = std::max(around.nearest, nearness);
+                    around.farthest = std::min(around.farthest, nearness);
                 }
             }
         }
@@ -146,14 +156,25 @@ class LineOfSight {
                    : static_cast<int>(kMostSteps);
     }
 
-    /// How near to the gaze's origin a surface is that the eye sees by a half float at a place.
-    [[nodiscard]] std::optional<double> along(std::uint16_t half, const At& place) const {
-        const double nearness = glm::unpackHalf1x16(half);
-        const glm::dvec3 ray = glm::normalize(glm::dvec3{
-            (patch_.x0_px + 0.5 + place.column * patch_.step_x_px) / px_per_x_ + left_,
-            (patch_.y0_px + 0.5 + place.row * patch_.step_y_px) / px_per_y_ + up_, -1.0});
-        const double ahead = glm::dot(towards_, ray) - nearness * glm::dot(towards_, aside_m_);
-        return is_known(half) && ahead > 0.0 ? std::optional(nearness / ahead) : std::nullopt;
+    [[nodiscard]] double tangent_x(double column) const {
+        return first_x_ + column * x_per_column_;
+    }
+    [[nodiscard]] double tangent_y(double row) const { return first_y_ + row * y_per_row_; }
+
+    /// A surface's nearness to the gaze's origin, measured along the gaze: near / ahead. `ahead` is
+    /// not over 0 where the surface is behind the origin or nothing is known of it.
+    struct Surface {
+        double near;
+        double ahead;
+    };
+
+    /// What the eye sees by a half float in the direction (x, y, -1).
+    [[nodiscard]] Surface surface_at(std::uint16_t half, double x, double y) const {
+        if (!is_known(half)) {
+            return {0.0, 0.0};
+        }
+        const double near = value(half) * std::sqrt(x * x + y * y + 1.0);
+        return {near, towards_.x * x + towards_.y * y - towards_.z - near * aside_ahead_m_};
     }
 
     [[nodiscard]] std::optional<double> nearness_along(const At& place) const {
@@ -162,9 +183,10 @@ class LineOfSight {
               nearest.row < patch_.rows)) {
             return std::nullopt;
         }
-        return along(
+        const Surface surface = surface_at(
             sample(static_cast<std::size_t>(nearest.column), static_cast<std::size_t>(nearest.row)),
-            nearest);
+            tangent_x(nearest.column), tangent_y(nearest.row));
+        return surface.ahead > 0.0 ? std::optional(surface.near / surface.ahead) : std::nullopt;
     }
 
     [[nodiscard]] std::uint16_t sample(std::size_t column, std::size_t row) const {
@@ -175,6 +197,14 @@ class LineOfSight {
     static bool is_known(std::uint16_t half) {
         constexpr std::uint16_t kInfinite = 0x7C00;
         return half < kInfinite;
+    }
+
+    /// Of a half float that is known. Its exponent and mantissa are a float's but for the
+    /// exponent's bias, 15 and not 127; below 2^-14 it counts in steps of 2^-24.
+    static double value(std::uint16_t half) {
+        constexpr std::uint16_t kLeastNormal = 0x0400;
+        return half < kLeastNormal ? half * 0x1p-24
+                                   : std::bit_cast<float>(std::uint32_t{half} << 13U) * 0x1p112;
     }
 
     /// An interval of one axis of the patch, in samples.
@@ -206,6 +236,11 @@ class LineOfSight {
     double up_ = 0.0;
     double px_per_x_ = 0.0;
     double px_per_y_ = 0.0;  ///< negative: rows count down
+    double first_x_ = 0.0;   ///< tangents of the direction of the patch's first sample
+    double first_y_ = 0.0;
+    double x_per_column_ = 0.0;
+    double y_per_row_ = 0.0;
+    double aside_ahead_m_ = 0.0;  ///< how far the gaze's origin is aside, along the gaze
 };
 
 double distance_m(double nearness) {

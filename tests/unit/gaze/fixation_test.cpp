@@ -214,6 +214,25 @@ TEST(Fixation, WorksWithBothEyesInOnePlace) {
     EXPECT_NEAR(fixation->nearness, 2.0, kNearnessError);
 }
 
+// From 20 thousand kilometres to 15 micrometres.
+TEST(Fixation, ReadsEveryHalfFloat) {
+    constexpr std::uint16_t kInfinite = 0x7C00;
+    SeenDepth seen;
+    for (DepthPatch& patch : seen) {
+        patch.view = {.pose = {}, .fov = {-0.5, 0.5, 0.5, -0.5}, .width_px = 3, .height_px = 3};
+        patch.columns = 3;
+        patch.rows = 3;
+    }
+    for (std::uint16_t half = 0; half < kInfinite; ++half) {
+        for (DepthPatch& patch : seen) {
+            patch.nearness.assign(9, half);
+        }
+        const auto fixation = find_fixation({}, seen);
+        ASSERT_TRUE(fixation.has_value()) << half;
+        ASSERT_DOUBLE_EQ(fixation->nearness, glm::unpackHalf1x16(half)) << half;
+    }
+}
+
 // Any samples, patches and gazes: no crash, and what comes out is a distance within its range.
 RC_GTEST_PROP(FixationProperty, IsWithinItsRange, ()) {
     SeenDepth seen;
