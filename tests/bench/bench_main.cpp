@@ -105,6 +105,13 @@ int bench_main(int count, char** arguments) {
             return static_cast<int>(ExitCode::BadInput);
         }
     }
+    for (const std::string& wanted : options.cases) {
+        if (std::ranges::find(figures, wanted, &Figure::name) == figures.end()) {
+            fmt::print(stderr, "error: {} no case '{}'; a run without --case names them\n",
+                       name.empty() ? "there is" : fmt::format("bench {} has", name), wanted);
+            return static_cast<int>(ExitCode::Usage);
+        }
+    }
     return 0;
 }
 

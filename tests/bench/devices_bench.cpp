@@ -27,6 +27,9 @@ namespace gazeloop::bench {
 namespace {
 
 constexpr const char* kBench = "devices";
+constexpr const char* kReading = "1000 Hz";
+constexpr const char* kEmulatedReading = "1000 Hz, umockdev";
+constexpr const char* kLosses = "60 s beside the loop";
 constexpr std::uint16_t kRate_hz = 1000;
 constexpr std::int64_t kPeriod_ns = 1'000'000'000 / kRate_hz;
 
@@ -143,7 +146,7 @@ void add_reading(std::vector<Figure>& figures) {
     close(packets[0]);
     const auto add = [&](const char* metric, double value, const char* unit,
                          std::optional<double> target) {
-        figures.push_back({kBench, "1000 Hz", metric, value, unit, "lower", std::nullopt, target});
+        figures.push_back({kBench, kReading, metric, value, unit, "lower", std::nullopt, target});
     };
     add("arrival to published, p50", percentile(published_us, 0.5), "us", std::nullopt);
     add("arrival to published, p99", percentile(published_us, 0.99), "us", 50.0);
@@ -162,7 +165,7 @@ void add_emulated_reading(std::vector<Figure>& figures) {
     const double before_s = tests::thread_seconds(drivers::hid::kHidThreadName);
     (void)tracker.send(kReports);
     const double spent_s = tests::thread_seconds(drivers::hid::kHidThreadName) - before_s;
-    figures.push_back({kBench, "1000 Hz, umockdev", "reader, of a core",
+    figures.push_back({kBench, kEmulatedReading, "reader, of a core",
                        100.0 * spent_s * kRate_hz / kReports, "%", "lower"});
 }
 
@@ -194,8 +197,7 @@ void add_losses(std::vector<Figure>& figures) {
     const auto received = std::ranges::count_if(
         session.samples, [](const auto& recorded) { return recorded.sample.eyes[0].valid; });
     const auto add = [&](const char* metric, double value, std::optional<double> target) {
-        figures.push_back(
-            {kBench, "60 s beside the loop", metric, value, "", "lower", std::nullopt, target});
+        figures.push_back({kBench, kLosses, metric, value, "", "lower", std::nullopt, target});
     };
     add("reports lost of 60,000", static_cast<double>(kReports - received), 0.0);
     add("of them by a full queue", refused, 0.0);
@@ -205,11 +207,13 @@ void add_losses(std::vector<Figure>& figures) {
 
 std::vector<Figure> devices(const Options& options) {
     std::vector<Figure> figures;
-    if (options.wants("1000 Hz")) {
+    if (options.wants(kReading)) {
         add_reading(figures);
+    }
+    if (options.wants(kEmulatedReading)) {
         add_emulated_reading(figures);
     }
-    if (options.wants("60 s beside the loop")) {
+    if (options.wants(kLosses)) {
         add_losses(figures);
     }
     return figures;

@@ -98,14 +98,21 @@ void add_split_gaze(const Options& options, std::vector<Figure>& figures) {
     const tests::PlayedGaze gaze;
     for (unsigned round = 0; round < options.rounds; ++round) {
         for (std::size_t i = 0; i < cases.size(); ++i) {
+            if (!options.wants(cases[i].name)) {
+                continue;
+            }
             const auto more = tests::run_watched_loop(cases[i].loop);
             frames[i].insert(frames[i].end(), more.begin() + kWarmUp, more.end());
         }
     }
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        add_work(cases[i], frames[i], figures);
+        if (!frames[i].empty()) {
+            add_work(cases[i], frames[i], figures);
+        }
     }
 }
+
+constexpr const char* kMemoryCase = "10,000 frames, headless";
 
 /// Growth of the process over the second half of 10,000 frames, by least squares.
 void add_memory(std::vector<Figure>& figures) {
@@ -132,12 +139,16 @@ void add_memory(std::vector<Figure>& figures) {
         }
     }
     const double slope = (n * xy - x * y) / (n * xx - x * x);
-    figures.push_back({kBench, "10,000 frames, headless", "memory growth a frame", slope, "B",
-                       "lower", std::nullopt, 16.0});
+    figures.push_back(
+        {kBench, kMemoryCase, "memory growth a frame", slope, "B", "lower", std::nullopt, 16.0});
 }
 
 /// From the start of the program to the end of its first frame.
 void add_start_up(const char* target, const Options& options, std::vector<Figure>& figures) {
+    const std::string name = fmt::format("start-up, {}", target);
+    if (!options.wants(name)) {
+        return;
+    }
     std::vector<double> start_ms;
     for (unsigned round = 0; round < options.rounds; ++round) {
         const tests::ScratchFolder folder;
@@ -153,8 +164,7 @@ void add_start_up(const char* target, const Options& options, std::vector<Figure
         const std::int64_t end_ns = recorded.frames.at(0).frame.stamps.end_frame.ns;
         start_ms.push_back(static_cast<double>(end_ns - start_ns) * 1e-6);
     }
-    figures.push_back({kBench, fmt::format("start-up, {}", target), "to the first frame",
-                       median(start_ms), "ms", "lower"});
+    figures.push_back({kBench, name, "to the first frame", median(start_ms), "ms", "lower"});
 }
 
 }  // namespace
@@ -167,12 +177,17 @@ std::vector<Figure> loop(const Options& options) {
         Case{"openxr 320x360, 70 Hz", {.openxr = true, .scale = 0.25, .frames = 1060}, true}};
     std::vector<Figure> figures;
     for (const Case& at : cases) {
+        if (!options.wants(at.name)) {
+            continue;
+        }
         const tests::TemporaryFolder folder;
         tests::WatchedLoop watched = at.loop;
         watched.record = folder / "session.gaze";
         add_work(at, tests::run_watched_loop(watched), figures);
     }
-    add_memory(figures);
+    if (options.wants(kMemoryCase)) {
+        add_memory(figures);
+    }
     add_split_gaze(options, figures);
     for (const char* target : {"headless", "openxr"}) {
         add_start_up(target, options, figures);
