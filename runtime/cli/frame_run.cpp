@@ -15,19 +15,16 @@
 #include "runtime/cli/interrupt.h"
 #include "runtime/cli/kfr_settings.h"
 #include "runtime/cli/output_file.h"
-#include "runtime/cli/profiles.h"
 #include "runtime/cli/replay_check.h"
+#include "runtime/cli/run_checks.h"
 #include "runtime/cli/run_observers.h"
+#include "runtime/cli/run_target.h"
 #include "runtime/cli/session_summary.h"
 #include "runtime/cli/version.h"
-#include "runtime/foveation/useless_map.h"
 #include "runtime/latency/clock.h"
 #include "runtime/latency/latency_summary.h"
 #include "runtime/latency/summary_json.h"
 #include "runtime/latency/summary_text.h"
-#include "runtime/present/headless_target.h"
-#include "runtime/present/openxr/openxr_target.h"
-#include "runtime/present/scaled_extent.h"
 #include "runtime/preview/preview_feed.h"
 #include "runtime/preview/window_process.h"
 #include "runtime/render/snapshot.h"
@@ -35,8 +32,6 @@
 
 namespace gazeloop::cli {
 namespace {
-
-constexpr std::uint32_t kMaxSide_px = 16384;  // of an image, on the devices that there are
 
 std::int64_t ms_to_ns(double ms) { return std::llround(ms * 1e6); }
 
@@ -51,68 +46,6 @@ gaze::FoveaPolicy fovea_policy(const SettingValues& values) {
 render::Method method_named(std::string_view text) {
     const auto at = std::ranges::find(render::kMethodNames, text);
     return static_cast<render::Method>(at - render::kMethodNames.begin());
-}
-
-vk::Format format_named(std::string_view text) {
-    for (const vk::Format format : {vk::Format::eR8G8B8A8Srgb, vk::Format::eB8G8R8A8Srgb,
-                                    vk::Format::eR8G8B8A8Unorm, vk::Format::eB8G8R8A8Unorm}) {
-        if (text == vk::to_string(format)) {
-            return format;
-        }
-    }
-    throw SetupError(ExitCode::BadInput,
-                     fmt::format("the session was rendered in the format '{}', which this version "
-                                 "does not know",
-                                 text));
-}
-
-gaze::PerEye<vk::Extent2D> scaled_extents(const present::DisplayProfile& display, double scale) {
-    const vk::Extent2D extent = present::scaled_extent({display.width_px, display.height_px}, scale,
-                                                       {kMaxSide_px, kMaxSide_px});
-    return {extent, extent};
-}
-
-std::unique_ptr<present::OpenXrTarget> make_openxr_target(const FrameRunRequest& request,
-                                                          const present::DisplayProfile& display) {
-    const SettingValues& values = request.settings->values();
-    present::OpenXrOptions options{.display = display,
-                                   .scale = values.render.scale,
-                                   .validation = values.target.validation,
-                                   .depth = values.render.depth};
-    if (request.openxr_gaze) {
-        options.extensions.push_back(drivers::kEyeGazeExtension);
-    }
-    return present::make_openxr_target(options);
-}
-
-std::unique_ptr<present::FrameTarget> make_headless_target(const FrameRunRequest& request,
-                                                           const present::DisplayProfile& display) {
-    const SettingValues& values = request.settings->values();
-    present::HeadlessTarget::Options options{
-        .display = display,
-        .extents = scaled_extents(display, values.render.scale),
-        .paced = request.clock == RunClock::Wall};
-    if (request.clock == RunClock::Recorded && !request.session->frames.empty()) {
-        for (const gaze::Eye eye : gaze::kEyes) {
-            const gaze::EyeView& view =
-                request.session->frames.front().frame.views[gaze::index(eye)];
-            options.extents[gaze::index(eye)] = vk::Extent2D(view.width_px, view.height_px);
-        }
-        if (const auto format = request.session->meta("target_format")) {
-            options.format = format_named(*format);
-        }
-    }
-    return std::make_unique<present::HeadlessTarget>(options);
-}
-
-/// The profile that the settings name; for a replay of a recording off screen, what the recording
-/// says of its display, since the profile may have changed or be gone.
-present::DisplayProfile display_of(const FrameRunRequest& request) {
-    const SettingValues& values = request.settings->values();
-    if (request.clock != RunClock::Recorded || values.target.name != "headless") {
-        return value_or_throw(load_display(values.profile.display));
-    }
-    return recorded_display(*request.session);
 }
 
 /// The profile's eyes at the target's picture sizes, head at the origin.
@@ -175,12 +108,7 @@ class FrameRun {
         : request_(request), values_(request.settings->values()), display_(display_of(request)) {}
 
     ExitCode run() {
-        if (values_.target.name == "openxr" && !values_.vulkan.device.empty()) {
-            throw SetupError(ExitCode::Usage,
-                             "vulkan.device: over OpenXR the runtime chooses the device; use it "
-                             "with --target headless");
-        }
-        check_outputs();
+        check_request(request_);
         if (request_.snapshot) {
             value_or_throw(render::make_snapshot_folder(*request_.snapshot));
         }
@@ -205,8 +133,8 @@ class FrameRun {
                 std::make_unique<drivers::OpenXrSource>(openxr->session(), *request_.openxr_gaze);
         }
         config_ = renderer_config();
-        check_recorded_target();
-        check_map();
+        check_recorded_target(request_, config_);
+        check_map(request_, config_);
         render::FrameRenderer renderer(*context_, config_);
         spdlog::info("Vulkan: {} ({})", context_->device_name(), context_->driver());
         spdlog::info("{}x{} per eye, method {}, scene {}, {} samples, target {}",
@@ -230,76 +158,12 @@ class FrameRun {
     }
 
   private:
-    /// Before the set-up, which takes seconds, and before a run that takes longer.
-    void check_outputs() const {
-        if (request_.openxr_gaze &&
-            (values_.target.name != "openxr" || request_.clock != RunClock::Wall)) {
-            throw SetupError(ExitCode::Usage,
-                             "--gaze openxr: the gaze comes with the session that the pictures go "
-                             "to, as it happens: use it with --target openxr and --clock wall");
-        }
-        if (request_.record) {
-            value_or_throw(session::SessionRecorder::check(*request_.record));
-        }
-        if (request_.json) {
-            value_or_throw(check_output(*request_.json));
-        }
-    }
-
     [[nodiscard]] latency::LoopClock loop_clock() const {
         if (request_.clock == RunClock::Recorded) {
             return summary_config(*request_.session).clock;
         }
         return request_.clock == RunClock::Virtual ? latency::LoopClock::Virtual
                                                    : latency::LoopClock::Wall;
-    }
-
-    /// A recording's views are replayed as they are: the target's pictures must fit them.
-    void check_recorded_target() const {
-        if (request_.clock != RunClock::Recorded) {
-            return;
-        }
-        for (const gaze::Eye eye : gaze::kEyes) {
-            const gaze::EyeView& view =
-                request_.session->frames.front().frame.views[gaze::index(eye)];
-            const vk::Extent2D extent = config_.extents[gaze::index(eye)];
-            if (extent != vk::Extent2D(view.width_px, view.height_px)) {
-                throw SetupError(
-                    ExitCode::Usage,
-                    fmt::format(
-                        "the recording's pictures have {}x{} px, the target's {}x{}: replay "
-                        "it with --target headless, or with the display it was recorded on",
-                        view.width_px, view.height_px, extent.width, extent.height));
-            }
-        }
-    }
-
-    /// Parameters by which no picture is worth drawing. What was recorded by them is replayed
-    /// nevertheless.
-    void check_map() const {
-        if (config_.method != render::Method::Kfr) {
-            return;
-        }
-        const foveation::ImageSize image{config_.extents[0].width, config_.extents[0].height};
-        const gaze::PixelPosition middle{image.width_px / 2.0, image.height_px / 2.0};
-        const foveation::LpSize lp = value_or_throw(foveation::lp_buffer_size(config_.kfr, image));
-        foveation::SamplingPlan plan;
-        foveation::plan_kfr(config_.kfr, lp, image, middle, plan);
-        const std::string why =
-            foveation::why_useless(foveation::LogPolarMap(config_.kfr.kernel, image, middle), lp,
-                                   plan.disc_radius_px - plan.disc_border_px);
-        if (why.empty()) {
-            return;
-        }
-        const std::string text = fmt::format(
-            "kfr draws nothing worth seeing with {}x{} texels for {}x{} px: {}: use a smaller "
-            "kfr.sigma, a larger kfr.lp_width, or another kfr.alpha or kfr.kernel (gazeloop plan "
-            "shows what each does)",
-            lp.width, lp.height, image.width_px, image.height_px, why);
-        if (request_.clock != RunClock::Recorded) {
-            throw SetupError(ExitCode::Usage, text);
-        }
-        spdlog::warn("{}", text);
     }
 
     [[nodiscard]] render::RendererConfig renderer_config() const {
