@@ -90,7 +90,7 @@ ExitCode run_doctor(const DoctorCommand& command) {
                               .scale = values.render.scale,
                               .is_target = values.target.name == "openxr"},
                              limits));
-    add(doctor::check_hid(command.root));
+    add(doctor::check_hid());
     add(doctor::check_clocks(command.root));
     add(doctor::check_scheduling(command.root));
     add(doctor::check_recording_folder(command.folder));

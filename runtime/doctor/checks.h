@@ -36,8 +36,8 @@ Findings check_openxr(const OpenXrChecks& asked, const ProbeLimits& limits);
 /// last finding, openxr.eye_gaze.samples, has what came as facts.
 Findings check_eye_gaze(const OpenXrChecks& asked, double seconds, const ProbeLimits& limits);
 
-/// Trackers on HID: who may open their nodes. `root` is where /sys and /dev are.
-Findings check_hid(const std::filesystem::path& root);
+/// Trackers on HID: what their descriptors are good for, and who may open their nodes.
+Findings check_hid();
 
 /// CLOCK_MONOTONIC and what it is read from.
 Findings check_clocks(const std::filesystem::path& root);

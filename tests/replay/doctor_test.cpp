@@ -205,10 +205,9 @@ TEST(Doctor, SaysThatARecordingFolderIsOfNoUse) {
     EXPECT_EQ(diagnosis.verdict("recording.write"), "failure");
 }
 
-TEST(Doctor, SeesTheMachinesTrackers) {
+TEST(Doctor, LooksWhereItIsTold) {
     const ScratchFolder root;
     const Diagnosis diagnosis = diagnose({"--root", root.file("")});
-    EXPECT_EQ(diagnosis.verdict("hid.nodes"), "not applicable");
     EXPECT_EQ(diagnosis.verdict("scheduling.governor"), "not applicable");
 }
 

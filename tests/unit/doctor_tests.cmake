@@ -1,5 +1,5 @@
 gazeloop_test(unit_doctor
-    SOURCES doctor/hid_checks_test.cpp doctor/host_checks_test.cpp doctor/probe_test.cpp
+    SOURCES doctor/host_checks_test.cpp doctor/probe_test.cpp
     LINK gazeloop::doctor
     LABELS unit)
 gazeloop_test(unit_preview

@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "drivers/hid/find_trackers.h"
+#include "runtime/doctor/checks.h"
+#include "tests/device/as_nobody.h"
+#include "tests/device/emulated_tracker.h"
+#include "tests/unit/drivers/hid/descriptor_items.h"
+
+namespace gazeloop::doctor {
+namespace {
+
+using drivers::hid::CollectionType;
+using drivers::hid::DescriptorItems;
+using tests::EmulatedTracker;
+
+DescriptorItems mouse() {
+    constexpr std::uint32_t kGenericDesktop = 1;
+    constexpr std::uint32_t kMouse = 2;
+    DescriptorItems items;
+    items.page(kGenericDesktop).open(CollectionType::Application, kMouse).close();
+    return items;
+}
+
+/// Tells when it looked, but not where somebody looks.
+DescriptorItems blind_tracker() {
+    using namespace drivers::hid::eye_tracker;
+    DescriptorItems items;
+    items.page(kPage).open(CollectionType::Application, kEyeTracker);
+    items.usage(kSensorTimestamp).fields(32, 1).input(DescriptorItems::kVariable).close();
+    return items;
+}
+
+TEST(CheckHid, FindsNothingWhereThereIsNothing) {
+    const EmulatedTracker unplugged(drivers::hid::first_layout());
+    ASSERT_TRUE(unplugged.possible());
+    const Findings findings = check_hid();
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].verdict, Verdict::NotApplicable);
+    EXPECT_EQ(findings[0].facts["nodes"], 0);
+}
+
+TEST(CheckHid, TellsTrackersFromOtherDevices) {
+    EmulatedTracker other(mouse().bytes());
+    other.plug_in();
+    const Findings findings = check_hid();
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].verdict, Verdict::NotApplicable);
+    EXPECT_EQ(findings[0].facts["nodes"], 1);
+    EXPECT_EQ(findings[0].facts["eye_trackers"], 0);
+}
+
+TEST(CheckHid, NamesTheTracker) {
+    EmulatedTracker tracker(drivers::hid::first_layout());
+    tracker.plug_in();
+    const Findings findings = check_hid();
+    ASSERT_EQ(findings.size(), 2U);
+    EXPECT_EQ(findings[0].verdict, Verdict::Ok);
+    EXPECT_EQ(findings[0].facts["usable"], 1);
+    EXPECT_EQ(findings[1].check, "hid.hidraw0");
+    EXPECT_EQ(findings[1].verdict, Verdict::Ok);
+    EXPECT_EQ(findings[1].facts["id"], "1209:e7e7");
+    EXPECT_EQ(findings[1].facts["name"], "Emulated Eye Tracker");
+}
+
+TEST(CheckHid, SaysWhatATrackersDescriptorLacks) {
+    EmulatedTracker tracker(blind_tracker().bytes());
+    tracker.plug_in();
+    const Findings findings = check_hid();
+    ASSERT_EQ(findings.size(), 2U);
+    EXPECT_EQ(findings[0].facts["usable"], 0);
+    EXPECT_EQ(findings[1].verdict, Verdict::Failure);
+    EXPECT_NE(findings[1].found.find("gaze point"), std::string::npos) << findings[1].found;
+    EXPECT_FALSE(findings[1].remedy.empty());
+    EXPECT_FALSE(findings[1].stops_loop);
+}
+
+// A tracker that may be read alone cannot be asked for gaze.
+TEST(CheckHid, NamesTheRuleForATrackerThatMayNotBeOpened) {
+    constexpr unsigned kReadOnly = 0444;
+    EmulatedTracker tracker(drivers::hid::first_layout());
+    tracker.plug_in();
+    tracker.set_mode(kReadOnly);
+    EXPECT_TRUE(tests::as_nobody([] {
+        const Findings findings = check_hid();
+        EXPECT_EQ(findings.size(), 2U);
+        EXPECT_EQ(findings.at(1).verdict, Verdict::Failure);
+        EXPECT_FALSE(findings.at(1).stops_loop);
+        EXPECT_NE(findings.at(1).remedy.find("KERNELS==\"*:1209:E7E7.*\""), std::string::npos)
+            << findings.at(1).remedy;
+        return !testing::Test::HasFailure();
+    }));
+}
+
+}  // namespace
+}  // namespace gazeloop::doctor
