@@ -32,6 +32,7 @@ class DeviceSource::Reader {
     explicit Reader(DeviceKind kind)
         : kind_(std::move(kind)),
           wake_fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+          watch_(kind_.subsystem),
           thread_([this] { run(); }) {
         pthread_setname_np(thread_.native_handle(), kind_.thread_name.c_str());
     }
@@ -50,11 +51,10 @@ class DeviceSource::Reader {
     [[nodiscard]] bool stopped() const { return stop_.load(std::memory_order_relaxed); }
 
     void run() {
-        DeviceWatch watch(kind_.subsystem);  // before the first look: nothing comes unseen
         std::string told;
         while (!stopped()) {
             try {
-                look(watch, told);
+                look(told);
             } catch (const std::exception& error) {
                 // The loop and its recording go on without this tracker.
                 feed_.push_loss(latency::measured_now());
@@ -64,7 +64,7 @@ class DeviceSource::Reader {
         }
     }
 
-    void look(DeviceWatch& watch, std::string& told) {
+    void look(std::string& told) {
         auto tracker = kind_.open([this] { return stopped(); });
         if (stopped()) {
             return;
@@ -82,7 +82,7 @@ class DeviceSource::Reader {
             let_settle();
             return;
         }
-        watch.wait(pause, wake_fd_);
+        watch_.wait(pause, wake_fd_);
     }
 
     /// After a loss the node may be there for a moment longer, and events of its coming may still
@@ -118,6 +118,10 @@ class DeviceSource::Reader {
     DeviceFeed feed_;
     std::atomic<bool> stop_{false};
     int wake_fd_;
+    /// Before the first look, so that nothing comes unseen, and by the thread that makes the
+    /// readers: libudev 252 sets up a hash key at its first use without a lock, and two readers
+    /// that begin at once could find a device without its properties.
+    DeviceWatch watch_;
     std::thread thread_;  // last: it uses the others
 };
 
