@@ -23,6 +23,7 @@ constexpr std::size_t kBucketsOfLastSecond = 4;
 constexpr std::uint64_t kFewestSamples = 4;
 /// Before, nobody knows how much jitter is usual.
 constexpr std::uint64_t kFewestToJudge = 16;
+constexpr std::uint64_t kFewestHeights = kFewestToJudge - 1;  // the first sample has none
 /// With so many, what is still wrong is not for lack of samples.
 constexpr std::uint64_t kManySamples = 100;
 constexpr std::size_t kEarlyRunToStep = 3;
@@ -30,6 +31,9 @@ constexpr std::size_t kEarlyRunToStep = 3;
 constexpr std::size_t kCalmAfterEarly = 2;
 /// Two samples may come early within this and still be of the same clock.
 constexpr double kLeastEarly_ns = 200e3;
+/// A first sample that all others are so much earlier than tells nothing of them: it waited, or
+/// bore the time of another run of the device.
+constexpr double kOfAnotherTime_ns = 1e9;
 constexpr double kLateHeights = 2.5;
 constexpr double kLeastLate_ns = 50e3;
 constexpr double kHeightMemory = 1.0 / 64.0;
@@ -80,16 +84,21 @@ ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
     last_device_ns_ = device_ns;
     last_arrived_ns_ = arrived_ns;
 
+    if (difference(hold_era_ns_, arrived_ns) > kHoldEra_ns) {
+        longest_hold_ns_ = {0, longest_hold_ns_[0]};
+        hold_era_ns_ = arrived_ns;
+    }
     if (received_ > 1 && increment_ns == 0) {
         held_ns_ = difference(held_since_ns_, arrived_ns);
         return last_ = judge(point, arrived_ns);
     }
     if (held_ns_ > 0) {
-        note_hold(increment_ns, arrived_ns);
+        note_hold(increment_ns);
         held_ns_ = 0;
     }
+    const bool jumped =
+        received_ > 1 && note_increment(increment_ns, difference(held_since_ns_, arrived_ns));
     held_since_ns_ = arrived_ns;
-    const bool jumped = received_ > 1 && note_increment(increment_ns, arrival_increment_ns);
     const bool jumped_once = jumped && regular_run_ >= kRecentIncrements;
     regular_run_ = jumped ? 0 : regular_run_ + 1;
 
@@ -109,12 +118,16 @@ ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
             last_.stepped = true;
             return last_;
         }
+        if (!judged && -height > std::max(kOfAnotherTime_ns, uncertainty)) {
+            restart(device_ns, arrived_ns);
+            return last_ = add(device_ns, arrived_ns);
+        }
         // Not early. But a clock that was set shows so too while a sample is late by as much.
         if (early_run_ > 0 && ++calm_run_ <= kCalmAfterEarly) {
             return last_ = in_question(arrived_ns);
         }
         early_run_ = 0;
-        const bool late = (judged || increment_ns < 0) &&
+        const bool late = (judged || increment_ns < 0 || jumped_in_run_) &&
                           height > kLateHeights * mean_height_ns_ + uncertainty + kLeastLate_ns;
         if (!late) {
             late_run_ = 0;
@@ -142,8 +155,9 @@ ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
             // A host that slept says little about the usual jitter.
             const double usual =
                 std::clamp(height, 0.0, std::max(kUnusual * mean_height_ns_, kLeastUnusual_ns));
+            ++heights_;
             mean_height_ns_ += (usual - mean_height_ns_) *
-                               std::max(kHeightMemory, 1.0 / static_cast<double>(samples_ + 1));
+                               std::max(kHeightMemory, 1.0 / static_cast<double>(heights_));
         }
     }
     take(point);
@@ -250,17 +264,26 @@ bool ClockFit::note_increment(std::int64_t increment_ns, std::int64_t arrival_in
             std::min<std::uint64_t>(increment_count_, kRecentIncrements));
         std::array<std::int64_t, kRecentIncrements> sorted = increments_;
         std::nth_element(sorted.begin(), sorted.begin() + known / 2, sorted.begin() + known);
+        const bool first_known = period_ns_ == 0;
         period_ns_ = sorted[static_cast<std::size_t>(known / 2)];
+        if (first_known && longest_hold_ns_[0] > longest_tick_ns()) {
+            longest_hold_ns_ = {};
+        }
     }
     return irregular;
 }
 
+/// A timestamp that moves on by more than that is no tick further, where ticks are what it moves
+/// by.
+std::int64_t ClockFit::longest_tick_ns() const { return period_ns_ + period_ns_ / 2; }
+
 /// The timestamp has changed at last: by a tick, or, where that is no length for the time it stood
-/// still, by nothing to go by.
-void ClockFit::note_hold(std::int64_t increment_ns, std::int64_t arrived_ns) {
-    if (difference(hold_era_ns_, arrived_ns) > kHoldEra_ns) {
-        longest_hold_ns_ = {0, longest_hold_ns_[0]};
-        hold_era_ns_ = arrived_ns;
+/// still, by nothing to go by. A sample or a few that bore an old timestamp by mistake are neither:
+/// the next one has moved on by their time too.
+void ClockFit::note_hold(std::int64_t increment_ns) {
+    if (period_ns_ > 0 && increment_ns > longest_tick_ns() &&
+        held_ns_ < kHoldsToStandStill * period_ns_) {
+        return;
     }
     const bool tick = increment_ns > held_ns_ / kHoldsToStandStill;
     longest_hold_ns_[0] = std::max(longest_hold_ns_[0], tick ? increment_ns : held_ns_);
@@ -280,6 +303,12 @@ void ClockFit::step(std::size_t samples, std::int64_t arrived_ns) {
     early_run_ = 0;
     late_run_ = 0;
     jumped_in_run_ = false;
+    // Lags count from the new line, so that double holds them however far the clock was set.
+    const std::int64_t base_ns = recent(samples - 1).lag_ns;
+    offset_ += base_ns;
+    for (Point& point : recent_) {
+        point.lag_ns = saturated(static_cast<__int128>(point.lag_ns) - base_ns);
+    }
     for (std::size_t back = samples; back-- > 0;) {
         const Point& point = recent(back);
         if (bucket_count_ == 0 || point.device_ns > buckets_[bucket_count_ - 1].lowest.device_ns) {
@@ -320,7 +349,8 @@ double ClockFit::line_uncertainty_ns(std::int64_t device_ns) const {
 
 std::int64_t ClockFit::hold_ns() const {
     const std::int64_t before = std::max(longest_hold_ns_[0], longest_hold_ns_[1]);
-    return held_ns_ / kHoldsToStandStill > before ? held_ns_ : before;
+    // Where timestamps do not usually stand still, how old this one is is known to a period.
+    return held_ns_ / kHoldsToStandStill > before ? held_ns_ + period_ns_ : before;
 }
 
 double ClockFit::tick_ns() const {
@@ -361,7 +391,7 @@ ClockReading ClockFit::judge(const Point& point, std::int64_t arrived_ns) {
     if (static_cast<double>(hold_ns()) > kCoarse_ns) {
         return unknown(ClockTrouble::StandsStill);
     }
-    if (samples_ < kFewestSamples) {
+    if (samples_ < kFewestSamples || heights_ < kFewestHeights) {
         return unknown(ClockTrouble::Settling);
     }
     const double line = line_uncertainty_ns(point.device_ns);

@@ -146,7 +146,8 @@ class ClockFit {
     void take(const Point& point);
     void fit();
     [[nodiscard]] bool note_increment(std::int64_t increment_ns, std::int64_t arrival_increment_ns);
-    void note_hold(std::int64_t increment_ns, std::int64_t arrived_ns);
+    [[nodiscard]] std::int64_t longest_tick_ns() const;
+    void note_hold(std::int64_t increment_ns);
     void step(std::size_t samples, std::int64_t arrived_ns);
     [[nodiscard]] double line_uncertainty_ns(std::int64_t device_ns) const;
     [[nodiscard]] std::int64_t hold_ns() const;
@@ -170,6 +171,7 @@ class ClockFit {
     Line line_;
     SlopeBounds bounds_;
     double mean_height_ns_ = 0.0;  ///< of samples above the line, over about 64 of them
+    std::uint64_t heights_ = 0;    ///< that it rests on
 
     std::array<Point, kRunToStep> recent_;  ///< ring
     std::uint64_t received_ = 0;

@@ -24,8 +24,8 @@ class TickCounter {
     /// `bits` (1 to 64) of the counter, each tick `tick_ns` (> 0) nanoseconds long.
     TickCounter(std::uint32_t bits, double tick_ns) : bits_(bits), tick_ns_(tick_ns) {}
 
-    /// The device's time in nanoseconds; the first one is that of the ticks themselves. Saturates
-    /// 292 years away from 0.
+    /// The device's time in nanoseconds: that of the ticks themselves, or counted from a reading
+    /// that is so far from 0 (Windows' clock counts from 1601) that it could not be told exactly.
     [[nodiscard]] std::int64_t to_ns(std::uint64_t ticks) {
         if (!started_) {
             started_ = true;
@@ -33,13 +33,29 @@ class TickCounter {
         } else {
             total_ += static_cast<std::uint64_t>(tick_difference(total_, ticks, bits_));
         }
-        return ns_of(static_cast<std::int64_t>(total_));
+        if (is_far(static_cast<std::int64_t>(total_ - base_))) {
+            base_ = total_;
+        }
+        return ns_of(static_cast<std::int64_t>(total_ - base_));
     }
 
   private:
-    [[nodiscard]] std::int64_t ns_of(std::int64_t ticks) const {
+    [[nodiscard]] bool is_far(std::int64_t ticks) const {
+        constexpr auto kFar_ns = std::int64_t{1} << 62;    // saturates at twice that
+        constexpr auto kFarTicks = std::int64_t{1} << 52;  // double is exact to twice that
+        const std::int64_t far = is_whole() ? kFar_ns : kFarTicks;
+        const std::int64_t reached = is_whole() ? ns_of(ticks) : ticks;
+        return reached > far || reached < -far;
+    }
+
+    /// Whether a tick is a whole number of nanoseconds, so that times are exact.
+    [[nodiscard]] bool is_whole() const {
         constexpr double kWholeBelow = 1e12;
-        if (tick_ns_ < kWholeBelow && tick_ns_ == std::floor(tick_ns_)) {
+        return tick_ns_ < kWholeBelow && tick_ns_ == std::floor(tick_ns_);
+    }
+
+    [[nodiscard]] std::int64_t ns_of(std::int64_t ticks) const {
+        if (is_whole()) {
             return saturated(static_cast<__int128>(ticks) * static_cast<std::int64_t>(tick_ns_));
         }
         constexpr auto kGreatest = static_cast<double>(std::numeric_limits<std::int64_t>::max());
@@ -54,6 +70,7 @@ class TickCounter {
     std::uint32_t bits_;
     double tick_ns_;
     std::uint64_t total_ = 0;  ///< two's complement
+    std::uint64_t base_ = 0;
     bool started_ = false;
 };
 

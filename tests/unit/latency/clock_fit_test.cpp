@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -90,10 +91,34 @@ TEST_P(KnownClock, StatesAnUncertaintyThatHolds) {
     }
 }
 
-struct Step {
-    double by_ms;
-    Jitter jitter;
-};
+// The first readings of many streams, each by itself: no mean over seconds hides them.
+TEST(ClockFit, StatesAnUncertaintyThatHoldsForTheFirstReadingsToo) {
+    constexpr std::size_t kStreams = 2000;
+    constexpr std::size_t kFirst = 32;
+    for (const Jitter jitter : {Jitter::Uniform, Jitter::Exponential}) {
+        std::array<std::size_t, kFirst> known{};
+        std::array<std::size_t, kFirst> outside{};
+        for (std::uint64_t seed = 1; seed <= kStreams; ++seed) {
+            SimulatedTracker tracker{.jitter = jitter, .seed = seed};
+            ClockFit clock;
+            for (std::size_t i = 0; i < kFirst; ++i) {
+                const auto report = tracker.next();
+                const ClockReading reading = clock.add(report.device_ns, report.arrived_ns);
+                if (reading.verdict != ClockVerdict::Unusable) {
+                    ++known[i];
+                    outside[i] += std::abs(error_ns(reading, report)) >
+                                          static_cast<double>(reading.uncertainty_ns) + 1.0
+                                      ? 1
+                                      : 0;
+                }
+            }
+        }
+        EXPECT_GT(known[kFirst / 2], kStreams * 9 / 10);
+        for (std::size_t i = 0; i < kFirst; ++i) {
+            EXPECT_LE(outside[i], kStreams / 100) << "sample " << i;
+        }
+    }
+}
 
 TEST(ClockFitSteps, AreFoundWithinTenSamplesAndThenFollowed) {
     for (const Jitter jitter : {Jitter::None, Jitter::Uniform, Jitter::Exponential}) {
@@ -305,6 +330,73 @@ TEST(ClockFit, OneWrongTimestampIsLeftOut) {
         // An early one could be a step: two more are waited for.
         EXPECT_LE(in_question, by_ms > 0.0 ? 2 * wrongs : 5);
         EXPECT_EQ(clock.steps(), 0U);
+    }
+}
+
+// One report that is repeated tells nothing of how coarse a clock is.
+TEST(ClockFit, ARepeatedTimestampCostsThatReadingAlone) {
+    for (const double rate_hz : {30.0, 60.0, 120.0, 1000.0}) {
+        for (const int at : {1, 3, 40, 600}) {
+            SimulatedTracker tracker{.rate_hz = rate_hz, .jitter_ns = 0.1 * kMs};
+            ClockFit clock;
+            std::int64_t before_ns = 0;
+            for (int i = 0; i < 1000; ++i) {
+                auto report = tracker.next();
+                report.device_ns = i == at ? before_ns : report.device_ns;
+                before_ns = report.device_ns;
+                const ClockReading reading = clock.add(report.device_ns, report.arrived_ns);
+                const bool known = reading.verdict != ClockVerdict::Unusable;
+                EXPECT_TRUE(known || i < 24 || i == at) << rate_hz << " Hz, " << at << ": " << i;
+                EXPECT_TRUE(!known || std::abs(error_ns(reading, report)) <=
+                                          static_cast<double>(reading.uncertainty_ns) + 0.2 * kMs)
+                    << rate_hz << " Hz, " << at << ": " << i;
+            }
+            EXPECT_EQ(clock.trouble(), ClockTrouble::None) << rate_hz << " Hz, " << at;
+        }
+    }
+}
+
+// The first reports may be old ones, of another run of the device's clock, behind or ahead.
+TEST(ClockFit, StaleFirstReportsAreSoonForgotten) {
+    for (const double by_s : {-3600.0, -60.0, -2.0, 2.0, 60.0, 3600.0, 9e9}) {
+        for (const int stale : {1, 2, 3, 8, 15, 16, 17, 40}) {
+            SimulatedTracker tracker{.jitter_ns = 0.3 * kMs};
+            ClockFit clock;
+            int unknown = 0;
+            for (int i = 0; i < 600; ++i) {
+                auto report = tracker.next();
+                report.device_ns += i < stale ? std::llround(by_s * 1e9) : 0;
+                const ClockReading reading = clock.add(report.device_ns, report.arrived_ns);
+                if (i < stale) {
+                    continue;
+                }
+                unknown += reading.verdict == ClockVerdict::Unusable ? 1 : 0;
+                EXPECT_TRUE(reading.verdict == ClockVerdict::Unusable ||
+                            std::abs(error_ns(reading, report)) < 2.0 * kMs)
+                    << by_s << " s, " << stale << ": " << i;
+            }
+            EXPECT_LE(unknown, 24) << by_s << " s, " << stale;
+            EXPECT_EQ(clock.trouble(), ClockTrouble::None) << by_s << " s, " << stale;
+        }
+    }
+}
+
+// Set by centuries, a clock is as well known as before: lags count from the new line.
+TEST(ClockFitSteps, MayBeAsLongAsNumbersAre) {
+    for (const double by_s : {-9e9, 9e9}) {
+        SimulatedTracker tracker;
+        ClockFit clock;
+        for (int i = 0; i < 3600; ++i) {
+            auto report = tracker.next();
+            report.device_ns += i >= 1200 ? std::llround(by_s * 1e9) : 0;
+            const ClockReading reading = clock.add(report.device_ns, report.arrived_ns);
+            EXPECT_TRUE(reading.verdict == ClockVerdict::Unusable ||
+                        std::abs(error_ns(reading, report)) <=
+                            static_cast<double>(reading.uncertainty_ns) + 1.0 * kMs)
+                << by_s << " s: " << i;
+            EXPECT_TRUE(i < 3000 || std::abs(error_ns(reading, report)) < 100e3) << i;
+        }
+        EXPECT_EQ(clock.steps(), 1U);
     }
 }
 

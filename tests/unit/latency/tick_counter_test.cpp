@@ -34,12 +34,35 @@ TEST(TickCounter, AWideCounterNeedsNoUnwrapping) {
 }
 
 TEST(TickCounter, SaturatesAndRounds) {
-    EXPECT_EQ(TickCounter(64, 1000.0).to_ns(0x7FFFFFFFFFFFFFFF),
-              std::numeric_limits<std::int64_t>::max());
     EXPECT_EQ(TickCounter(64, 1e200).to_ns(1), std::numeric_limits<std::int64_t>::max());
     EXPECT_EQ(TickCounter(64, 1e200).to_ns(0), 0);
     EXPECT_EQ(TickCounter(32, 0.4).to_ns(3), 1);
     EXPECT_EQ(TickCounter(8, 1e6 / 3.0).to_ns(3), 1'000'000);
+}
+
+// Windows' clocks count from 1601, which is more nanoseconds ago than 63 bits hold.
+TEST(TickCounter, CountsFromTheFirstReadingWhereThatIsFarFromZero) {
+    TickCounter microseconds(64, 1000.0);
+    EXPECT_EQ(microseconds.to_ns(13'340'000'000'000'000), 0);
+    EXPECT_EQ(microseconds.to_ns(13'340'000'000'008'333), 8'333'000);
+    TickCounter file_time(64, 100.0);
+    EXPECT_EQ(file_time.to_ns(133'400'000'000'000'000), 0);
+    EXPECT_EQ(file_time.to_ns(133'400'000'000'083'333), 8'333'300);
+    // Not whole nanoseconds: exact as long as double is.
+    TickCounter fraction(64, 0.5);
+    EXPECT_EQ(fraction.to_ns(std::uint64_t{1} << 60U), 0);
+    EXPECT_EQ(fraction.to_ns((std::uint64_t{1} << 60U) + 8), 4);
+    // Unix time in nanoseconds is not that far.
+    EXPECT_EQ(TickCounter(64, 1.0).to_ns(1'763'870'000'000'000'000), 1'763'870'000'000'000'000);
+}
+
+TEST(TickCounter, ComesBackFromReadingsThatCannotBe) {
+    for (const std::uint64_t absurd : {std::uint64_t{1} << 63U, (std::uint64_t{1} << 63U) - 1}) {
+        TickCounter counter(64, 1000.0);
+        EXPECT_EQ(counter.to_ns(absurd), 0);
+        const std::int64_t first_ns = counter.to_ns(1'000'000);
+        EXPECT_EQ(counter.to_ns(1'008'333) - first_ns, 8'333'000);
+    }
 }
 
 RC_GTEST_PROP(TickCounter, FollowsAnyCounterThatAdvancesByLessThanHalfItsRange, ()) {
