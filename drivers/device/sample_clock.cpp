@@ -49,18 +49,19 @@ void SampleClock::stamp(std::uint64_t ticks, std::int64_t arrived_ns, gaze::Gaze
 }
 
 std::optional<std::string> SampleClock::take_change() {
-    if (told_ns_ && last_arrived_ns_ - *told_ns_ < kCalm_ns) {
+    const bool unusable = fit_.last().verdict == ClockVerdict::Unusable;
+    const bool lasts = unusable_in_a_row_ >= kReadingsToTell;
+    const bool calm = told_ns_ && last_arrived_ns_ - *told_ns_ < kCalm_ns;
+    if (calm && (!lasts || told_verdict_ == ClockVerdict::Unusable)) {
         return std::nullopt;
     }
     const bool set =
         fit_.steps() != told_steps_ && fit_.trouble() != latency::ClockTrouble::Restless;
     told_steps_ = fit_.steps();
-    const bool clear =
-        fit_.trouble() != latency::ClockTrouble::Settling || unusable_in_a_row_ >= kReadingsToTell;
     std::optional<std::string> text;
-    if (set) {
+    if (set && !lasts) {
         text = "clock: the tracker's clock was set";
-    } else if (clear && told_verdict_ != fit_.last().verdict) {
+    } else if ((!unusable || lasts) && told_verdict_ != fit_.last().verdict) {
         told_verdict_ = fit_.last().verdict;
         text = describe(fit_);
     }

@@ -43,9 +43,9 @@ class SampleClock {
     [[nodiscard]] const latency::ClockFit& fit() const { return fit_; }
 
     /// One line where the verdict is another than the one told last, or the clock was set: of the
-    /// steps of a restless clock its verdict says enough. Why the age is unknown is told after
-    /// kReadingsToTell samples at the latest, whatever the trouble. No line for kCalm_ns after
-    /// another; what is still so then is told then.
+    /// steps of a restless clock its verdict says enough. Why the age is unknown is told once it
+    /// has been for kReadingsToTell samples. No other line for kCalm_ns after one; what is still so
+    /// then is told then.
     [[nodiscard]] std::optional<std::string> take_change();
 
     static constexpr std::uint64_t kReadingsToTell = 100;

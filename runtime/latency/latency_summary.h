@@ -52,6 +52,12 @@ struct FrameCounts {
     std::uint64_t in_time_unknown = 0;  ///< no time of the GPU's end, or of the display
     /// By the state of the eye that is worse off, in the order of gaze::FoveaState.
     std::array<std::uint64_t, gaze::kFoveaStateNames.size()> by_state{};
+
+    /// In which both foveae rest on a fresh sample.
+    [[nodiscard]] std::uint64_t with_gaze() const {
+        return by_state[static_cast<std::size_t>(gaze::FoveaState::Tracking)] +
+               by_state[static_cast<std::size_t>(gaze::FoveaState::OtherEye)];
+    }
 };
 
 /// Everything that a summary says. Rows of gaze age and of its stages are over the frames in which

@@ -58,6 +58,8 @@ Json summary_json(const SummaryReport& report) {
             {"eye_to_photon_percent_by_kind",
              report.share_by_kind_percent ? by_name(*report.share_by_kind_percent, kStampKindNames)
                                           : Json(nullptr)},
+            {"eye_to_photon_frames",
+             {{"known", report.gaze_age_at_display.count}, {"of", frames.with_gaze()}}},
             {"durations", durations},
             {"frames",
              {{"total", frames.total},

@@ -52,6 +52,12 @@ std::string share_line(const SummaryReport& report) {
                        kind == StampKind::Measured ? "" : ",",
                        share[static_cast<std::size_t>(kind)], name(kind));
     }
+    const std::uint64_t with_gaze = report.frames.with_gaze();
+    const std::uint64_t known = report.gaze_age_at_display.count;
+    if (known < with_gaze) {
+        fmt::format_to(std::back_inserter(line),
+                       ", in the {} of {} frames with gaze whose age is known", known, with_gaze);
+    }
     return line + "\n";
 }
 

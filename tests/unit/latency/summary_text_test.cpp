@@ -59,6 +59,26 @@ TEST(SummaryText, BeginsWithHowEyeToPhotonWasObtained) {
               "real time: median interval 10.00 ms, display period 10.00 ms, missed 0.0 %");
 }
 
+// A share of what is known says nothing of the rest.
+TEST(SummaryText, SaysOfHowManyFramesTheAgeIsKnown) {
+    LatencySummary summary({.period_ns = 10 * kMs, .switching_ns = 2 * kMs});
+    for (std::uint64_t index = 0; index < 40; ++index) {
+        FrameRecord frame = example_frame(index);
+        if (index % 4 != 0) {
+            for (gaze::FoveaPoint& eye : frame.fovea.eyes) {
+                eye.sampled = {};
+                eye.ready = {};
+            }
+        }
+        summary.add(frame);
+    }
+    const SummaryReport report = summary.report();
+    EXPECT_THAT(lines(summary_text(report))[0],
+                ::testing::EndsWith("in the 10 of 40 frames with gaze whose age is known"));
+    EXPECT_EQ(summary_json(report)["eye_to_photon_frames"]["known"], 10);
+    EXPECT_EQ(summary_json(report)["eye_to_photon_frames"]["of"], 40);
+}
+
 TEST(SummaryText, ShowsEveryRow) {
     const std::string text = summary_text(example_report(200));
     EXPECT_EQ(line_with(text, "gaze age at display"),

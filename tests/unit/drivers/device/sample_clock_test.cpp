@@ -76,6 +76,33 @@ TEST(SampleClock, TellsLiesOnce) {
     }
 }
 
+// A run may be over before the calm after another line is.
+TEST(SampleClock, TellsAtOnceThatTheAgeIsUnknown) {
+    const auto stands_still_after_2_s =
+        told_of([](int, double second) { return std::min(second, 2.0) * 1e6; });
+    ASSERT_EQ(stands_still_after_2_s.size(), 2U);
+    EXPECT_THAT(stands_still_after_2_s[0], HasSubstr("good"));
+    EXPECT_THAT(stands_still_after_2_s[1], HasSubstr("unusable (timestamps stand still)"));
+    SampleClock clock(64, kMicrosecond_ns, {});
+    int told = 0;
+    for (int i = 0; i < static_cast<int>(4.0 * kRate_hz); ++i) {
+        gaze::GazeSample sample;
+        const double second = i / kRate_hz;
+        clock.stamp(static_cast<std::uint64_t>(std::min(second, 2.0) * 1e6),
+                    static_cast<std::int64_t>(second * 1e9 + 5e12), sample);
+        told += clock.take_change() ? 1 : 0;
+    }
+    EXPECT_EQ(told, 2) << "within the calm";
+}
+
+// One sample whose time is unknown is no change of what the clock is worth.
+TEST(SampleClock, TellsNothingOfOneRepeatedTimestamp) {
+    const auto told = told_of([](int sample, double second) {
+        return (sample == 3000 ? second - 1.0 / kRate_hz : second) * 1e6;
+    });
+    EXPECT_EQ(told.size(), 1U);
+}
+
 TEST(SampleClock, TellsStepsButNoFloodOfThem) {
     const auto once =
         told_of([](int, double second) { return second * 1e6 + (second > 20.0 ? 5e6 : 0.0); });
