@@ -28,6 +28,8 @@ constexpr double kFarthestOrigin_mm = 200.0;
 constexpr double kLargestPupil_mm = 15.0;
 /// By how much a unit vector's length may be off: far more than rounding, far less than an error.
 constexpr double kUnitTolerance = 0.01;
+/// Of a direction along Z, whichever way that is: 84 degrees to the side, where no eye can look.
+constexpr double kLeastAhead = 0.1;
 
 class Reader {
   public:
@@ -84,7 +86,8 @@ class Reader {
     [[nodiscard]] std::optional<glm::dvec3> checked_unit(const glm::dvec3& v) {
         const auto normalized =
             std::abs(glm::length(v) - 1.0) <= kUnitTolerance ? gaze::unit(v) : std::nullopt;
-        return checked(normalized.value_or(v), normalized.has_value());
+        return checked(normalized.value_or(v),
+                       normalized && std::abs(normalized->z) >= kLeastAhead);
     }
 
     std::span<const std::uint8_t> bytes_;

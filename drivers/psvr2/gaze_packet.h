@@ -31,8 +31,8 @@ struct GazePacket {
     gaze::PerEye<EyeBlock> eyes;
     /// Of the block that the headset itself would steer foveated rendering by.
     std::int64_t foveated_timestamp_us = 0;
-    /// Values that the headset vouches for and that cannot be: not finite, no unit vector, out of
-    /// range. They are absent above.
+    /// Values that the headset vouches for and that cannot be: not finite, no unit vector, along
+    /// the face, out of range. They are absent above.
     std::uint32_t implausible = 0;
 };
 

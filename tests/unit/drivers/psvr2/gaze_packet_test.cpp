@@ -94,6 +94,13 @@ TEST(GazePacket, LeavesOutWhatCannotBe) {
         EXPECT_TRUE(packet.eyes[1].direction.has_value()) << bad;
         EXPECT_EQ(packet.implausible, 1U) << bad;
     }
+    // Nobody looks along his own face.
+    for (const float ahead : {0.F, -0.F, 0.09F, -0.09F}) {
+        const GazePacket packet =
+            decoded(good_packet().set3(92 + 20, 0.F, std::sqrt(1.F - ahead * ahead), ahead));
+        EXPECT_FALSE(packet.eyes[0].direction.has_value()) << ahead;
+        EXPECT_EQ(packet.implausible, 1U) << ahead;
+    }
     for (const float bad : {kNan, kInfinity, 201.F, -1e20F}) {
         const GazePacket packet = decoded(good_packet().set<float>(164 + 4, bad));
         EXPECT_FALSE(packet.eyes[1].origin_mm.has_value()) << bad;
@@ -136,6 +143,7 @@ RC_GTEST_PROP(GazePacket, IsPlausibleWhateverTheBytes, ()) {
     RC_ASSERT(packet.has_value());
     for (const EyeBlock& eye : packet->eyes) {
         RC_ASSERT(!eye.direction || std::abs(glm::length(*eye.direction) - 1.0) < 1e-9);
+        RC_ASSERT(!eye.direction || std::abs(eye.direction->z) >= 0.1);
         RC_ASSERT(!eye.origin_mm || glm::length(*eye.origin_mm) < 200.0);
         RC_ASSERT(!eye.pupil_mm || (*eye.pupil_mm > 0.0 && *eye.pupil_mm <= 15.0));
     }
@@ -153,7 +161,7 @@ RC_GTEST_PROP(GazePacket, OfTheSimulationSaysWhatWentIn,
         ray.valid = *rc::gen::arbitrary<bool>();
         ray.openness = *rc::gen::element(-1.0, 0.0, 1.0);
         ray.origin_m = {eye == gaze::Eye::Left ? -0.031 : 0.031, number(-0.01, 0.01), 0.02};
-        ray.direction = glm::normalize(glm::dvec3(number(-1, 1), number(-1, 1), number(-2, -0.1)));
+        ray.direction = glm::normalize(glm::dvec3(number(-1, 1), number(-1, 1), number(-2, -0.2)));
     }
     const auto packet = decode_gaze_packet(sim::psvr2_packet(sample, time_us, frame));
     RC_ASSERT(packet.has_value());
