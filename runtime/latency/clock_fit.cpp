@@ -275,14 +275,16 @@ bool ClockFit::note_increment(std::int64_t increment_ns, std::int64_t arrival_in
 
 /// A timestamp that moves on by more than that is no tick further, where ticks are what it moves
 /// by.
-std::int64_t ClockFit::longest_tick_ns() const { return period_ns_ + period_ns_ / 2; }
+std::int64_t ClockFit::longest_tick_ns() const {
+    return saturated(static_cast<__int128>(period_ns_) + period_ns_ / 2);
+}
 
 /// The timestamp has changed at last: by a tick, or, where that is no length for the time it stood
 /// still, by nothing to go by. A sample or a few that bore an old timestamp by mistake are neither:
 /// the next one has moved on by their time too.
 void ClockFit::note_hold(std::int64_t increment_ns) {
     if (period_ns_ > 0 && increment_ns > longest_tick_ns() &&
-        held_ns_ < kHoldsToStandStill * period_ns_) {
+        held_ns_ / kHoldsToStandStill < period_ns_) {
         return;
     }
     const bool tick = increment_ns > held_ns_ / kHoldsToStandStill;
@@ -350,7 +352,9 @@ double ClockFit::line_uncertainty_ns(std::int64_t device_ns) const {
 std::int64_t ClockFit::hold_ns() const {
     const std::int64_t before = std::max(longest_hold_ns_[0], longest_hold_ns_[1]);
     // Where timestamps do not usually stand still, how old this one is is known to a period.
-    return held_ns_ / kHoldsToStandStill > before ? held_ns_ + period_ns_ : before;
+    return held_ns_ / kHoldsToStandStill > before
+               ? saturated(static_cast<__int128>(held_ns_) + period_ns_)
+               : before;
 }
 
 double ClockFit::tick_ns() const {

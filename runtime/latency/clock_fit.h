@@ -60,7 +60,8 @@ struct ClockReading {
 /// points are; beyond them that of its slope is added, which is never more than crystals are off.
 /// Then come the length of a tick (timestamp_ticks.h), and by how much everything of the last
 /// second was late. On simulated clocks whose delays vary at random from sample to sample at most 1
-/// % of the readings lie outside (tests).
+/// % of the readings lie outside (tests), the first ones too: times are unknown until 16 samples
+/// have told what jitter is usual.
 ///
 /// Delays that do not vary at random are another matter. A host that asks for samples at fixed
 /// times delays each by what is left until it asks again: a sawtooth that repeats only with the
@@ -70,7 +71,9 @@ struct ClockReading {
 /// off the time, and all of it added to the uncertainty, and to what is early or late. That
 /// interval has to be known from elsewhere: with 1 ms of it no clock is good.
 ///
-/// Of samples that had piled up before the first one was read only the last counts.
+/// Of samples that had piled up before the first one was read only the last counts, and so it is
+/// with first ones that bear the times of another run of the device. A timestamp that is repeated
+/// now and then is no tick: its own time is unknown, and nothing follows from it.
 ///
 /// A step of the device's clock is told from late delivery, which can make any sample late, because
 /// it makes samples early (three, with no more than two others between them) or their device times
