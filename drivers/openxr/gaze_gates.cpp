@@ -31,7 +31,7 @@ constexpr std::array<GateText, kGazeGateCount> kTexts{{
      "open"},
     {"sample time known",
      "nothing to do for a user: this runtime does not say when the eye was seen, so the age of "
-     "the gaze is unknown"},
+     "the gaze is unknown; the gaze itself is used"},
 }};
 
 std::size_t index(GazeGate gate) { return static_cast<std::size_t>(gate); }

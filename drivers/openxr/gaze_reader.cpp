@@ -43,11 +43,7 @@ std::optional<gaze::GazeSample> GazeReader::take(const GazeAnswer& answer, GazeG
     pass(GazeGate::Pose, answer.tracked, "tracked",
          "sub-nominal, not to be relied on: used with gaze.minimum_confidence=0 only");
 
-    auto time = sample_time(answer.time);
-    if (!time) {
-        pass(GazeGate::SampleTime, false, "", "an absurd time: the sample was left out");
-        return lost(now_ns, false);
-    }
+    SampleTime time = sample_time(answer.time);
     const bool newer = answer.time.given != last_given_ || !last_pose_;
     const bool same_pose = last_pose_ && last_pose_->orientation == answer.pose->orientation &&
                            last_pose_->position_m == answer.pose->position_m;
@@ -55,26 +51,26 @@ std::optional<gaze::GazeSample> GazeReader::take(const GazeAnswer& answer, GazeG
         advanced_ns_ = now_ns;
     } else if (same_pose) {
         return std::nullopt;
-    } else if (time->trouble != SampleTimeTrouble::NotGiven) {
+    } else if (time.trouble != SampleTimeTrouble::NotGiven) {
         if (latency::saturated(static_cast<__int128>(now_ns) - advanced_ns_) < kStandstill_ns) {
             return std::nullopt;
         }
-        time->trouble = SampleTimeTrouble::StandsStill;
-        time->sampled = {};
-        time->pose_ns.reset();
+        time.trouble = SampleTimeTrouble::StandsStill;
+        time.sampled = {};
+        time.pose_ns.reset();
     }
-    const bool known = time->trouble == SampleTimeTrouble::None;
-    pass(GazeGate::SampleTime, known, text_of(time->trouble), text_of(time->trouble));
+    const bool known = time.trouble == SampleTimeTrouble::None;
+    pass(GazeGate::SampleTime, known, text_of(time.trouble), text_of(time.trouble));
 
     last_pose_ = answer.pose;
     last_given_ = answer.time.given;
     told_loss_ = false;
-    pose_time_ = time->pose_ns ? answer.time.given : 0;
+    pose_time_ = time.pose_ns ? answer.time.given : 0;
     if (known) {
         device_ns_ = answer.time.given;
     }
     gaze::GazeSample sample = next(now_ns);
-    sample.sampled = time->sampled;
+    sample.sampled = time.sampled;
     split(sample, distance_m_, {});
     for (gaze::EyeRay& ray : sample.eyes) {
         ray.confidence = answer.tracked ? -1.0 : 0.0;

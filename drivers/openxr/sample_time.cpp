@@ -7,25 +7,29 @@
 namespace gazeloop::drivers {
 
 std::string_view text_of(SampleTimeTrouble trouble) {
-    constexpr std::array<std::string_view, 5> kTexts{
-        "the runtime says when the eye was seen", "the runtime gives no time: the age is unknown",
+    constexpr std::array<std::string_view, 6> kTexts{
+        "the runtime says when the eye was seen",
+        "the runtime gives no time: the age is unknown",
         "the runtime predicts the gaze: when the eye was seen is unknown",
         "the gaze's time lies ahead, it is predicted: when the eye was seen is unknown",
-        "the gaze moves, its time stands still: the age is unknown"};
+        "the gaze moves, its time stands still: the age is unknown",
+        "the gaze's time is none of now, but of another clock: the age is unknown"};
     return kTexts[static_cast<std::size_t>(trouble)];
 }
 
-std::optional<SampleTime> sample_time(const GivenTime& time) {
+SampleTime sample_time(const GivenTime& time) {
     if (time.given == 0) {
-        return SampleTime{.sampled = {}, .pose_ns = {}, .trouble = SampleTimeTrouble::NotGiven};
+        return {.sampled = {}, .pose_ns = {}, .trouble = SampleTimeTrouble::NotGiven};
     }
+    constexpr SampleTime kAbsurd{
+        .sampled = {}, .pose_ns = {}, .trouble = SampleTimeTrouble::Absurd};
     if (time.given < 0 || !time.host_ns) {
-        return std::nullopt;
+        return kAbsurd;
     }
     const std::int64_t ahead_ns =
         latency::saturated(static_cast<__int128>(*time.host_ns) - time.now_ns);
     if (ahead_ns > kFarthestSample_ns || ahead_ns < -kFarthestSample_ns) {
-        return std::nullopt;
+        return kAbsurd;
     }
     SampleTime sample{.sampled = {}, .pose_ns = time.host_ns, .trouble = SampleTimeTrouble::None};
     if (time.given == time.asked) {

@@ -20,10 +20,11 @@ struct GivenTime {
 /// Why the time of a pose does not say when the eye was seen.
 enum class SampleTimeTrouble {
     None,
-    NotGiven,    ///< 0: the runtime does not know
-    Predicted,   ///< the very time that was asked for: the pose was extrapolated to it
-    Ahead,       ///< in the future: the pose was extrapolated
-    StandsStill  ///< the gaze moves on, its time does not
+    NotGiven,     ///< 0: the runtime does not know
+    Predicted,    ///< the very time that was asked for: the pose was extrapolated to it
+    Ahead,        ///< in the future: the pose was extrapolated
+    StandsStill,  ///< the gaze moves on, its time does not
+    Absurd        ///< negative, no time at all, or too far from now: of another clock
 };
 [[nodiscard]] std::string_view text_of(SampleTimeTrouble trouble);
 
@@ -34,13 +35,12 @@ struct SampleTime {
     SampleTimeTrouble trouble = SampleTimeTrouble::None;
 };
 
-/// Farther from now than this, a time is taken for an error: no gaze of that age is of use.
+/// Farther from now than this, a time is taken for another clock's: no gaze of that age is of use.
 inline constexpr std::int64_t kFarthestSample_ns = 10'000'000'000;
 /// Two readings of a clock on the way to and from the runtime's time line: a time that lies ahead
 /// by less is now. Far above what conversions cost (microseconds), far below any tracker's delay.
 inline constexpr std::int64_t kClockNoise_ns = 100'000;
 
-/// None where the time is absurd: negative, no time at all, or too far from now.
-[[nodiscard]] std::optional<SampleTime> sample_time(const GivenTime& time);
+[[nodiscard]] SampleTime sample_time(const GivenTime& time);
 
 }  // namespace gazeloop::drivers

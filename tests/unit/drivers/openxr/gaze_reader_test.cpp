@@ -102,8 +102,7 @@ TEST_F(GazeReaderTest, TellsALossOnce) {
         {GazeGate::Focus, [](GazeAnswer& a) { a.focused = false; }},
         {GazeGate::Active, [](GazeAnswer& a) { a.active = false; }},
         {GazeGate::Pose, [](GazeAnswer& a) { a.in_time = a.valid = false; }},
-        {GazeGate::Pose, [](GazeAnswer& a) { a.pose.reset(); }},
-        {GazeGate::SampleTime, [](GazeAnswer& a) { a.time.given = -1; }}};
+        {GazeGate::Pose, [](GazeAnswer& a) { a.pose.reset(); }}};
     std::int64_t now_ms = 1000;
     for (const auto& [gate, shut] : ways) {
         EXPECT_TRUE(take(answer(now_ms))->eyes[0].valid);
@@ -118,6 +117,23 @@ TEST_F(GazeReaderTest, TellsALossOnce) {
         EXPECT_FALSE(take(without).has_value());
         now_ms += 100;
     }
+}
+
+// A time base of its own costs the age, not the gaze.
+TEST_F(GazeReaderTest, FollowsGazeWhoseTimesAreAbsurd) {
+    for (int i = 0; i < 50; ++i) {
+        GazeAnswer elsewhere = answer(1000 + 14 * i);
+        elsewhere.pose = looking(0.001 * i);
+        elsewhere.time.given += 3'600'000 * kMs;
+        elsewhere.time.host_ns = *elsewhere.time.host_ns + 3'600'000 * kMs;
+        const auto sample = take(elsewhere);
+        ASSERT_TRUE(sample.has_value()) << i;
+        EXPECT_TRUE(sample->eyes[0].valid && sample->eyes[1].valid);
+        EXPECT_FALSE(sample->sampled.known());
+        EXPECT_EQ(reader_.pose_time(), 0);
+    }
+    EXPECT_FALSE(is_open(GazeGate::SampleTime));
+    EXPECT_TRUE(is_open(GazeGate::Pose));
 }
 
 // Nobody has seen an eye yet: there is nothing to lose.
