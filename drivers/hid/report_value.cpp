@@ -8,6 +8,7 @@ namespace gazeloop::drivers::hid {
 namespace {
 
 constexpr std::uint32_t kWidest = 64;
+constexpr std::uint32_t kWord = 32;
 
 // HID 1.11, 6.2.2.7: nibble 0 is the system, 1 the length's exponent, 3 the time's.
 constexpr std::uint32_t kCentimetre = 0x11;
@@ -84,10 +85,9 @@ std::optional<std::int64_t> ReportValue::raw(std::span<const std::uint8_t> paylo
 }
 
 std::optional<std::int64_t> ReportValue::number(std::span<const std::uint8_t> payload) const {
-    constexpr std::uint32_t kWord = 32;
     const std::optional<std::int64_t> value = raw(payload);
     const auto no_data = static_cast<std::int64_t>(low_bits(is_signed ? bits - 1 : bits));
-    if (!value || *value == no_data ||
+    if (!value || (has_no_data && *value == no_data) ||
         (bits == kWord && *value == std::numeric_limits<std::int32_t>::max()) ||
         (least < greatest && (*value < least || *value > greatest))) {
         return std::nullopt;
@@ -117,7 +117,8 @@ std::optional<ReportValue> value_of(const ReportField& field, std::uint32_t elem
                       .bits = field.bits,
                       .is_signed = ranged ? field.logical_minimum < 0 : is_signed,
                       .least = field.logical_minimum,
-                      .greatest = field.logical_maximum};
+                      .greatest = field.logical_maximum,
+                      .has_no_data = quantity == Quantity::Count || field.bits >= kWord || !ranged};
     double steps = 1.0;
     double first = 0.0;
     if (ranged && field.physical_minimum < field.physical_maximum) {

@@ -28,6 +28,9 @@ struct ReportValue {
     /// Values outside say "no data"; least >= greatest: no range was given.
     std::int64_t least = 0;
     std::int64_t greatest = 0;
+    /// False for a place in a field of less than 32 bits whose range ends there: it may be the edge
+    /// of a screen.
+    bool has_no_data = true;
     double scale = 1.0;   ///< SI units for one step of the value
     double offset = 0.0;  ///< SI units at value 0
 
@@ -36,8 +39,8 @@ struct ReportValue {
     [[nodiscard]] std::optional<std::int64_t> raw(std::span<const std::uint8_t> payload) const;
 
     /// What the device says with it; none where raw() has none, outside the range, and for what
-    /// devices send for "no data" whatever their range: the greatest number that the field can hold
-    /// and, of 32 bits, the greatest signed one.
+    /// devices send for "no data": the greatest number that the field can hold, where that is none
+    /// to be expected (has_no_data), and, of 32 bits, the greatest signed one.
     [[nodiscard]] std::optional<std::int64_t> number(std::span<const std::uint8_t> payload) const;
 
     /// number() in SI units.

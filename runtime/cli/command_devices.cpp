@@ -134,6 +134,10 @@ ExitCode devices(const DevicesCommand& command) {
     std::vector<drivers::TrackerProbe> probes = drivers::hid::probe_trackers(hid, listen, stop);
     std::ranges::move(drivers::psvr2::probe_headsets(psvr2, listen, stop),
                       std::back_inserter(probes));
+    if (interrupted()) {
+        fmt::print(stderr, "interrupted before every tracker was listened to\n");
+        return ExitCode::Interrupted;
+    }
     if (!command.json.empty()) {
         nlohmann::ordered_json list = devices_json(probes);
         list.push_back(openxr_gaze_json(openxr));

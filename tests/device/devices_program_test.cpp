@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <stop_token>
 #include <thread>
@@ -10,6 +11,7 @@
 #include "runtime/session/session_file.h"
 #include "sim/virtual_tracker.h"
 #include "tests/device/emulated_tracker.h"
+#include "tests/support/background_process.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::tests {
@@ -62,6 +64,24 @@ TEST_F(DevicesProgram, SaysWhyThereIsNoGaze) {
     EXPECT_EQ(silent.exit_code, 4) << silent.err;
     EXPECT_NE(silent.out.find("it sends nothing"), std::string::npos) << silent.out;
     EXPECT_NE(silent.out.find("not tried on hardware"), std::string::npos) << silent.out;
+}
+
+// What was not listened to is not called silent.
+TEST_F(DevicesProgram, ThatIsInterruptedSaysSo) {
+    tracker_->plug_in();
+    BackgroundProcess program(
+        {.command = {GAZELOOP_BINARY_DIR "/gazeloop", "devices", "--seconds", "60"},
+         .environment = {},
+         .output_file = folder_.file("out")});
+    // Asked for its features: it is being listened to.
+    for (int i = 0; i < 6000 && tracker_->asked() == 0; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    ASSERT_GT(tracker_->asked(), 0);
+    program.signal(SIGINT);
+    EXPECT_EQ(program.wait(std::chrono::seconds(30)), 130) << program.output();
+    EXPECT_NE(program.output().find("interrupted"), std::string::npos) << program.output();
+    EXPECT_EQ(program.output().find("sends nothing"), std::string::npos) << program.output();
 }
 
 TEST_F(DevicesProgram, ListsWhatATrackerStatesAndDoes) {

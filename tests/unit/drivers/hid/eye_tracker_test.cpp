@@ -301,6 +301,26 @@ TEST(EyeTracker, CapabilitiesOffByAThousandAreCorrectedAndSaidSo) {
     EXPECT_EQ(absurd.implausible.size(), 5U) << "each is told";
 }
 
+// The edge of a screen is a place.
+TEST(ReportValue, HasTheGreatestNumberOfAPlaceWhereItsRangeHasIt) {
+    const std::vector<std::uint8_t> ones{0xFF, 0xFF, 0xFF, 0xFF};
+    const auto number = [&](std::uint32_t bits, std::int64_t least, std::int64_t greatest,
+                            Quantity quantity = Quantity::Length) {
+        ReportField field;
+        field.bits = bits;
+        field.logical_minimum = least;
+        field.logical_maximum = greatest;
+        return value_of(field, 0, quantity, false)->number(ones);
+    };
+    EXPECT_EQ(number(16, 0, 65535), 65535);
+    EXPECT_EQ(number(16, 0, 65534), std::nullopt);
+    EXPECT_EQ(number(16, 0, 0), std::nullopt) << "no range was given";
+    EXPECT_EQ(number(12, 0, 4095), 4095);
+    EXPECT_EQ(number(32, 0, 0xFFFFFFFF), std::nullopt);
+    EXPECT_EQ(number(16, -32768, 32767), -1);
+    EXPECT_EQ(number(16, 0, 65535, Quantity::Count), std::nullopt) << "no count";
+}
+
 // One that cannot be, or is no data, does not take the others with it.
 TEST(EyeTracker, CapabilitiesAreJudgedEachByItself) {
     const EyeTrackerLayout layout = layout_of(first_layout());
