@@ -38,6 +38,9 @@ class DeviceFeed {
         push(lost);
     }
 
+    /// The number of the last sample: another one, and something was pushed.
+    [[nodiscard]] std::uint64_t last_sequence() const { return sequence_; }
+
     void tell(latency::Stamp time, std::string text) {
         const std::lock_guard lock(mutex_);
         events_.push_back({time, std::move(text)});

@@ -24,6 +24,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kLookAgainAfter{1000};
 /// A tracker that is there but fails is not asked again at once.
 constexpr milliseconds kRetryAfter{200};
+/// Nor often where it fails before it gave a sample: after twice the time of before, up to this.
+constexpr milliseconds kLongestRetry{5000};
 
 }  // namespace
 
@@ -75,12 +77,19 @@ class DeviceSource::Reader {
             pause = kRetryAfter;
         } else if (*tracker == nullptr) {
             tell_once(told, kind_.absence);
+            failures_ = 0;
         } else {
             told.clear();
-            read(**tracker);
+            failures_ = read(**tracker) ? 0 : failures_ + 1;
             tracker->reset();
             let_settle();
-            return;
+            if (failures_ < 2) {
+                return;
+            }
+            pause = kLongestRetry;
+            if (constexpr std::uint32_t kDoublings = 5; failures_ < kDoublings) {
+                pause = std::min(pause, kRetryAfter * (1 << failures_));
+            }
         }
         watch_.wait(pause, wake_fd_);
     }
@@ -99,25 +108,54 @@ class DeviceSource::Reader {
         }
     }
 
-    void read(TrackerDevice& tracker) {
-        feed_.tell(latency::measured_now(), "plugged in: " + tracker.text());
-        for (const std::string& remark : tracker.remarks()) {
-            feed_.tell(latency::measured_now(), remark);
+    /// Reads until the device is gone; whether it gave a sample. One that failed before without is
+    /// not told again until it does, or stays.
+    bool read(TrackerDevice& tracker) {
+        const std::uint64_t before = feed_.last_sequence();
+        const auto gave = [&] { return feed_.last_sequence() != before; };
+        const std::int64_t begin_ns = latency::measured_now().ns;
+        const auto stays = [&] {
+            return latency::measured_now().ns - begin_ns >
+                   std::chrono::nanoseconds(kLookAgainAfter).count();
+        };
+        bool greeted = false;
+        const auto greet = [&] {
+            greeted = true;
+            feed_.tell(latency::measured_now(), "plugged in: " + tracker.text());
+            for (const std::string& remark : tracker.remarks()) {
+                feed_.tell(latency::measured_now(), remark);
+            }
+        };
+        if (failures_ == 0) {
+            greet();
         }
         while (!stopped()) {
-            if (const auto read = tracker.read(kLongestRead, feed_); !read) {
+            const auto read = tracker.read(kLongestRead, feed_);
+            if (!greeted && read && (gave() || stays())) {
+                greet();
+            }
+            if (!read) {
                 const latency::Stamp now = latency::measured_now();
-                feed_.push_loss(now);
-                feed_.tell(now, "gone: " + read.error().message);
-                return;
+                const bool any = gave();
+                if (greeted) {
+                    feed_.push_loss(now);
+                    feed_.tell(now, "gone: " + read.error().message);
+                } else if (failures_ == 1) {
+                    feed_.tell(now, fmt::format("{} failed again before it gave a sample: it is "
+                                                "tried less and less often",
+                                                tracker.text()));
+                }
+                return any;
             }
         }
+        return true;
     }
 
     DeviceKind kind_;
     DeviceFeed feed_;
     std::atomic<bool> stop_{false};
     int wake_fd_;
+    std::uint32_t failures_ = 0;  ///< in a row, of a device that gave no sample
     /// Before the first look, so that nothing comes unseen, and by the thread that makes the
     /// readers: libudev 252 sets up a hash key at its first use without a lock, and two readers
     /// that begin at once could find a device without its properties.

@@ -335,6 +335,30 @@ TEST_F(HidDevice, AReadErrorIsToldAndTheDeviceOpenedAgain) {
     until(source, [&] { return !samples_.empty() && samples_.back().eyes[0].valid; });
 }
 
+// One that fails as soon as it is opened floods neither session nor bus.
+TEST_F(HidDevice, ThatFailsAgainAndAgainIsTriedLessAndLessOften) {
+    tracker_->plug_in();
+    tracker_->set_fault(EmulatedTracker::Fault::ReadFails);
+    HidSource source({});
+    until_event(source, "failed again before it gave a sample");
+    EXPECT_EQ(std::ranges::count_if(
+                  events_, [](const std::string& line) { return line.starts_with("gone: "); }),
+              1)
+        << testing::PrintToString(events_);
+    events_.clear();
+    samples_.clear();
+    const int asked = tracker_->asked();
+    const std::int64_t begin_ns = latency::monotonic_ns();
+    until(source, [&] { return latency::monotonic_ns() - begin_ns > 3'000'000'000; });
+    EXPECT_TRUE(events_.empty()) << testing::PrintToString(events_);
+    EXPECT_TRUE(samples_.empty());
+    EXPECT_LE(tracker_->asked() - asked, 4 * 8) << "opened four times in 3 s at the most";
+    tracker_->set_fault(EmulatedTracker::Fault::None);
+    until_event(source, "plugged in");
+    tracker_->send(report_at(5000));
+    until(source, [&] { return !samples_.empty() && samples_.back().eyes[0].valid; });
+}
+
 TEST_F(HidDevice, GivesTimesOnceItsClockIsKnown) {
     tracker_->plug_in();
     HidSource source({.path = "", .delay = {4'000'000, 1'000'000}, .geometry = {}});
