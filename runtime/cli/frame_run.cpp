@@ -309,7 +309,9 @@ class FrameRun {
             preview::PreviewFeed::Options{
                 .extents = config_.extents,
                 .format = config_.format,
-                .switching_ns = display_.switching_ns,
+                .display = {.period_ns = display_.period_ns(),
+                            .switching_ns = display_.switching_ns,
+                            .rolling_ns = display_.rolling_ns()},
                 .ring_radius_px =
                     [&renderer](gaze::Eye eye) { return renderer.last_plan(eye).disc_radius_px; }},
             window_->memory());
@@ -342,21 +344,25 @@ class FrameRun {
         }
         const std::string text = fmt::format(
             "the runtime's display has a period of {:.2f} ms, the profile '{}' {:.2f} ms: the "
-            "runtime's is used",
-            announced * 1e-6, display_.name, expected * 1e-6);
+            "runtime's is used{}",
+            announced * 1e-6, display_.name, expected * 1e-6,
+            latency::may_be_of_period(result_.period_ns, display_.period_ns())
+                ? ""
+                : ", and when its rows light up and its pixels switch is unknown (--display names "
+                  "another profile)");
         spdlog::warn("{}", text);
         if (recorder_ != nullptr) {
             recorder_->event(latency::measured_now(), "display", text);
         }
     }
 
-    /// The first failure decides the exit code.
+    /// The first failure decides the exit code, also of a run that was ended by hand.
     void fail(ExitCode code, const std::string& message) {
         spdlog::error("{}", message);
         if (recorder_ != nullptr) {
             recorder_->event(latency::measured_now(), "error", message);
         }
-        if (code_ == ExitCode::Ok) {
+        if (code_ == ExitCode::Ok || code_ == ExitCode::Interrupted) {
             code_ = code;
         }
     }

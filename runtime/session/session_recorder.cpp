@@ -132,7 +132,9 @@ class SessionRecorder::Impl {
             }
             return {};
         } catch (const std::exception& error) {
-            return message(error.what());
+            return message(fmt::format(
+                "{}: what came before is in it; free space there, or record to another folder",
+                error.what()));
         }
     }
 
