@@ -9,7 +9,9 @@
 #include "runtime/cli/interrupt.h"
 #include "runtime/cli/output_file.h"
 #include "runtime/cli/profiles.h"
+#include "runtime/cli/run_checks.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/cli/tracker_settings.h"
 #include "runtime/cli/version.h"
 #include "runtime/doctor/checks.h"
 
@@ -65,6 +67,32 @@ doctor::Findings check_configuration(const DoctorCommand& command, Settings& set
     return findings;
 }
 
+/// Whether `run` would take the settings, all of them together.
+doctor::Finding check_settings(Settings& settings) {
+    doctor::Finding finding{.check = "configuration.settings",
+                            .found = "no setting is at odds with another"};
+    try {
+        value_or_throw(settings.check());
+        (void)value_or_throw(tracker_in_force(settings));
+        (void)value_or_throw(load_display(settings.values().profile.display));
+        FrameRunRequest request;
+        request.settings = &settings;
+        check_request(request);
+    } catch (const SetupError& error) {
+        finding.verdict = doctor::Verdict::Failure;
+        finding.found = error.what();
+        finding.remedy = "correct it where it was set: gazeloop run --print-config says where";
+        finding.stops_loop = true;
+    }
+    return finding;
+}
+
+/// The display's profile, or the one that is built in where that is none.
+present::DisplayProfile display_or_default(const Settings& settings) {
+    const auto display = load_display(settings.values().profile.display);
+    return display ? *display : value_or_throw(load_display(Settings().values().profile.display));
+}
+
 ExitCode run_doctor(const DoctorCommand& command) {
     Settings settings;
     doctor::Findings findings = check_configuration(command, settings);
@@ -73,7 +101,8 @@ ExitCode run_doctor(const DoctorCommand& command) {
     rest.config_files.clear();
     value_or_throw(rest.apply_to(settings, false));
     const SettingValues& values = settings.values();
-    const present::DisplayProfile display = value_or_throw(load_display(values.profile.display));
+    findings.push_back(check_settings(settings));
+    const present::DisplayProfile display = display_or_default(settings);
 
     if (!command.json.empty()) {
         value_or_throw(check_output(command.json));
@@ -88,6 +117,7 @@ ExitCode run_doctor(const DoctorCommand& command) {
         {.device = values.vulkan.device, .validation = values.vulkan.validation}, limits));
     add(doctor::check_openxr({.display = display,
                               .scale = values.render.scale,
+                              .validation = values.target.validation,
                               .is_target = values.target.name == "openxr"},
                              limits));
     add(doctor::check_hid());

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include "runtime/cli/kfr_settings.h"
 #include "runtime/cli/output_file.h"
 #include "runtime/foveation/useless_map.h"
 #include "runtime/session/session_recorder.h"
@@ -15,6 +16,9 @@ void check_request(const FrameRunRequest& request) {
         throw SetupError(ExitCode::Usage,
                          "vulkan.device: over OpenXR the runtime chooses the device; use it "
                          "with --target headless");
+    }
+    if (values.render.method == "kfr") {
+        (void)value_or_throw(kfr_parameters(values));
     }
     if (request.openxr_gaze &&
         (values.target.name != "openxr" || request.clock != RunClock::Wall)) {

@@ -5,8 +5,8 @@
 
 namespace gazeloop::cli {
 
-/// Throws SetupError for options that contradict each other and for outputs that cannot be written:
-/// before the set-up, which takes seconds, and before a run that takes longer.
+/// Throws SetupError for options and settings that contradict each other and for outputs that
+/// cannot be written: before the set-up, which takes seconds, and before a run that takes longer.
 void check_request(const FrameRunRequest& request);
 
 /// Throws SetupError where the target's pictures do not fit those of the recording that is

@@ -24,6 +24,7 @@ Findings check_vulkan(const VulkanChecks& asked, const ProbeLimits& limits);
 struct OpenXrChecks {
     present::DisplayProfile display;
     double scale = 1.0;
+    bool validation = false;
     bool is_target = true;  ///< the loop is to run over OpenXR: a failure stops it
 };
 

@@ -212,7 +212,7 @@ void probe_session(const OpenXrChecks& asked, ProbeReport& report) {
     std::optional<render::VulkanContext> opened;  // outlives the target
     report.step("setting up the loop's OpenXR target");
     const auto target = present::make_openxr_target(
-        {.display = asked.display, .scale = asked.scale, .validation = false});
+        {.display = asked.display, .scale = asked.scale, .validation = asked.validation});
     report.step("opening the Vulkan device that the OpenXR runtime wants");
     const render::VulkanContext& context =
         opened.emplace(render::VulkanOptions{}, target->vulkan_factory());

@@ -39,7 +39,9 @@ Finding check_real_time() {
     Finding finding{.check = "scheduling.real_time",
                     .facts = {{"allowed", refusal == 0}, {"rlimit_rtprio", limit.rlim_cur}}};
     if (refusal == 0) {
-        finding.found = "real-time priority (SCHED_FIFO) is allowed";
+        finding.found =
+            "real-time priority (SCHED_FIFO) is allowed; it is used by `chrt -f 20 gazeloop "
+            "...`";
         return finding;
     }
     finding.verdict = Verdict::Warning;
@@ -50,10 +52,13 @@ Finding check_real_time() {
     finding.remedy =
         limit.rlim_cur > 0 || geteuid() == 0
             ? "the limit allows it but the container or control group does not: run outside it, or "
-              "give the container SYS_NICE (docker run --cap-add SYS_NICE)"
+              "give the container SYS_NICE (docker run --cap-add SYS_NICE); then start it by `chrt "
+              "-f "
+              "20 gazeloop ...`"
             : fmt::format(
                   "as root, write '{} - rtprio 20' into "
-                  "/etc/security/limits.d/gazeloop.conf, then log in again",
+                  "/etc/security/limits.d/gazeloop.conf, log in again, and start it by `chrt -f 20 "
+                  "gazeloop ...`",
                   user_name());
     return finding;
 }

@@ -192,6 +192,29 @@ TEST(Doctor, ReadsEveryLayerOfTheConfiguration) {
               std::string::npos);
 }
 
+// Whatever `run` refuses stops the loop.
+TEST(Doctor, SaysWhichSettingsRunWouldRefuse) {
+    const ScratchFolder folder;
+    const std::string table = folder.write("table.toml", "kfr.kernel = \"table\"\n");
+    const std::string display = folder.write("display.toml", "profile.display = \"fove1\"\n");
+    const std::vector<std::vector<std::string>> refused{
+        {"--set", "gaze.hold_ms=1"},
+        {"--tracker", "nosuch"},
+        {"--config", table},
+        {"--config", display},
+        {"--target", "openxr", "--set", "vulkan.device=llvm"}};
+    for (std::vector<std::string> arguments : refused) {
+        const Diagnosis diagnosis = diagnose(arguments);
+        EXPECT_EQ(diagnosis.exit_code, 4) << arguments[1];
+        EXPECT_EQ(diagnosis.verdict("configuration.settings"), "failure") << arguments[1];
+        EXPECT_EQ(diagnosis.report["loop_can_run"], false) << arguments[1];
+        EXPECT_NE(diagnosis.verdict("vulkan.loader"), "absent") << "the rest is said too";
+        arguments.insert(arguments.begin(), {"run", "--frames", "1"});
+        EXPECT_NE(run_gazeloop(arguments).exit_code, 0) << arguments[4];
+    }
+    EXPECT_EQ(diagnose({"--target", "headless"}).verdict("configuration.settings"), "ok");
+}
+
 TEST(Doctor, SaysThatANamedConfigurationIsNotThere) {
     const Diagnosis diagnosis =
         diagnose({"--target", "headless", "--config", "/nowhere/config.toml"});
