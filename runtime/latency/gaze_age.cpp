@@ -71,8 +71,24 @@ gaze::Eye older_eye(const gaze::FrameFovea& fovea) {
     return right.sampled.ns < left.sampled.ns ? gaze::Eye::Right : gaze::Eye::Left;
 }
 
-const gaze::FoveaPoint& older_gaze(const gaze::FrameFovea& fovea) {
-    return fovea.eyes[gaze::index(older_eye(fovea))];
+bool may_be_of_period(std::int64_t announced_ns, std::int64_t profile_ns) {
+    constexpr double kTolerance = 0.01;
+    constexpr double kMostPeriods = 4.0;
+    if (announced_ns <= 0 || profile_ns <= 0) {
+        return true;  // nothing speaks against it
+    }
+    const double periods = static_cast<double>(announced_ns) / static_cast<double>(profile_ns);
+    const double whole = std::clamp(std::round(periods), 1.0, kMostPeriods);
+    return std::abs(periods - whole) <= kTolerance * whole;
+}
+
+GazeAge frame_gaze_age(const FrameRecord& frame, const FrameStamps& stamps, const Stamp& shown,
+                       std::optional<std::int64_t> switching_ns,
+                       std::optional<std::int64_t> rolling_ns) {
+    const std::size_t eye = gaze::index(older_eye(frame.fovea));
+    const gaze::FoveaPoint& fovea = frame.fovea.eyes[eye];
+    return gaze_age(fovea, stamps, shown, switching_ns,
+                    row_delay_ns(rolling_ns, fovea.position.y_px, frame.views[eye].height_px));
 }
 
 }  // namespace gazeloop::latency

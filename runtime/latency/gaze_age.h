@@ -64,8 +64,18 @@ struct GazeAge {
 [[nodiscard]] std::optional<std::int64_t> row_delay_ns(std::optional<std::int64_t> rolling_ns,
                                                        double y_px, std::uint32_t height_px);
 
+/// Whether a display with this announced period can be one whose profile has that: it shows a new
+/// picture each time or every second to fourth time. Else what the profile says of its rows and
+/// pixels is another display's.
+[[nodiscard]] bool may_be_of_period(std::int64_t announced_ns, std::int64_t profile_ns);
+
 /// The eye whose gaze is older, or of unknown age: a frame is as late as its later eye.
 [[nodiscard]] gaze::Eye older_eye(const gaze::FrameFovea& fovea);
-[[nodiscard]] const gaze::FoveaPoint& older_gaze(const gaze::FrameFovea& fovea);
+
+/// Of a frame that was shown at `shown`, with these stamps: that of its older gaze, at the row
+/// where that looks. The display profile's times as in gaze_age and row_delay_ns.
+[[nodiscard]] GazeAge frame_gaze_age(const FrameRecord& frame, const FrameStamps& stamps,
+                                     const Stamp& shown, std::optional<std::int64_t> switching_ns,
+                                     std::optional<std::int64_t> rolling_ns);
 
 }  // namespace gazeloop::latency

@@ -63,7 +63,17 @@ std::optional<double> SummaryReport::samples_saved_factor() const {
     return static_cast<double>(samples.pixels_output - hidden) / static_cast<double>(shaded);
 }
 
-LatencySummary::LatencySummary(const SummaryConfig& config) : config_(config) {}
+LatencySummary::LatencySummary(const SummaryConfig& config)
+    : config_(config), profile_period_ns_(config.period_ns) {}
+
+void LatencySummary::set_display_period(std::int64_t period_ns) {
+    config_.period_ns = period_ns;
+    if (!may_be_of_period(period_ns, profile_period_ns_)) {
+        config_.switching_ns.reset();
+        config_.rolling_ns.reset();
+        config_.persistence_ns.reset();
+    }
+}
 
 void LatencySummary::add(const gaze::GazeSample& sample) { gaze_.add(sample); }
 
@@ -114,11 +124,8 @@ void LatencySummary::complete(const FrameRecord& record) {
 
     const gaze::FoveaState state = std::max(record.fovea.eyes[0].state, record.fovea.eyes[1].state);
     ++frames_.by_state[static_cast<std::size_t>(state)];
-    const std::size_t eye = gaze::index(older_eye(record.fovea));
-    const gaze::FoveaPoint& fovea = record.fovea.eyes[eye];
-    const GazeAge age = gaze_age(
-        fovea, record.stamps, shown.at, config_.switching_ns,
-        row_delay_ns(config_.rolling_ns, fovea.position.y_px, record.views[eye].height_px));
+    const GazeAge age =
+        frame_gaze_age(record, record.stamps, shown.at, config_.switching_ns, config_.rolling_ns);
     switch (state) {
         case gaze::FoveaState::Tracking:
         case gaze::FoveaState::OtherEye:

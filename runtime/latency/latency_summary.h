@@ -96,8 +96,9 @@ class LatencySummary {
   public:
     explicit LatencySummary(const SummaryConfig& config);
 
-    /// The display's period as the runtime announces it counts, not a profile's.
-    void set_display_period(std::int64_t period_ns) { config_.period_ns = period_ns; }
+    /// The display's period as the runtime announces it counts, not a profile's. With one that the
+    /// profile's display cannot have, its other times are another display's, and unknown.
+    void set_display_period(std::int64_t period_ns);
 
     /// In the order of arrival.
     void add(const gaze::GazeSample& sample);
@@ -122,6 +123,7 @@ class LatencySummary {
     [[nodiscard]] SummaryReport report_of_complete() const;
 
     SummaryConfig config_;
+    std::int64_t profile_period_ns_;
     std::array<std::optional<FrameRecord>, kPendingFrames> pending_;  ///< by index modulo size
     std::optional<Neighbour> before_;
     SpanSeries gaze_age_at_latch_;

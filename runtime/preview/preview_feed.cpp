@@ -172,7 +172,7 @@ void PreviewFeed::on_frame(const latency::FrameRecord& record) {
 void PreviewFeed::on_gpu(const latency::FrameGpuRecord& record) {
     const latency::FrameRecord& frame = frames_[record.index % frames_.size()];
     if (frame.index == record.index) {
-        bars_ = stage_bars(frame, record, options_.switching_ns);
+        bars_ = stage_bars(frame, record, options_.display);
     }
 }
 

@@ -24,7 +24,7 @@ class PreviewFeed final : public FrameObserver {
     struct Options {
         gaze::PerEye<vk::Extent2D> extents;
         vk::Format format = vk::Format::eUndefined;  ///< 8 bits a channel
-        std::optional<std::int64_t> switching_ns;    ///< of the display's profile
+        DisplayTimes display;
         /// Radius of the fovea's ring in the frame that was rendered last; 0: none is known.
         std::function<double(gaze::Eye)> ring_radius_px;
     };

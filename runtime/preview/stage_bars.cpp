@@ -32,7 +32,7 @@ void set_total(StageBar& bar, const latency::Span& span) {
 }  // namespace
 
 StageBars stage_bars(const latency::FrameRecord& frame, const latency::FrameGpuRecord& gpu,
-                     std::optional<std::int64_t> switching_ns) {
+                     const DisplayTimes& display) {
     static_assert(latency::kStageCount <= kBarSegments);
     StageBars result{.frame = frame.index,
                      .any = true,
@@ -42,9 +42,10 @@ StageBars stage_bars(const latency::FrameRecord& frame, const latency::FrameGpuR
     latency::FrameStamps stamps = frame.stamps;
     stamps.gpu_begin = gpu.gpu_begin;
     stamps.gpu_end = gpu.gpu_end;
-    const latency::GazeAge age =
-        latency::gaze_age(latency::older_gaze(frame.fovea), stamps,
-                          latency::shown_frame(stamps, frame.period_ns).at, switching_ns);
+    const bool ours = latency::may_be_of_period(frame.period_ns, display.period_ns);
+    const latency::GazeAge age = latency::frame_gaze_age(
+        frame, stamps, latency::shown_frame(stamps, frame.period_ns).at,
+        ours ? display.switching_ns : std::nullopt, ours ? display.rolling_ns : std::nullopt);
     StageBar& photon = result.bars[0];
     photon.title = text("eye to photon");
     for (std::size_t stage = 0; stage < latency::kStageCount; ++stage) {

@@ -38,11 +38,16 @@ struct StageBars {
     std::array<StageBar, 2> bars;
 };
 
-/// The bars of a frame that the GPU has finished. `switching_ns` is the display profile's.
-/// Precondition: both records are of the same frame.
+/// Of the display's profile, as latency::gaze_age.h has them.
+struct DisplayTimes {
+    std::int64_t period_ns = 0;
+    std::optional<std::int64_t> switching_ns;
+    std::optional<std::int64_t> rolling_ns;
+};
+
+/// The bars of a frame that the GPU has finished. Precondition: both records are of the same frame.
 [[nodiscard]] StageBars stage_bars(const latency::FrameRecord& frame,
-                                   const latency::FrameGpuRecord& gpu,
-                                   std::optional<std::int64_t> switching_ns);
+                                   const latency::FrameGpuRecord& gpu, const DisplayTimes& display);
 
 /// How far the scale of both bars reaches: past the longest bar and the budget. At least 1 ms.
 [[nodiscard]] double bar_scale_ms(const StageBars& bars);

@@ -183,14 +183,14 @@ TEST(OlderGaze, IsTheEyeWithTheEarlierOrTheUnknownSample) {
     auto& [left, right] = fovea.eyes;
     left.sampled = measured(5);
     right.sampled = measured(4);
-    EXPECT_EQ(&older_gaze(fovea), &right);
+    EXPECT_EQ(&fovea.eyes[gaze::index(older_eye(fovea))], &right);
     left.sampled = measured(3);
-    EXPECT_EQ(&older_gaze(fovea), &left);
+    EXPECT_EQ(&fovea.eyes[gaze::index(older_eye(fovea))], &left);
     right.sampled = {};
-    EXPECT_EQ(&older_gaze(fovea), &right);
+    EXPECT_EQ(&fovea.eyes[gaze::index(older_eye(fovea))], &right);
     right.sampled = measured(9);
     left.sampled = {};
-    EXPECT_EQ(&older_gaze(fovea), &left);
+    EXPECT_EQ(&fovea.eyes[gaze::index(older_eye(fovea))], &left);
 }
 
 }  // namespace

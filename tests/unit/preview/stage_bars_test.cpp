@@ -5,6 +5,7 @@
 #include <string>
 
 #include "runtime/latency/gaze_age.h"
+#include "runtime/latency/latency_summary.h"
 #include "tests/unit/latency/example_frame.h"
 
 namespace gazeloop::preview {
@@ -18,9 +19,42 @@ double sum_ms(const StageBar& bar) {
     return sum;
 }
 
+const DisplayTimes kDisplay{
+    .period_ns = 10'000'000, .switching_ns = 2'000'000, .rolling_ns = 8'000'000};
+
+// The window and the summary say the same of the same frame.
+TEST(StageBars, AreWhatTheSummarySays) {
+    latency::FrameRecord frame = latency::example_frame(0);
+    for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
+        frame.views[eye].height_px = 1440;
+        frame.fovea.eyes[eye].position.y_px = 1300.0;
+    }
+    for (const std::int64_t period_ns : {10'000'000, 20'000'000, 11'000'000}) {
+        frame.period_ns = period_ns;
+        latency::LatencySummary summary({.period_ns = kDisplay.period_ns,
+                                         .switching_ns = kDisplay.switching_ns,
+                                         .rolling_ns = kDisplay.rolling_ns});
+        summary.set_display_period(period_ns);
+        summary.add(frame);
+        const latency::FrameGpuRecord gpu = latency::example_gpu(0);
+        summary.add(gpu);
+        const latency::SummaryReport report = summary.report();
+        const StageBar photon = stage_bars(frame, gpu, kDisplay).bars[0];
+        EXPECT_NEAR(photon.total_ms, report.gaze_age_at_display.mean_ms.value(), 1e-9);
+        for (std::size_t stage = 0; stage < latency::kStageCount; ++stage) {
+            const auto& row = report.stages[stage];
+            EXPECT_EQ(photon.segments[stage].known, row.count == 1) << latency::kStageNames[stage];
+            EXPECT_NEAR(photon.segments[stage].ms, row.mean_ms.value_or(0.0), 1e-9)
+                << latency::kStageNames[stage];
+        }
+        const bool is_the_profiles = period_ns != 11'000'000;
+        EXPECT_EQ(report.stages[static_cast<std::size_t>(latency::Stage::Row)].count == 1,
+                  is_the_profiles);
+    }
+}
+
 TEST(StageBars, AddUpToTheTotal) {
-    const StageBars bars =
-        stage_bars(latency::example_frame(7), latency::example_gpu(7), 2'000'000);
+    const StageBars bars = stage_bars(latency::example_frame(7), latency::example_gpu(7), kDisplay);
     EXPECT_TRUE(bars.any);
     EXPECT_EQ(bars.frame, 7U);
     const StageBar& photon = bars.bars[0];
@@ -36,7 +70,7 @@ TEST(StageBars, ShowOnlyThePassesThatRan) {
     latency::FrameGpuRecord gpu = latency::example_gpu(1);
     gpu.pass_ns.fill(-1);
     gpu.pass_ns[1] = 4'000'000;
-    const StageBars bars = stage_bars(latency::example_frame(1), gpu, std::nullopt);
+    const StageBars bars = stage_bars(latency::example_frame(1), gpu, {});
     ASSERT_EQ(bars.bars[1].count, 1U);
     EXPECT_EQ(bars.bars[1].segments[0].name.data(), std::string(latency::kPassNames[1]));
     EXPECT_DOUBLE_EQ(bars.bars[1].segments[0].ms, 4.0);
@@ -44,7 +78,7 @@ TEST(StageBars, ShowOnlyThePassesThatRan) {
 
 TEST(StageBars, NeverShowTheUnknownAsZero) {
     latency::FrameRecord frame;  // every stamp unknown
-    const StageBars bars = stage_bars(frame, latency::FrameGpuRecord{}, std::nullopt);
+    const StageBars bars = stage_bars(frame, latency::FrameGpuRecord{}, {});
     EXPECT_FALSE(bars.bars[0].total_known);
     EXPECT_FALSE(bars.bars[1].total_known);
     for (std::uint32_t i = 0; i < bars.bars[0].count; ++i) {
