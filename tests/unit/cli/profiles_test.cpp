@@ -51,6 +51,55 @@ TEST(Profiles, BuiltInOnesAreComplete) {
     EXPECT_GE(trackers, 6U);
 }
 
+// Held against the sources that the files name; a slip of the pen shows here.
+TEST(Profiles, HaveTheFiguresOfTheirSources) {
+    struct Figures {
+        const char* name;
+        std::uint32_t width_px;
+        std::uint32_t height_px;
+        double refresh_hz;
+        gaze::PerEye<std::array<double, 4>> fov_deg;  ///< left, right, up, down
+    };
+    constexpr Figures kFigures[] = {
+        {"fove0", 1280, 1440, 70.0, {{{-50.0, 50.0, 50.0, -50.0}, {-50.0, 50.0, 50.0, -50.0}}}},
+        {"generic_2160",
+         2160,
+         2160,
+         90.0,
+         {{{-52.0, 48.0, 50.0, -50.0}, {-48.0, 52.0, 50.0, -50.0}}}},
+        {"psvr2",
+         2000,
+         2040,
+         120.0,
+         {{{-61.5, 43.45, 53.04, -53.04}, {-43.45, 61.5, 53.04, -53.04}}}},
+        {"quest_pro", 1800, 1920, 90.0, {{{-54.0, 40.0, 42.0, -54.0}, {-40.0, 54.0, 42.0, -54.0}}}},
+        {"varjo_xr4",
+         3840,
+         3744,
+         90.0,
+         {{{-57.14, 45.19, 51.53, -51.76}, {-45.19, 57.14, 51.53, -51.76}}}},
+        {"vive_pro_eye",
+         1440,
+         1600,
+         90.0,
+         {{{-53.57, 50.41, 54.99, -54.91}, {-50.38, 53.64, 54.92, -54.98}}}}};
+    for (const Figures& figures : kFigures) {
+        const auto display = load_display(figures.name);
+        ASSERT_TRUE(display.has_value()) << figures.name;
+        EXPECT_EQ(display->width_px, figures.width_px) << figures.name;
+        EXPECT_EQ(display->height_px, figures.height_px) << figures.name;
+        EXPECT_DOUBLE_EQ(display->refresh_hz, figures.refresh_hz) << figures.name;
+        for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
+            const gaze::FieldOfView& fov = display->fov[eye];
+            const auto& [left, right, up, down] = figures.fov_deg[eye];
+            EXPECT_DOUBLE_EQ(fov.left_rad, glm::radians(left)) << figures.name;
+            EXPECT_DOUBLE_EQ(fov.right_rad, glm::radians(right)) << figures.name;
+            EXPECT_DOUBLE_EQ(fov.up_rad, glm::radians(up)) << figures.name;
+            EXPECT_DOUBLE_EQ(fov.down_rad, glm::radians(down)) << figures.name;
+        }
+    }
+}
+
 TEST(Profiles, KnowTheCantingOfTheValveIndex) {
     const auto index = load_display("valve_index");
     ASSERT_TRUE(index.has_value());
