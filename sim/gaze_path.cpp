@@ -55,7 +55,9 @@ void GazePath::add_shift() {
     glm::dvec3 to = target(random, about);
     // Where all targets lie close together, no saccade could be that large.
     const double smallest_deg = std::min(kSmallestSaccade_deg, terms_.saccade_deg / 2.0);
-    while (angle_deg(from, to) < smallest_deg) {
+    // So small a field may have no two directions that differ by more than their rounding.
+    constexpr int kMostDraws = 1000;
+    for (int draw = 0; draw < kMostDraws && angle_deg(from, to) < smallest_deg; ++draw) {
         to = target(random, about);
     }
     const double vigour = terms_.saccade_scatter_percent > 0.0

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -45,6 +46,11 @@ ExitCode report(const ReportCommand& command) {
         fmt::print("{}", latency::summary_text(result));
         if (!session.closed_cleanly) {
             fmt::print("{}\n", end_of(session));
+        }
+        const auto error = std::find_if(session.events.rbegin(), session.events.rend(),
+                                        [](const auto& event) { return event.kind == "error"; });
+        if (error != session.events.rend()) {
+            fmt::print("The run failed: {}\n", error->text);
         }
         if (session.records_dropped > 0) {
             fmt::print("The recording lacks {} records that the disk was too slow for.\n",

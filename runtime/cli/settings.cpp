@@ -466,7 +466,9 @@ std::vector<session::NamedValue> Settings::list() const {
 std::string Settings::describe() const {
     std::string table;
     for (const Entry& entry : entries_) {
-        const bool is_text = std::holds_alternative<Choice>(entry.slot);
+        // A seed may be above what TOML's numbers hold.
+        const bool is_text =
+            std::holds_alternative<Choice>(entry.slot) || std::holds_alternative<Seed>(entry.slot);
         table +=
             fmt::format("{:28} = {:12} # {:9} {}\n", entry.key,
                         is_text ? quoted(text(entry)) : text(entry), entry.origin, entry.meaning);
