@@ -15,6 +15,8 @@
 #include <csignal>
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "runtime/preview/preview_memory.h"
 
@@ -230,7 +232,14 @@ class Window {
         ImDrawList& list = *ImGui::GetForegroundDrawList();
         const StageBars& bars = frame_.bars;
         const float line = ImGui::GetTextLineHeight() + 2.0F;
-        const float top = room.y - 2.0F * kMarginPx - line - 2.0F * (kRowPx + line + kMarginPx);
+        std::array<Legend, 2> legends;
+        float height = 3.0F * kMarginPx + line;
+        std::size_t colour = 0;
+        for (std::size_t i = 0; i < legends.size(); ++i) {
+            legends[i] = legend_of(bars.bars[i], room.x - kMarginPx, colour);
+            height += static_cast<float>(legends[i].lines) * line + kRowPx + kMarginPx;
+        }
+        const float top = room.y - height;
         list.AddRectFilled({0.0F, top}, room, kShade);
         if (!bars.any) {
             list.AddText({kMarginPx, top + kMarginPx}, kInk, "no frame has been finished yet");
@@ -243,38 +252,63 @@ class Window {
         const float px_per_ms =
             (room.x - 2.0F * kMarginPx) / static_cast<float>(bar_scale_ms(bars));
         float y = top + kMarginPx + line;
-        std::size_t colour = 0;
-        for (const StageBar& bar : bars.bars) {
-            draw_bar(list, bar, y, px_per_ms, colour);
-            y += kRowPx + line + kMarginPx;
+        for (std::size_t i = 0; i < legends.size(); ++i) {
+            for (const Words& words : legends[i].words) {
+                list.AddText({words.x, y + static_cast<float>(words.line) * line}, words.ink,
+                             words.text.c_str());
+            }
+            y += static_cast<float>(legends[i].lines) * line;
+            draw_bar(list, bars.bars[i], legends[i], y, px_per_ms);
+            y += kRowPx + kMarginPx;
             const float budget_x = kMarginPx + static_cast<float>(bars.budget_ms) * px_per_ms;
             list.AddLine({budget_x, y - kRowPx - kMarginPx - 3.0F},
                          {budget_x, y - kMarginPx + 3.0F}, kBudget, 2.0F);
         }
     }
 
-    /// Above it the title, the total and each stage, in the stage's colour.
-    static void draw_bar(ImDrawList& list, const StageBar& bar, float y, float px_per_ms,
-                         std::size_t& colour) {
-        float text_x = kMarginPx;
-        const auto write = [&](const std::string& text, ImU32 ink) {
-            list.AddText({text_x, y}, ink, text.c_str());
-            text_x += ImGui::CalcTextSize(text.c_str()).x;
+    struct Words {
+        std::string text;
+        ImU32 ink;
+        float x;
+        std::size_t line;
+    };
+    /// The title with the total, then each stage in its colour; as many lines as the width needs.
+    struct Legend {
+        std::vector<Words> words;
+        std::size_t lines = 1;
+    };
+
+    static Legend legend_of(const StageBar& bar, float right_px, std::size_t& colour) {
+        Legend legend;
+        float x = kMarginPx;
+        const auto add = [&](std::string text, ImU32 ink) {
+            const float length = ImGui::CalcTextSize(text.c_str()).x;
+            if (x > kMarginPx && x + length > right_px) {
+                x = kMarginPx;
+                ++legend.lines;
+            }
+            legend.words.push_back({std::move(text), ink, x, legend.lines - 1});
+            x += length;
         };
         const auto duration = [](bool known, double ms) {
             return known ? fmt::format("{:.1f}", ms) : std::string("unknown");
         };
-        write(fmt::format("{} {} ms:", bar.title.data(), duration(bar.total_known, bar.total_ms)),
-              kInk);
-        const float row = y + ImGui::GetTextLineHeight() + 2.0F;
-        float x = kMarginPx;
+        add(fmt::format("{} {} ms:  ", bar.title.data(), duration(bar.total_known, bar.total_ms)),
+            kInk);
         for (std::uint32_t i = 0; i < bar.count; ++i) {
             const BarSegment& segment = bar.segments[i];
-            const ImU32 ink = kColours[colour++ % kColours.size()];
-            write(fmt::format("  {} {}", segment.name.data(), duration(segment.known, segment.ms)),
-                  ink);
-            const float length = static_cast<float>(std::max(segment.ms, 0.0)) * px_per_ms;
-            list.AddRectFilled({x, row}, {x + length, row + kRowPx}, ink);
+            add(fmt::format("{} {}  ", segment.name.data(), duration(segment.known, segment.ms)),
+                kColours[colour++ % kColours.size()]);
+        }
+        return legend;
+    }
+
+    static void draw_bar(ImDrawList& list, const StageBar& bar, const Legend& legend, float y,
+                         float px_per_ms) {
+        float x = kMarginPx;
+        for (std::uint32_t i = 0; i < bar.count; ++i) {
+            const float length = static_cast<float>(std::max(bar.segments[i].ms, 0.0)) * px_per_ms;
+            list.AddRectFilled({x, y + 2.0F}, {x + length, y + kRowPx}, legend.words[i + 1].ink);
             x += length;
         }
     }
