@@ -19,14 +19,28 @@ TrackerSamples::TrackerSamples(EyeTrackerLayout layout, const ScreenGeometry& ge
     }
 }
 
+void TrackerSamples::note(std::optional<TrackerStatus> status) {
+    if (status && status != status_) {
+        status_ = status;
+        status_changed_ = true;
+    }
+}
+
+void TrackerSamples::learn(const ScreenGeometry& geometry, std::optional<TrackerStatus> status) {
+    geometry_ = geometry;
+    if (!status_reported_) {
+        note(status);
+    }
+}
+
 std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_t> report,
                                                      std::int64_t arrived_ns) {
     const InputReport input = decode_input(layout_, report);
     tracked_last_ = std::holds_alternative<TrackingReport>(input);
     if (const auto* const status = std::get_if<StatusReport>(&input)) {
         // Status and rate may come in reports of their own.
-        status_changed_ = status->status && status->status != status_;
-        status_ = status->status ? status->status : status_;
+        status_reported_ = status_reported_ || status->status;
+        note(status->status);
         return std::nullopt;
     }
     const auto* const tracking = std::get_if<TrackingReport>(&input);

@@ -22,16 +22,22 @@ class TrackerSamples {
     TrackerSamples(EyeTrackerLayout layout, const ScreenGeometry& geometry,
                    const TrackerDelay& delay, std::optional<TrackerStatus> status = {});
 
+    /// What the tracker has said of itself since. A status counts only while no report has stated
+    /// one: reports are newer.
+    void learn(const ScreenGeometry& geometry, std::optional<TrackerStatus> status);
+
     /// The sample of a report that had arrived by `arrived_ns`, all but its number; none where the
     /// report is of something else, or of the eyes' positions alone.
     [[nodiscard]] std::optional<gaze::GazeSample> take(std::span<const std::uint8_t> report,
                                                        std::int64_t arrived_ns);
     /// Whether the last report was of gaze or eyes, not of something else.
     [[nodiscard]] bool tracked_last() const { return tracked_last_; }
+    /// As the tracker stated it last.
+    [[nodiscard]] std::optional<TrackerStatus> status() const { return status_; }
     /// Reports that are missing before the last sample.
     [[nodiscard]] std::uint64_t lost_before_last() const { return lost_before_last_; }
 
-    /// A line about what the last report changed: the device's status, its clock.
+    /// A line about what changed: the device's status, its clock.
     [[nodiscard]] std::optional<std::string> take_change();
 
     /// Reports that were cut short are damaged, and samples nevertheless.
@@ -40,6 +46,8 @@ class TrackerSamples {
     [[nodiscard]] const latency::ClockFit* clock() const;
 
   private:
+    void note(std::optional<TrackerStatus> status);
+
     EyeTrackerLayout layout_;
     ScreenGeometry geometry_;
     /// By the index of the tracking report; none for those without a timestamp.
@@ -57,6 +65,7 @@ class TrackerSamples {
     SeenEyes eyes_;
     std::optional<TrackerStatus> status_;
     bool status_changed_ = false;
+    bool status_reported_ = false;
     bool tracked_last_ = false;
     TrackerCounts counts_;
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <system_error>
@@ -12,91 +13,101 @@
 namespace gazeloop::drivers::hid {
 namespace {
 
-/// None where it was to stop.
-std::optional<TrackerFeatures> read_features(HidrawDevice& device, const EyeTrackerLayout& layout,
-                                             const StopRequested& stop) {
-    std::vector<FeatureReport> reports;
+/// Reads the feature reports; one that cannot be read stays as it was. False where it was to stop.
+bool read_features(HidrawDevice& device, const EyeTrackerLayout& layout, const StopRequested& stop,
+                   std::vector<FeatureReport>& reports) {
     for (const std::uint8_t id : layout.feature_ids()) {
         const ReportSize* const size = find_report(layout.reports, ReportKind::Feature, id);
         if (auto bytes = device.feature(id, size->payload_bytes())) {
+            std::erase_if(reports, [&](const FeatureReport& report) { return report.id == id; });
             reports.push_back({id, std::move(*bytes)});
         }
         if (stop()) {
-            return std::nullopt;
+            return false;
         }
     }
-    return decode_features(layout, reports);
+    return true;
 }
 
-ScreenGeometry merged(const ScreenGeometry& configured, const TrackerFeatures& features) {
-    ScreenGeometry geometry = configured;
-    if (geometry.width_m <= 0.0) {
-        geometry.width_m = features.screen_width_m.value_or(0.0);
+/// One line for each thing that it states, and what keeps gaze from coming; all but its status.
+std::vector<std::string> describe(const EyeTrackerLayout& layout, const TrackerFeatures& features,
+                                  const ScreenGeometry& geometry) {
+    std::vector<std::string> lines;
+    if (features.status.sampling_hz) {
+        lines.push_back(fmt::format("states {} Hz", *features.status.sampling_hz));
     }
-    if (geometry.height_m <= 0.0) {
-        geometry.height_m = features.screen_height_m.value_or(0.0);
+    if (features.screen_width_m && features.screen_height_m) {
+        lines.push_back(fmt::format("calibrated to a screen of {:.0f} x {:.0f} mm",
+                                    *features.screen_width_m * 1e3,
+                                    *features.screen_height_m * 1e3));
     }
-    return geometry;
+    if (features.display_manufacturer && features.display_product) {
+        lines.push_back(
+            fmt::format("set up for the display {:04x}:{:04x} (maker and product in its EDID)",
+                        *features.display_manufacturer, *features.display_product));
+    }
+    if (features.capability_correction != 1.0) {
+        lines.push_back(fmt::format("its distances are wrong by a factor of {}: corrected",
+                                    features.capability_correction));
+    }
+    if (features.screen_correction != 1.0) {
+        lines.push_back(fmt::format("its screen's size is wrong by a factor of {}: corrected",
+                                    features.screen_correction));
+    }
+    for (const auto& [of, metres] : features.implausible) {
+        lines.push_back(
+            fmt::format("states {:.3g} m as {}, which cannot be: left out", metres, of));
+    }
+    if (auto problem = geometry_problem(layout, geometry)) {
+        lines.push_back(std::move(*problem));
+    }
+    return lines;
 }
 
 }  // namespace
 
 TrackerSession::TrackerSession(std::string text, HidrawDevice device,
-                               const TrackerFeatures& features, const EyeTrackerLayout& layout,
-                               const HidOptions& options)
+                               std::vector<FeatureReport> reports, const EyeTrackerLayout& layout,
+                               const HidOptions& options, StopRequested stopped)
     : text_(std::move(text)),
       device_(std::move(device)),
-      features_(features),
-      samples_(layout, merged(options.geometry, features_), options.delay,
-               features_.status.status) {
-    describe(layout, merged(options.geometry, features_));
-    if (auto start = encode_mode_request(layout, kModeGaze | kModeEyePosition)) {
-        if (const auto sent = device_.send_feature(*start); sent) {
-            start_ = std::move(*start);
-            stop_ = encode_mode_request(layout, kModeStop).value();
-        } else {
-            remarks_.push_back("asked to start, " + sent.error().message);
+      layout_(layout),
+      configured_(options.geometry),
+      stopped_(std::move(stopped)),
+      reports_(std::move(reports)),
+      features_(decode_features(layout_, reports_)),
+      said_(describe(layout_, features_, geometry())),
+      samples_(layout_, geometry(), options.delay, features_.status.status) {
+    if (features_.status.status) {
+        remarks_.push_back(fmt::format("status: {}", text_of(*features_.status.status)));
+    }
+    remarks_.insert(remarks_.end(), said_.begin(), said_.end());
+    if (auto start = encode_mode_request(layout_, kModeGaze | kModeEyePosition)) {
+        start_ = std::move(*start);
+        stop_ = encode_mode_request(layout_, kModeStop).value();
+        if (const auto sent = device_.send_feature(start_); !sent) {
+            refused_ = true;
+            remarks_.push_back(
+                fmt::format("asked to start, {}: asked again each second while no gaze comes",
+                            sent.error().message));
         }
     }
+}
+
+ScreenGeometry TrackerSession::geometry() const {
+    ScreenGeometry geometry = configured_;
+    if (geometry.width_m <= 0.0) {
+        geometry.width_m = features_.screen_width_m.value_or(0.0);
+    }
+    if (geometry.height_m <= 0.0) {
+        geometry.height_m = features_.screen_height_m.value_or(0.0);
+    }
+    return geometry;
 }
 
 TrackerSession::~TrackerSession() {
     if (!stop_.empty() && device_.nobody_else_reads()) {
         [[maybe_unused]] const auto sent = device_.send_feature(stop_);  // it may have gone
-    }
-}
-
-void TrackerSession::describe(const EyeTrackerLayout& layout, const ScreenGeometry& geometry) {
-    if (features_.status.status) {
-        remarks_.push_back(fmt::format("status: {}", text_of(*features_.status.status)));
-    }
-    if (features_.status.sampling_hz) {
-        remarks_.push_back(fmt::format("states {} Hz", *features_.status.sampling_hz));
-    }
-    if (features_.screen_width_m && features_.screen_height_m) {
-        remarks_.push_back(fmt::format("calibrated to a screen of {:.0f} x {:.0f} mm",
-                                       *features_.screen_width_m * 1e3,
-                                       *features_.screen_height_m * 1e3));
-    }
-    if (features_.display_manufacturer && features_.display_product) {
-        remarks_.push_back(
-            fmt::format("set up for the display {:04x}:{:04x} (maker and product in its EDID)",
-                        *features_.display_manufacturer, *features_.display_product));
-    }
-    if (features_.capability_correction != 1.0) {
-        remarks_.push_back(fmt::format("its distances are wrong by a factor of {}: corrected",
-                                       features_.capability_correction));
-    }
-    if (features_.screen_correction != 1.0) {
-        remarks_.push_back(fmt::format("its screen's size is wrong by a factor of {}: corrected",
-                                       features_.screen_correction));
-    }
-    for (const auto& [of, metres] : features_.implausible) {
-        remarks_.push_back(
-            fmt::format("states {:.3g} m as {}, which cannot be: left out", metres, of));
-    }
-    if (auto problem = geometry_problem(layout, geometry)) {
-        remarks_.push_back(std::move(*problem));
     }
 }
 
@@ -115,16 +126,16 @@ Expected<TrackerSession> TrackerSession::open(const FoundTracker& tracker,
     if (!device) {
         return std::unexpected(std::move(device.error()));
     }
-    auto features = read_features(*device, *tracker.layout, stop);
-    if (!features) {
+    std::vector<FeatureReport> reports;
+    if (!read_features(*device, *tracker.layout, stop, reports)) {
         return std::unexpected(
             Error{ExitCode::Interrupted,
                   fmt::format("{}: interrupted while it was opened", tracker.device.text())});
     }
     HidOptions of_this = options;
     of_this.delay.polling_ns = tracker.polling_ns;
-    return TrackerSession(tracker.device.text(), std::move(*device), *features, *tracker.layout,
-                          of_this);
+    return TrackerSession(tracker.device.text(), std::move(*device), std::move(reports),
+                          *tracker.layout, of_this, stop);
 }
 
 TrackerFacts TrackerSession::facts() const {
@@ -138,21 +149,50 @@ TrackerFacts TrackerSession::facts() const {
     facts.minimum_distance_m = features_.minimum_distance_m;
     facts.optimum_distance_m = features_.optimum_distance_m;
     facts.maximum_distance_m = features_.maximum_distance_m;
-    if (features_.status.status) {
-        facts.status = text_of(*features_.status.status);
+    if (samples_.status()) {
+        facts.status = text_of(*samples_.status());
     }
     return facts;
 }
 
-/// A reset, a suspension or another program's end may have stopped it. No gaze is silence too for
-/// some trackers: asking one that sends is harmless.
-void TrackerSession::ask_again(std::int64_t now_ns) {
+/// After a second without tracking data, and at most once a second. A reset, a suspension or
+/// another program's end may have stopped it. No gaze is silence too for some trackers: asking one
+/// that sends is harmless.
+///
+/// Its features are read again, once, where they may be others: it has become ready, so that the
+/// screen's size and the rate may have come with its set-up, or it takes requests only now. Valid
+/// gaze needs neither; but data without it do not count as sending then, because without the
+/// screen's size no gaze may be valid.
+void TrackerSession::ask_again(std::int64_t now_ns, DeviceFeed& feed) {
     constexpr std::int64_t kAskAfterNs = 1'000'000'000;
-    if (start_.empty() || now_ns - last_heard_ns_ < kAskAfterNs) {
+    const std::int64_t heard_ns = ready_ ? gaze_ns_ : tracked_ns_;
+    if (now_ns - std::max(heard_ns, asked_ns_) < kAskAfterNs || (start_.empty() && !ready_)) {
         return;
     }
-    last_heard_ns_ = now_ns;
-    [[maybe_unused]] const auto sent = device_.send_feature(start_);  // it may be going
+    const bool taken = start_.empty() || device_.send_feature(start_).has_value();
+    const bool only_now = taken && std::exchange(refused_, false);
+    if (only_now) {
+        feed.tell(latency::measured_now(), "takes the request to start now");
+    }
+    if (std::exchange(ready_, false) || only_now) {
+        read_features_again(feed);
+    }
+    asked_ns_ = latency::monotonic_ns();  // a device may take seconds for a request
+}
+
+void TrackerSession::read_features_again(DeviceFeed& feed) {
+    if (!read_features(device_, layout_, stopped_, reports_)) {
+        return;
+    }
+    features_ = decode_features(layout_, reports_);
+    samples_.learn(geometry(), features_.status.status);
+    const std::vector<std::string> before =
+        std::exchange(said_, describe(layout_, features_, geometry()));
+    for (const std::string& line : said_) {
+        if (std::ranges::find(before, line) == before.end()) {
+            feed.tell(latency::measured_now(), line);
+        }
+    }
 }
 
 Expected<void> TrackerSession::read(std::chrono::milliseconds longest, DeviceFeed& feed) {
@@ -162,18 +202,18 @@ Expected<void> TrackerSession::read(std::chrono::milliseconds longest, DeviceFee
     if (!bytes) {
         return std::unexpected(bytes.error());
     }
-    if (*bytes == 0) {
-        ask_again(arrived_ns);
-        return {};
+    if (*bytes > 0) {
+        const auto status = samples_.status();
+        if (auto sample = samples_.take({report.data(), *bytes}, arrived_ns)) {
+            const bool gaze = sample->eyes[0].valid || sample->eyes[1].valid;
+            gaze_ns_ = gaze ? arrived_ns : gaze_ns_;
+            feed.push(*sample, samples_.lost_before_last());
+        }
+        tracked_ns_ = samples_.tracked_last() ? arrived_ns : tracked_ns_;
+        ready_ =
+            ready_ || (samples_.status() != status && samples_.status() == TrackerStatus::Ready);
     }
-    if (auto sample = samples_.take({report.data(), *bytes}, arrived_ns)) {
-        feed.push(*sample, samples_.lost_before_last());
-    }
-    if (samples_.tracked_last()) {
-        last_heard_ns_ = arrived_ns;
-    } else {
-        ask_again(arrived_ns);  // its status comes from a stopped one, too
-    }
+    ask_again(arrived_ns, feed);  // the status comes from one that was stopped, too
     if (auto change = samples_.take_change()) {
         feed.tell({arrived_ns, latency::StampKind::Measured}, std::move(*change));
     }

@@ -23,12 +23,15 @@ struct HidOptions {
 };
 
 /// An eye tracker that was opened and asked to send, and asked again when no gaze comes for a
-/// second. Stops it when it goes, unless another program of ours reads it.
+/// second, whether or not it took the request before (one that boots or is being set up may refuse
+/// it). What it states of itself is read again when that may have changed: see ask_again(). Stops
+/// it when it goes, unless another program of ours reads it.
 class TrackerSession final : public TrackerDevice {
   public:
     /// Asks `stop` after each request, of which there are up to 14, because a device may take
-    /// seconds for one. Errors: NoDevice where it cannot be opened, BadInput where its descriptor
-    /// is no good, Interrupted where it was to stop (the device has not been started then).
+    /// seconds for one; and later, when they are made again. Errors: NoDevice where it cannot be
+    /// opened, BadInput where its descriptor is no good, Interrupted where it was to stop (the
+    /// device has not been started then).
     [[nodiscard]] static Expected<TrackerSession> open(const FoundTracker& tracker,
                                                        const HidOptions& options,
                                                        const StopRequested& stop);
@@ -47,19 +50,31 @@ class TrackerSession final : public TrackerDevice {
     [[nodiscard]] const latency::ClockFit* clock() const override { return samples_.clock(); }
 
   private:
-    TrackerSession(std::string text, HidrawDevice device, const TrackerFeatures& features,
-                   const EyeTrackerLayout& layout, const HidOptions& options);
-    void ask_again(std::int64_t now_ns);
-    void describe(const EyeTrackerLayout& layout, const ScreenGeometry& geometry);
+    TrackerSession(std::string text, HidrawDevice device, std::vector<FeatureReport> reports,
+                   const EyeTrackerLayout& layout, const HidOptions& options,
+                   StopRequested stopped);
+    void ask_again(std::int64_t now_ns, DeviceFeed& feed);
+    void read_features_again(DeviceFeed& feed);
+    [[nodiscard]] ScreenGeometry geometry() const;
 
     std::string text_;
     HidrawDevice device_;
-    TrackerFeatures features_;
+    EyeTrackerLayout layout_;
+    ScreenGeometry configured_;
+    StopRequested stopped_;
+    std::vector<FeatureReport> reports_;  ///< as they could be read last
+    TrackerFeatures features_;            ///< in them
+    std::vector<std::string> said_;       ///< of the features
     std::vector<std::string> remarks_;
     /// The reports that start and stop it; empty where it has no control.
     std::vector<std::uint8_t> start_;
     std::vector<std::uint8_t> stop_;
-    std::int64_t last_heard_ns_ = latency::monotonic_ns();  ///< or asked to send
+    bool refused_ = false;  ///< it has not taken a request to start yet
+    bool ready_ = false;    ///< it has become so since its features were read
+    // When it was last asked to send, sent tracking data, and sent valid gaze.
+    std::int64_t asked_ns_ = latency::monotonic_ns();
+    std::int64_t tracked_ns_ = asked_ns_;
+    std::int64_t gaze_ns_ = asked_ns_;
     TrackerSamples samples_;
 };
 

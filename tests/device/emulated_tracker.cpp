@@ -138,6 +138,11 @@ int EmulatedTracker::asked() const {
     return asked_;
 }
 
+int EmulatedTracker::requests_taken() const {
+    const std::lock_guard lock(mutex_);
+    return taken_;
+}
+
 bool EmulatedTracker::try_send(std::span<const std::uint8_t> report) const {
     return write(fifo_, report.data(), report.size()) == static_cast<ssize_t>(report.size());
 }
@@ -228,6 +233,7 @@ bool EmulatedTracker::answer(UMockdevIoctlClient* client) {
     asked_ += get ? 1 : 0;
     if (set) {
         sent_[report.front()] = report;
+        ++taken_;
         umockdev_ioctl_client_complete(client, static_cast<glong>(report.size()), 0);
         return true;
     }

@@ -36,6 +36,8 @@ class EmulatedTracker {
     /// The feature report that was last sent to the device.
     [[nodiscard]] std::optional<std::vector<std::uint8_t>> sent(std::uint8_t id) const;
 
+    /// How many feature reports were sent to it, and taken.
+    [[nodiscard]] int requests_taken() const;
     /// How many feature reports it was asked for.
     [[nodiscard]] int asked() const;
 
@@ -68,6 +70,7 @@ class EmulatedTracker {
     std::map<std::uint8_t, std::vector<std::uint8_t>> features_;
     std::map<std::uint8_t, std::vector<std::uint8_t>> sent_;
     int asked_ = 0;
+    int taken_ = 0;
 };
 
 }  // namespace gazeloop::tests

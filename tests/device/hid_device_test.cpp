@@ -211,6 +211,156 @@ TEST_F(HidDevice, IsAskedAgainWhileItsStatusComes) {
     EXPECT_TRUE(feed.take_events().empty()) << "the status was told when it was opened";
 }
 
+/// The session has read what is sent to it for as long as it takes on a busy machine, at most.
+void read_until(TrackerSession& session, DeviceFeed& feed, const std::function<bool()>& done) {
+    for (int i = 0; i < 10'000 && !done(); ++i) {
+        ASSERT_TRUE(session.read(std::chrono::milliseconds(5), feed).has_value());
+    }
+    ASSERT_TRUE(done());
+}
+
+std::vector<std::string> texts(const std::vector<SourceEvent>& events) {
+    std::vector<std::string> texts;
+    for (const SourceEvent& event : events) {
+        texts.push_back(event.text);
+    }
+    return texts;
+}
+
+// One that boots refuses everything for a while, and need not tell when that is over.
+TEST_F(HidDevice, IsStartedOnceItTakesTheRequest) {
+    tracker_->plug_in();
+    tracker_->set_fault(EmulatedTracker::Fault::FeaturesStall);
+    auto session = TrackerSession::open(find_trackers().at(0), {}, never);
+    ASSERT_TRUE(session.has_value());
+    EXPECT_TRUE(contains(session->remarks(), "does not take the request: asked again each second"));
+    EXPECT_FALSE(session->facts().sampling_hz.has_value());
+    tracker_->set_fault(EmulatedTracker::Fault::None);
+    DeviceFeed feed;
+    read_until(*session, feed, [&] { return tracker_->requests_taken() > 0; });
+    EXPECT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 3}));
+    EXPECT_EQ(session->facts().sampling_hz, 120U) << "told only now";
+    EXPECT_EQ(session->facts().status, "ready");
+    EXPECT_DOUBLE_EQ(session->features().screen_width_m.value_or(0.0), 0.527);
+    EXPECT_EQ(texts(feed.take_events()),
+              (std::vector<std::string>{"takes the request to start now", "states 120 Hz",
+                                        "calibrated to a screen of 527 x 296 mm",
+                                        "set up for the display 4d10:1234 (maker and product in "
+                                        "its EDID)",
+                                        "status: ready"}));
+    const int asked = tracker_->asked();
+    read_until(*session, feed, [&] { return tracker_->requests_taken() > 1; });
+    EXPECT_EQ(tracker_->asked(), asked) << "its features once, the start again";
+}
+
+TEST_F(HidDevice, IsStoppedEvenIfItDidNotTakeTheRequestToStart) {
+    tracker_->plug_in();
+    tracker_->set_fault(EmulatedTracker::Fault::FeaturesStall);
+    {
+        auto session = TrackerSession::open(find_trackers().at(0), {}, never);
+        ASSERT_TRUE(session.has_value());
+        tracker_->set_fault(EmulatedTracker::Fault::None);
+    }
+    EXPECT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 0}));
+}
+
+// The screen's size comes with its set-up, and without it (and without eyes) there is no gaze.
+TEST_F(HidDevice, IsReadAgainOnceItIsReady) {
+    const auto without_eyes = [](std::uint64_t time_us) {
+        constexpr std::int32_t kNoData = 0x7FFFFFFF;
+        std::vector<std::uint8_t> report = report_at(time_us);
+        for (std::size_t at = 17; at < 41; at += sizeof(kNoData)) {
+            std::memcpy(report.data() + at, &kNoData, sizeof(kNoData));
+        }
+        return report;
+    };
+    tracker_->set_feature(0x12, std::vector<std::uint8_t>{0x12});
+    tracker_->set_feature(0x13, {0x13, 3, 0, 0});
+    tracker_->plug_in();
+    HidOptions options;
+    options.geometry.viewing_distance_m = 0.6;
+    auto session = TrackerSession::open(find_trackers().at(0), options, never);
+    ASSERT_TRUE(session.has_value());
+    EXPECT_EQ(session->facts().status, "needs its screen set up: run the maker's set-up tool");
+    const int asked = tracker_->asked();
+    std::vector<std::uint8_t> configuration(19, 0);
+    configuration[0] = 0x12;
+    const std::int32_t size_um[] = {600'000, 340'000};
+    std::memcpy(configuration.data() + 11, size_um, sizeof(size_um));
+    tracker_->set_feature(0x12, configuration);
+    tracker_->set_feature(0x13, {0x13, 1, 90, 0});
+
+    DeviceFeed feed;
+    std::vector<gaze::GazeSample> samples;
+    std::uint64_t time_us = 0;
+    const auto goes_on = [&] {
+        tracker_->send(without_eyes(time_us += 10'000));
+        feed.poll(samples);
+    };
+    for (int i = 0; i < 10; ++i) {
+        goes_on();
+        ASSERT_TRUE(session->read(std::chrono::milliseconds(50), feed).has_value());
+    }
+    EXPECT_EQ(tracker_->asked(), asked) << "not ready yet";
+    tracker_->send(std::vector<std::uint8_t>{0x13, 1, 90, 0});
+    read_until(*session, feed, [&] {
+        goes_on();
+        return !samples.empty() && samples.back().eyes[0].valid;
+    });
+    ASSERT_FALSE(samples.front().eyes[0].valid);
+    EXPECT_EQ(tracker_->asked(), 2 * asked);
+    EXPECT_EQ(session->facts().sampling_hz, 90U);
+    EXPECT_EQ(session->facts().status, "ready");
+    EXPECT_DOUBLE_EQ(session->facts().screen_width_m.value_or(0.0), 0.6);
+    const std::vector<std::string> told = texts(feed.take_events());
+    EXPECT_EQ(std::ranges::count(told, "calibrated to a screen of 600 x 340 mm"), 1);
+    EXPECT_EQ(std::ranges::count(told, "status: ready"), 1) << testing::PrintToString(told);
+    // What comes after does not lead to more.
+    for (int i = 0; i < 50; ++i) {
+        tracker_->send(std::vector<std::uint8_t>{0x13, 1, 90, 0});
+        goes_on();
+        ASSERT_TRUE(session->read(std::chrono::milliseconds(50), feed).has_value());
+        ASSERT_TRUE(session->read(std::chrono::milliseconds(50), feed).has_value());
+    }
+    EXPECT_EQ(tracker_->asked(), 2 * asked);
+}
+
+// Whatever its status does, it is asked once a second at most.
+TEST_F(HidDevice, IsNotAskedMoreOftenWhileItsStatusChanges) {
+    tracker_->plug_in();
+    const std::int64_t begin_ns = latency::monotonic_ns();
+    auto session = TrackerSession::open(find_trackers().at(0), {}, never);
+    ASSERT_TRUE(session.has_value());
+    const int once = tracker_->asked();
+    const auto seconds = [&] {
+        return static_cast<double>(latency::monotonic_ns() - begin_ns) * 1e-9;
+    };
+    DeviceFeed feed;
+    for (std::uint8_t i = 0; tracker_->asked() < 2 * once + 1 && seconds() < 60.0; ++i) {
+        const auto status = static_cast<std::uint8_t>(1 + i % 2);
+        tracker_->send(std::vector<std::uint8_t>{0x13, status, 120, 0});
+        ASSERT_TRUE(session->read(std::chrono::milliseconds(50), feed).has_value());
+    }
+    EXPECT_GT(tracker_->asked(), 2 * once) << "twice";
+    EXPECT_GE(seconds(), 2.0) << "a second after it was opened, and a second after that";
+    EXPECT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 3}));
+}
+
+// The program's end waits for one request at most then, too.
+TEST_F(HidDevice, IsReadAgainNoMoreOnceTheProgramEnds) {
+    std::atomic<bool> ends{false};
+    tracker_->set_feature(0x13, {0x13, 2, 120, 0});
+    tracker_->plug_in();
+    auto session = TrackerSession::open(find_trackers().at(0), {}, [&] { return ends.load(); });
+    ASSERT_TRUE(session.has_value());
+    const int once = tracker_->asked();
+    ends = true;
+    tracker_->send(std::vector<std::uint8_t>{0x13, 1, 120, 0});
+    DeviceFeed feed;
+    read_until(*session, feed, [&] { return tracker_->asked() > once; });
+    EXPECT_EQ(tracker_->asked(), once + 1);
+}
+
 TEST_F(HidDevice, TellsWhatItStatesThatCannotBe) {
     std::vector<std::uint8_t> configuration(19, 0);
     configuration[0] = 0x12;
