@@ -24,18 +24,25 @@ class DeviceFeed {
         sample.sequence = sequence_;
         if (samples_.try_push(sample)) {
             last_ = sample;
+            lost_ = false;
         } else {
             dropped_.fetch_add(1, std::memory_order_relaxed);
         }
     }
 
     /// There is no gaze from here on, at this time: a sample in which neither eye is valid, so that
-    /// the loop's policy for lost gaze takes over with its next frame, in a replay too.
+    /// the loop's policy for lost gaze takes over with its next frame, in a replay too. Once: until
+    /// the next sample there is nothing more to lose, nor before the first one.
     void push_loss(latency::Stamp at) {
+        if (lost_) {
+            return;
+        }
         gaze::GazeSample lost;
         lost.device_ns = last_.device_ns;
         lost.arrived = at;
+        const std::uint64_t refused = dropped();
         push(lost);
+        lost_ = dropped() == refused;
     }
 
     /// The number of the last sample: another one, and something was pushed.
@@ -79,6 +86,7 @@ class DeviceFeed {
     std::vector<SourceEvent> events_;
     std::uint64_t sequence_ = 0;
     gaze::GazeSample last_;
+    bool lost_ = true;  ///< the last sample was that of push_loss(), or none was pushed yet
 };
 
 }  // namespace gazeloop::drivers

@@ -26,8 +26,8 @@ inline constexpr TrackerSupport kSupport{
 /// transfers under way, so that none is missed while one is taken.
 ///
 /// A halted endpoint is cleared and gaze asked for again; several failures in a row without data
-/// between them end it. While the headset is silent it is asked again (stream_keeper.h), and each
-/// change is told.
+/// between them end it. Each failure is a sample without gaze at once, whatever comes of it. While
+/// the headset is silent it is asked again (stream_keeper.h), and each change is told.
 ///
 /// Errors (NoDevice): it may not be opened, has no gaze interface, or somebody else has claimed
 /// that, with who it may be and what helps.

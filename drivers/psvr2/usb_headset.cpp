@@ -219,13 +219,16 @@ Expected<void> UsbHeadset::read(std::chrono::milliseconds longest, DeviceFeed& f
     if (failure_.empty()) {
         keep_alive(now_ns);
     }
+    tell_loss();
     // Right after a failure it is only waited for: it may go.
     const auto until_due = std::chrono::nanoseconds(
         std::max<std::int64_t>(failure_.empty() ? keeper_.next_ns() - now_ns : kMayStillGo_ns,
                                std::chrono::nanoseconds(std::chrono::milliseconds(1)).count()));
     const auto pause = std::min(std::chrono::duration_cast<std::chrono::microseconds>(longest),
                                 std::chrono::duration_cast<std::chrono::microseconds>(until_due));
-    if (!wait(pause) && !gone_) {
+    const bool waited = wait(pause);
+    tell_loss();
+    if (!waited && !gone_) {
         std::this_thread::sleep_for(pause);  // libusb did not: no turning in circles
     }
     if (halted_ && !any_under_way() && failure_.empty()) {
@@ -236,6 +239,14 @@ Expected<void> UsbHeadset::read(std::chrono::milliseconds longest, DeviceFeed& f
         return std::unexpected(Error{ExitCode::NoDevice, fmt::format("{}: {}", path_, *why)});
     }
     return {};
+}
+
+/// The gaze is lost with the failure, not once it is known why, and until the next packet: the loop
+/// hears of it before an endpoint is cleared, which may take a while.
+void UsbHeadset::tell_loss() {
+    if (halted_ || gone_ || !failure_.empty()) {
+        feed_->push_loss(latency::measured_now());
+    }
 }
 
 /// A failure is only the reason once it is clear that the headset is still there.
@@ -286,7 +297,7 @@ void UsbHeadset::take(Transfer& transfer, std::int64_t arrived_ns) {
             cancel_all();
             return;
     }
-    if (feed_ == nullptr) {
+    if (feed_ == nullptr || !failure_.empty()) {
         return;  // it ends
     }
     const auto length = static_cast<std::size_t>(transfer.transfer->actual_length);

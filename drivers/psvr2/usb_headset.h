@@ -107,6 +107,7 @@ class UsbHeadset final : public TrackerDevice {
     void keep_alive(std::int64_t now_ns);
     void recover();
     void note(int result, std::string_view doing);
+    void tell_loss();
     [[nodiscard]] std::optional<std::string> why_over(std::int64_t now_ns);
     /// False where libusb cannot wait for this device any more.
     bool wait(std::chrono::microseconds longest);

@@ -81,6 +81,7 @@ class Psvr2Device : public testing::Test {
             for (SourceEvent& event : source.take_events()) {
                 EXPECT_TRUE(event.time.known());
                 EXPECT_LE(event.text.size(), 240U) << event.text;
+                gone_ns_ = event.text.starts_with("gone: ") ? event.time.ns : gone_ns_;
                 events_.push_back(std::move(event.text));
             }
         }
@@ -93,8 +94,21 @@ class Psvr2Device : public testing::Test {
         return !samples_.empty() && samples_.back().eyes[0].valid && samples_.back().eyes[1].valid;
     }
 
+    /// The loss was told as one sample, before it was known why: not after the half second in which
+    /// a headset that fails may turn out to have been pulled out.
+    void expect_loss_before_its_reason() const {
+        constexpr std::int64_t kHalfASecond_ns = 500'000'000;
+        ASSERT_FALSE(samples_.empty());
+        const gaze::GazeSample& loss = samples_.back();
+        EXPECT_FALSE(loss.eyes[0].valid || loss.eyes[1].valid);
+        EXPECT_GE(gone_ns_ - loss.arrived.ns, kHalfASecond_ns);
+        ASSERT_GT(samples_.size(), 1U);
+        EXPECT_TRUE(samples_[samples_.size() - 2].eyes[0].valid);
+    }
+
     std::optional<EmulatedPsvr2> headset_;
     std::uint32_t frame_ = 0;
+    std::int64_t gone_ns_ = 0;  ///< when a headset was last told to have gone
     std::vector<gaze::GazeSample> samples_;
     std::vector<std::string> events_;
 };
@@ -190,10 +204,14 @@ TEST_F(Psvr2Device, GoesOnAfterAHaltedEndpoint) {
         EXPECT_NE(headset_->seen().order.find("HS", seen), std::string::npos)
             << "asked at once: " << headset_->seen().order;
         send();
-        until(source, [&] { return samples_.size() >= 12; });
+        until(source, [&] { return samples_.size() >= 13; });
+        EXPECT_FALSE(samples_[0].eyes[0].valid || samples_[0].eyes[1].valid) << "lost in between";
+        EXPECT_TRUE(samples_[1].eyes[0].valid && samples_[1].eyes[1].valid) << "and no longer";
         EXPECT_TRUE(tracking());
-        EXPECT_EQ(samples_.front().sequence, static_cast<std::uint64_t>(round) * 12 + 1)
-            << "nothing lost, nothing twice";
+        for (std::size_t i = 0; i < samples_.size(); ++i) {
+            EXPECT_EQ(samples_[i].sequence, static_cast<std::uint64_t>(round) * 13 + i)
+                << "nothing lost, nothing twice";
+        }
     }
     EXPECT_EQ(headset_->seen().claims, 1);
     until(source, [&] { return headset_->seen().listening == 4; });
@@ -218,10 +236,13 @@ TEST_F(Psvr2Device, ThatStaysAndFailsIsToldAsFailing) {
     headset_->plug_in();
     Psvr2Source source({});
     until_event(source, "plugged in");
+    send();
+    until(source, [&] { return tracking(); });
     headset_->set_fault(EmulatedPsvr2::Fault::HaltStays);
     headset_->halt();
     until_event(source, "gone: " + headset_->node() + ": clearing its halted endpoint failed");
     EXPECT_FALSE(contains(events_, "halted: cleared")) << testing::PrintToString(events_);
+    expect_loss_before_its_reason();
 }
 
 TEST_F(Psvr2Device, ThatDoesNotTakeTheRequestIsHeardNevertheless) {
@@ -281,7 +302,7 @@ TEST_F(Psvr2Device, ThatCannotBeWaitedForIsGoneAndOpenedAgain) {
     until(source, [&] { return tracking(); });
     headset_->set_fault(EmulatedPsvr2::Fault::EventsFail);
     until_event(source, "gone: " + headset_->node() + ": waiting for its data failed: ");
-    EXPECT_FALSE(samples_.back().eyes[0].valid || samples_.back().eyes[1].valid);
+    expect_loss_before_its_reason();
     // Told before it is closed; mended earlier, its transfers would end.
     until(source, [&] {
         return log.text().find("of its transfers do not end: left") != std::string::npos;

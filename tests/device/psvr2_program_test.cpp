@@ -25,6 +25,7 @@ class Sending {
               constexpr double kLap_s = 5.0;
               sim::GazeSimulation simulation;
               simulation.tracker.rate_hz = 120.0;
+              simulation.eye.blinks_per_min = 0.0;  // a closed eye looks like a loss
               const drivers::Trace trace = sim::generate_gaze(simulation, kLap_s);
               const std::int64_t begin_ns = latency::monotonic_ns();
               for (std::uint32_t i = 0; !stop.stop_requested(); ++i) {
@@ -41,6 +42,46 @@ class Sending {
   private:
     std::jthread thread_;
 };
+
+/// One loss that reached the loop as a sample, and the frames from the one that took it to the one
+/// that took the next gaze.
+struct Loss {
+    std::int64_t arrived_ns = 0;
+    std::uint64_t first_frame = 0;
+    std::size_t frames = 0;
+    std::size_t tracking = 0;         ///< of them
+    std::size_t tracking_before = 0;  ///< since the loss before
+};
+
+std::vector<Loss> losses_in(const session::SessionFile& file) {
+    std::vector<Loss> losses;
+    std::vector<std::uint64_t> ends;
+    bool lost = true;  // until the headset's axes are known, its gaze is not
+    for (const auto& [frame, sample] : file.samples) {
+        const bool seen = sample.eyes[0].valid || sample.eyes[1].valid;
+        if (lost && seen && !losses.empty()) {
+            ends.push_back(frame);
+        } else if (!lost && !seen) {
+            losses.push_back({.arrived_ns = sample.arrived.ns, .first_frame = frame});
+        }
+        lost = !seen;
+    }
+    ends.resize(losses.size(), UINT64_MAX);
+    std::uint64_t before = 0;
+    for (std::size_t i = 0; i < losses.size(); ++i) {
+        for (const auto& shown : file.frames) {
+            const std::uint64_t index = shown.frame.index;
+            const bool tracking = shown.frame.fovea.eyes[0].state == gaze::FoveaState::Tracking;
+            const bool in = index >= losses[i].first_frame && index < ends[i];
+            losses[i].frames += in ? 1 : 0;
+            losses[i].tracking += in && tracking ? 1 : 0;
+            losses[i].tracking_before +=
+                index >= before && index < losses[i].first_frame && tracking ? 1 : 0;
+        }
+        before = ends[i];
+    }
+    return losses;
+}
 
 class Psvr2Program : public testing::Test {
   protected:
@@ -150,8 +191,57 @@ TEST_F(Psvr2Program, RunsOnThroughPluggingInAndPullingOut) {
     EXPECT_EQ(told("plugged in"), 2) << all;
     EXPECT_EQ(told("gone"), 2);
     EXPECT_EQ(told("its gaze endpoint was halted"), 1);
-    EXPECT_TRUE(std::ranges::any_of(file.frames, [](const auto& frame) {
-        return frame.frame.fovea.eyes[0].state == gaze::FoveaState::Tracking;
+    const std::vector<Loss> losses = losses_in(file);
+    ASSERT_EQ(losses.size(), 3U) << "pulled out, halted, pulled out";
+    for (const Loss& loss : losses) {
+        EXPECT_GT(loss.tracking_before, 0U) << "to frame " << loss.first_frame;
+        EXPECT_EQ(loss.tracking, 0U) << "from frame " << loss.first_frame;
+    }
+    // The halt may have been over in the frame that heard of it.
+    EXPECT_GT(losses[0].frames, 0U);
+    EXPECT_GT(losses[2].frames, 0U);
+}
+
+// A headset that stays on its port and fails: the loop does not wait for the reason.
+TEST_F(Psvr2Program, LosesTheGazeInTheFrameOfTheFailure) {
+    const std::string session = folder_.file("session.gaze");
+    headset_->plug_in();
+    std::optional<Sending> sending(std::in_place, *headset_);
+    ProgramOptions options;
+    options.trigger = "plugged in: PlayStation VR2";
+    options.timeout = std::chrono::seconds(200);
+    std::thread hands;
+    options.on_trigger = [&](int) {
+        hands = std::thread([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+            sending.reset();
+            headset_->set_fault(EmulatedPsvr2::Fault::HaltStays);
+            headset_->halt();
+        });
+    };
+    const ProgramResult result =
+        run_gazeloop({"run", "--gaze", "psvr2", "--target", "headless", "--seconds", "3",
+                      "--record", session, "--set", "render.scale=0.05"},
+                     options);
+    if (hands.joinable()) {
+        hands.join();
+    }
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const session::SessionFile file = value_or_throw(session::read_session(session));
+    const auto gone = std::ranges::find_if(file.events, [](const auto& event) {
+        return event.kind == "tracker" &&
+               event.text.find("clearing its halted endpoint failed") != std::string::npos;
+    });
+    ASSERT_NE(gone, file.events.end()) << result.err;
+    const std::vector<Loss> losses = losses_in(file);
+    ASSERT_EQ(losses.size(), 1U) << result.err;
+    EXPECT_GT(losses[0].tracking_before, 0U);
+    EXPECT_EQ(losses[0].tracking, 0U);
+    // As many frames as there are in the half second until the reason is told.
+    EXPECT_GE(gone->time.ns - losses[0].arrived_ns, 500'000'000);
+    EXPECT_TRUE(std::ranges::any_of(file.frames, [&](const auto& shown) {
+        return shown.frame.index >= losses[0].first_frame &&
+               shown.frame.stamps.latch.ns < gone->time.ns;
     }));
 }
 
