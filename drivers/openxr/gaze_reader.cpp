@@ -51,7 +51,8 @@ std::optional<gaze::GazeSample> GazeReader::take(const GazeAnswer& answer, GazeG
         advanced_ns_ = now_ns;
     } else if (same_pose) {
         return std::nullopt;
-    } else if (time.trouble != SampleTimeTrouble::NotGiven) {
+    } else if (time.trouble != SampleTimeTrouble::NotGiven &&
+               time.trouble != SampleTimeTrouble::Absurd) {
         if (latency::saturated(static_cast<__int128>(now_ns) - advanced_ns_) < kStandstill_ns) {
             return std::nullopt;
         }

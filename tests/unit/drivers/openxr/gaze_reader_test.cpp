@@ -136,6 +136,19 @@ TEST_F(GazeReaderTest, FollowsGazeWhoseTimesAreAbsurd) {
     EXPECT_TRUE(is_open(GazeGate::Pose));
 }
 
+// Nor does one that is always the same: it stands still as little as it goes.
+TEST_F(GazeReaderTest, FollowsGazeWhoseTimeIsAlwaysTheSameAbsurdOne) {
+    for (int i = 0; i < 50; ++i) {
+        GazeAnswer negative = answer(1000 + 14 * i);
+        negative.pose = looking(0.001 * i);
+        negative.time.given = -1;
+        negative.time.host_ns.reset();
+        ASSERT_TRUE(take(negative).has_value()) << i;
+        EXPECT_EQ(gates_.state(GazeGate::SampleTime)->found, text_of(SampleTimeTrouble::Absurd));
+    }
+    EXPECT_EQ(gates_.take_events().size(), kGazeGateCount - 2) << "each gate is told once";
+}
+
 // Nobody has seen an eye yet: there is nothing to lose.
 TEST_F(GazeReaderTest, LosesNothingBeforeTheFirstSample) {
     GazeAnswer nothing;
