@@ -14,7 +14,7 @@
 namespace gazeloop::tests {
 namespace {
 
-[[noreturn]] void become(const std::vector<std::string>& arguments, const ProgramOptions& options,
+[[noreturn]] void become(const std::vector<std::string>& command, const ProgramOptions& options,
                          int out, int err) {
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(out, STDOUT_FILENO);
@@ -27,8 +27,7 @@ namespace {
         }
     }
     std::vector<std::string> words = options.wrapper;
-    words.push_back(std::string(GAZELOOP_BINARY_DIR) + "/gazeloop");
-    words.insert(words.end(), arguments.begin(), arguments.end());
+    words.insert(words.end(), command.begin(), command.end());
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
     for (std::string& word : words) {
@@ -41,8 +40,7 @@ namespace {
 
 }  // namespace
 
-ProgramResult run_gazeloop(const std::vector<std::string>& arguments,
-                           const ProgramOptions& options) {
+ProgramResult run_program(const std::vector<std::string>& command, const ProgramOptions& options) {
     std::array<int, 2> out{};
     std::array<int, 2> err{};
     if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(err.data(), O_CLOEXEC) != 0) {
@@ -50,7 +48,7 @@ ProgramResult run_gazeloop(const std::vector<std::string>& arguments,
     }
     const pid_t pid = fork();
     if (pid == 0) {
-        become(arguments, options, out[1], err[1]);
+        become(command, options, out[1], err[1]);
     }
     close(out[1]);
     close(err[1]);
@@ -89,6 +87,13 @@ ProgramResult run_gazeloop(const std::vector<std::string>& arguments,
     waitpid(pid, &status, 0);
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return result;
+}
+
+ProgramResult run_gazeloop(const std::vector<std::string>& arguments,
+                           const ProgramOptions& options) {
+    std::vector<std::string> command{std::string(GAZELOOP_BINARY_DIR) + "/gazeloop"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return run_program(command, options);
 }
 
 ScratchFolder::ScratchFolder() {

@@ -26,7 +26,12 @@ struct ProgramOptions {
     std::function<void(int pid)> on_trigger{};
 };
 
-/// Runs the gazeloop program of this build with the arguments, no standard input.
+/// Runs a program with its arguments, no standard input. The first word is its path, or its name in
+/// PATH.
+ProgramResult run_program(const std::vector<std::string>& command,
+                          const ProgramOptions& options = {});
+
+/// The same with the gazeloop program of this build and these arguments.
 ProgramResult run_gazeloop(const std::vector<std::string>& arguments,
                            const ProgramOptions& options = {});
 
