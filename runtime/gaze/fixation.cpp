@@ -52,11 +52,13 @@ class LineOfSight {
         up_ = std::tan(fov.up_rad);
         px_per_x_ = patch.view.width_px / (std::tan(fov.right_rad) - left_);
         px_per_y_ = patch.view.height_px / (std::tan(fov.down_rad) - up_);
+        // NOLINTBEGIN(cppcoreguidelines-prefer-member-initializer): of what was worked out above
         first_x_ = (patch.x0_px + 0.5) / px_per_x_ + left_;
         first_y_ = (patch.y0_px + 0.5) / px_per_y_ + up_;
         x_per_column_ = patch.step_x_px / px_per_x_;
         y_per_row_ = patch.step_y_px / px_per_y_;
         aside_ahead_m_ = glm::dot(towards_, aside_m_);
+        // NOLINTEND(cppcoreguidelines-prefer-member-initializer)
     }
 
     [[nodiscard]] Found follow() const {

@@ -221,6 +221,7 @@ void read_until(TrackerSession& session, DeviceFeed& feed, const std::function<b
 
 std::vector<std::string> texts(const std::vector<SourceEvent>& events) {
     std::vector<std::string> texts;
+    texts.reserve(events.size());
     for (const SourceEvent& event : events) {
         texts.push_back(event.text);
     }
@@ -242,12 +243,13 @@ TEST_F(HidDevice, IsStartedOnceItTakesTheRequest) {
     EXPECT_EQ(session->facts().sampling_hz, 120U) << "told only now";
     EXPECT_EQ(session->facts().status, "ready");
     EXPECT_DOUBLE_EQ(session->features().screen_width_m.value_or(0.0), 0.527);
-    EXPECT_EQ(texts(feed.take_events()),
-              (std::vector<std::string>{"takes the request to start now", "states 120 Hz",
-                                        "calibrated to a screen of 527 x 296 mm",
-                                        "set up for the display 4d10:1234 (maker and product in "
-                                        "its EDID)",
-                                        "status: ready"}));
+    EXPECT_EQ(
+        texts(feed.take_events()),
+        (std::vector<std::string>{
+            "takes the request to start now", "states 120 Hz",
+            "calibrated to a screen of 527 x 296 mm",
+            std::string("set up for the display 4d10:1234 (maker and ") + "product in its EDID)",
+            "status: ready"}));
     const int asked = tracker_->asked();
     read_until(*session, feed, [&] { return tracker_->requests_taken() > 1; });
     EXPECT_EQ(tracker_->asked(), asked) << "its features once, the start again";
