@@ -201,6 +201,9 @@ TEST(BadInput, NoOpenXrRuntime) {
                                                    {"XDG_CONFIG_HOME", empty.file("")}}});
     EXPECT_EQ(result.exit_code, 4) << result.err;
     EXPECT_NE(result.err.find("./dev setup"), std::string::npos) << result.err;
+}
+
+TEST(BadInput, AnOpenXrRuntimeThatIsNotThere) {
     const ProgramResult wrong = run_gazeloop(
         {"run", "--frames", "1"}, {.environment = {{"XR_RUNTIME_JSON", "/nowhere/runtime.json"}}});
     EXPECT_EQ(wrong.exit_code, 4) << wrong.err;
