@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/random.h"
+#include "sim/room_for_plans.h"
 
 namespace gazeloop::sim {
 namespace {
@@ -21,6 +22,7 @@ Blinks::Blinks(const EyeTerms& terms, std::uint64_t seed) : seed_(seed) {
         // At 60 a minute, the most, .25 s are left for it.
         mean_pause_s_ =
             60.0 / terms.blinks_per_min - (kShortest_s + kLongest_s) / 2.0 - kShortestPause_s;
+        blinks_.reserve(room_for_plans(terms.blinks_per_min / 60.0));
         blinks_.push_back({});  // over before it began
         add_blink();
     }

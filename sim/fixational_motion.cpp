@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/random.h"
+#include "sim/room_for_plans.h"
 #include "sim/saccade.h"
 
 namespace gazeloop::sim {
@@ -47,6 +48,7 @@ FixationalMotion::FixationalMotion(const EyeTerms& terms, std::uint64_t seed)
         }
     }
     if (terms_.microsaccades_per_s > 0.0) {
+        microsaccades_.reserve(room_for_plans(terms_.microsaccades_per_s));
         microsaccades_.push_back({});  // before the first one: at the centre
         add_microsaccade();
     }

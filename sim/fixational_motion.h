@@ -59,7 +59,6 @@ class FixationalMotion {
     Drift right_;
     Drift up_;
     std::vector<Microsaccade> microsaccades_;
-    double next_begin_s_ = 0.0;
 };
 
 }  // namespace gazeloop::sim

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "runtime/gaze/direction.h"
+#include "sim/room_for_plans.h"
 #include "sim/turned_direction.h"
 
 namespace gazeloop::sim {
@@ -32,6 +33,13 @@ GazePath::GazePath(const EyeTerms& terms, const HeadTerms& head_terms, std::uint
     first.to_dioptres = draw_dioptres(0);
     first.from_dioptres = first.to_dioptres;
     plan_stay(first, 0);
+    if (terms_.saccade_deg > 0.0) {
+        // Fixations have a mean of exp(s^2 / 2) of their median; saccades come on top.
+        const double mean_s =
+            terms_.fixation_ms * 1e-3 * std::exp(kFixationSpread * kFixationSpread / 2.0);
+        shifts_.reserve(room_for_plans(1.0 / mean_s));
+        head_.make_room_for_turns(room_for_plans(head_terms_.turn_percent / 100.0 / mean_s));
+    }
     shifts_.push_back(first);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct Heading {
 class SimulatedHead {
   public:
     SimulatedHead(const HeadTerms& terms, std::uint64_t seed);
+
+    void make_room_for_turns(std::size_t turns) { turns_.reserve(turns); }
 
     /// Turns by this much more, from `begin_s` on; not before the turn added last.
     void turn(double begin_s, const Heading& by);

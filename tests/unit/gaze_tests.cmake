@@ -12,8 +12,20 @@ gazeloop_test(unit_sim
     SOURCES sim/eye_tracker_test.cpp sim/gaze_generator_test.cpp sim/person_test.cpp
         sim/random_test.cpp sim/recorded_head_test.cpp sim/saccade_test.cpp
         sim/virtual_tracker_test.cpp drivers/simulated_source_test.cpp
+        ../support/allocation_counter.cpp
     LINK gazeloop::sim gazeloop::trace gazeloop::simulated gazeloop::uhid gazeloop::hid_reports
     LABELS unit)
+# The simulation once more, on random numbers that are counted.
+get_target_property(person_sources gazeloop_person SOURCES)
+list(TRANSFORM person_sources PREPEND ${PROJECT_SOURCE_DIR}/sim/)
+gazeloop_test(unit_sim_draws
+    SOURCES sim/draws_test.cpp ${person_sources}
+    LINK gazeloop::gaze
+    LABELS unit)
+target_include_directories(unit_sim_draws BEFORE PRIVATE
+    ${PROJECT_SOURCE_DIR}/tests/support/counting_random)
+target_compile_definitions(unit_sim_draws PRIVATE
+    GAZELOOP_UNCOUNTED_RANDOM="${PROJECT_SOURCE_DIR}/sim/random.h")
 gazeloop_test(unit_display_profile
     SOURCES present/display_profile_test.cpp
     LINK gazeloop::display_profile

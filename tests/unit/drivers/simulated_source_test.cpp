@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/gaze_generator.h"
+#include "tests/support/allocation_counter.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -81,22 +82,22 @@ TEST(SimulatedSource, TellsTheTruth) {
     EXPECT_EQ(truth.eyes[0].direction, person.at(1.5).eyes[0].direction);
 }
 
-TEST(SimulatedSource, CostsNothingForATermThatIsOff) {
-    // The same bits with and without the terms being there at all.
-    SimulatedSource off({.tracker = {.delay_ms = 15.0}}, kStart_ns);
-    SimulatedSource on({.tracker = {.delay_ms = 15.0,
-                                    .bias_growth_percent = 5.0,
-                                    .noise_growth_percent = 3.0,
-                                    .dropout_ms = 100.0}},
-                       kStart_ns);
-    std::vector<gaze::GazeSample> a;
-    std::vector<gaze::GazeSample> b;
-    off.poll(kStart_ns + 2'000'000'000, a);
-    on.poll(kStart_ns + 2'000'000'000, b);
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        EXPECT_EQ(a[i].eyes[1].direction, b[i].eyes[1].direction);
+// What a frame loop asks of it, at 90 Hz for nine minutes, with everything on.
+TEST(SimulatedSource, AsksForNoMemoryWhileALoopRuns) {
+    sim::GazeSimulation simulation = bad_tracker(3);
+    simulation.eye.pursuit_percent = 20.0;
+    simulation.eye.distance_spread = 0.3;
+    SimulatedSource source(simulation, kStart_ns);
+    std::vector<gaze::GazeSample> samples;
+    samples.reserve(100);
+    constexpr std::int64_t kFrame_ns = 11'111'111;
+    const std::size_t before = tests::allocations_of_this_thread();
+    for (std::int64_t frame = 1; frame < 540LL * 90; ++frame) {
+        samples.clear();
+        source.poll(kStart_ns + frame * kFrame_ns, samples);
+        (void)source.head_track()->at(kStart_ns + (frame + 3) * kFrame_ns);
     }
+    EXPECT_EQ(tests::allocations_of_this_thread(), before);
 }
 
 TEST(SimulatedSource, TakesTimesAtTheEndsOfTheirRange) {
