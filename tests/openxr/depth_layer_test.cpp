@@ -12,6 +12,7 @@
 #include "runtime/present/openxr/openxr_target.h"
 #include "runtime/render/gpu_memory.h"
 #include "runtime/session/session_file.h"
+#include "tests/support/faults/injected.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::present {
@@ -145,6 +146,35 @@ TEST_F(DepthLayer, GoesAlongWithTheProgramsPicturesUnlessSwitchedOff) {
         EXPECT_EQ(row->value, taken);
         std::filesystem::remove(session);
     }
+}
+
+TEST_F(DepthLayer, IsGoneWithoutWhereItsImagesCannotBeMade) {
+    // The colour images come first; then neither eye has depth, whichever's could not be made.
+    for (const char* fault : {"xrCreateSwapchain@3=XR_ERROR_OUT_OF_MEMORY",
+                              "xrCreateSwapchain@4=XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED"}) {
+        const std::string session = scratch_.file("session.gaze");
+        const tests::ProgramResult result =
+            tests::run_gazeloop({"run", "--frames", "5", "--record", session, "--set",
+                                 "render.scale=0.1", "--set", "vulkan.validation=true"},
+                                {.environment = tests::openxr_faults(fault)});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_NE(result.err.find("the runtime gets no depth (render.depth=false"),
+                  std::string::npos)
+            << result.err;
+        EXPECT_EQ(result.err.find("Vulkan validation"), std::string::npos) << result.err;
+        const auto recorded = value_or_throw(session::read_session(session));
+        EXPECT_EQ(recorded.frames.size(), 5U);
+        const auto row =
+            std::ranges::find(recorded.header.device, "depth layer", &session::NamedValue::name);
+        ASSERT_NE(row, recorded.header.device.end());
+        EXPECT_EQ(row->value, "none");
+        std::filesystem::remove(session);
+    }
+    // A runtime that is gone is another matter.
+    const tests::ProgramResult lost = tests::run_gazeloop(
+        {"run", "--frames", "5"},
+        {.environment = tests::openxr_faults("xrCreateSwapchain@3=XR_ERROR_INSTANCE_LOST")});
+    EXPECT_EQ(lost.exit_code, 5) << lost.err;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "runtime/present/openxr/openxr_pictures.h"
 
 #include <fmt/core.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
@@ -72,15 +73,34 @@ OpenXrPictures::OpenXrPictures(const render::VulkanContext& context, const openx
         return xrEnumerateSwapchainFormats(session.handle(), a...);
     });
     format_ = choose_color(offered, session.instance());
+    for (const vk::Extent2D& extent : extents) {
+        colors_.emplace_back(context, session.handle(), extent, format_, SwapchainContent::Color);
+    }
     if (depth) {
         depth_format_ = choose_depth(offered);
     }
-    for (const vk::Extent2D& extent : extents) {
-        colors_.emplace_back(context, session.handle(), extent, format_, SwapchainContent::Color);
-        if (depth_format_) {
+    if (depth_format_) {
+        make_depths(context, session, extents);
+    }
+}
+
+void OpenXrPictures::make_depths(const render::VulkanContext& context,
+                                 const openxr::Session& session,
+                                 const gaze::PerEye<vk::Extent2D>& extents) {
+    try {
+        for (const vk::Extent2D& extent : extents) {
             depths_.emplace_back(context, session.handle(), extent, *depth_format_,
                                  SwapchainContent::Depth);
         }
+    } catch (const SetupError& error) {
+        if (error.code() == ExitCode::SessionLost) {
+            throw;
+        }
+        // Pictures without depth are worth more than none.
+        spdlog::warn("{}; the runtime gets no depth (render.depth=false asks for none)",
+                     error.what());
+        depths_.clear();
+        depth_format_.reset();
     }
 }
 

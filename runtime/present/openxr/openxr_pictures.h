@@ -32,6 +32,9 @@ class OpenXrPictures {
                                                             XrSpace space);
 
   private:
+    void make_depths(const render::VulkanContext& context, const openxr::Session& session,
+                     const gaze::PerEye<vk::Extent2D>& extents);
+
     vk::Format format_ = vk::Format::eUndefined;
     std::optional<vk::Format> depth_format_;
     std::vector<OpenXrSwapchain> colors_;
