@@ -18,7 +18,7 @@
 #include "runtime/cli/interrupt.h"
 #include "runtime/cli/openxr_gaze_report.h"
 #include "runtime/cli/output_file.h"
-#include "runtime/cli/profiles.h"
+#include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/doctor/checks.h"
 #include "runtime/latency/clock.h"
@@ -104,9 +104,8 @@ doctor::Findings listen_to_openxr(const Settings& settings, double seconds) {
     constexpr std::chrono::seconds kPatience{20};
     const auto listening = std::chrono::milliseconds(std::llround(seconds * 1e3));
     return doctor::check_eye_gaze(
-        {.display = value_or_throw(load_display(settings.values().profile.display)),
-         .is_target = false},
-        seconds, {.patience = kPatience + listening, .stop = [] { return interrupted(); }});
+        {.display = value_or_throw(display_in_force(settings)), .is_target = false}, seconds,
+        {.patience = kPatience + listening, .stop = [] { return interrupted(); }});
 }
 
 ExitCode devices(const DevicesCommand& command) {
@@ -115,11 +114,11 @@ ExitCode devices(const DevicesCommand& command) {
     configured.config_files = command.config_files;
     configured.assignments = command.assignments;
     value_or_throw(configured.apply_to(settings, true));
-    const TrackerProfile profile = value_or_throw(load_tracker(settings.values().profile.tracker));
+    const TrackerProfile profile = value_or_throw(tracker_in_force(settings));
     const drivers::hid::HidOptions hid = hid_options(profile, settings.values());
     value_or_throw(default_tracker("psvr2", settings));
     const drivers::psvr2::Psvr2Options psvr2 =
-        psvr2_options(value_or_throw(load_tracker(settings.values().profile.tracker)));
+        psvr2_options(value_or_throw(tracker_in_force(settings)));
     if (command.watch) {
         drivers::hid::HidSource hid_source(hid);
         drivers::psvr2::Psvr2Source psvr2_source(psvr2);

@@ -8,10 +8,9 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/interrupt.h"
 #include "runtime/cli/output_file.h"
-#include "runtime/cli/profiles.h"
+#include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_checks.h"
 #include "runtime/cli/run_options.h"
-#include "runtime/cli/tracker_settings.h"
 #include "runtime/cli/version.h"
 #include "runtime/doctor/checks.h"
 
@@ -73,8 +72,8 @@ doctor::Finding check_settings(Settings& settings) {
                             .found = "no setting is at odds with another"};
     try {
         value_or_throw(settings.check());
-        (void)value_or_throw(tracker_in_force(settings));
-        (void)value_or_throw(load_display(settings.values().profile.display));
+        (void)value_or_throw(simulate_tracker_in_force(settings));
+        (void)value_or_throw(display_in_force(settings));
         FrameRunRequest request;
         request.settings = &settings;
         check_request(request);
@@ -89,8 +88,8 @@ doctor::Finding check_settings(Settings& settings) {
 
 /// The display's profile, or the one that is built in where that is none.
 present::DisplayProfile display_or_default(const Settings& settings) {
-    const auto display = load_display(settings.values().profile.display);
-    return display ? *display : value_or_throw(load_display(Settings().values().profile.display));
+    const auto display = display_in_force(settings);
+    return display ? *display : value_or_throw(display_in_force(Settings()));
 }
 
 ExitCode run_doctor(const DoctorCommand& command) {
@@ -113,8 +112,10 @@ ExitCode run_doctor(const DoctorCommand& command) {
     const doctor::ProbeLimits limits{
         .patience = std::chrono::milliseconds(std::llround(command.patience_s * 1e3)),
         .stop = interrupted};
-    add(doctor::check_vulkan(
-        {.device = values.vulkan.device, .validation = values.vulkan.validation}, limits));
+    add(doctor::check_vulkan({.device = values.vulkan.device,
+                              .device_origin = settings.origin("vulkan.device"),
+                              .validation = values.vulkan.validation},
+                             limits));
     add(doctor::check_openxr({.display = display,
                               .scale = values.render.scale,
                               .validation = values.target.validation,

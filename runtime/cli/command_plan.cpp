@@ -15,7 +15,7 @@
 #include "runtime/cli/nearest_name.h"
 #include "runtime/cli/output_file.h"
 #include "runtime/cli/plan_report.h"
-#include "runtime/cli/profiles.h"
+#include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/foveation/fovea_widening.h"
 #include "runtime/foveation/geisler_perry_acuity.h"
@@ -97,7 +97,7 @@ ExitCode plan(const PlanCommand& command) {
         return ExitCode::Ok;
     }
     const SettingValues& values = settings.values();
-    const present::DisplayProfile display = value_or_throw(load_display(values.profile.display));
+    const present::DisplayProfile display = value_or_throw(display_in_force(settings));
     const drivers::FixedGaze gaze = value_or_throw(drivers::parse_fixed_gaze(command.gaze));
     const gaze::Eye eye = command.eye == "left" ? gaze::Eye::Left : gaze::Eye::Right;
     const gaze::EyeView view =
@@ -133,7 +133,7 @@ ExitCode plan(const PlanCommand& command) {
     }
     const Selection methods_asked("method", command.method, method_names);
     const PlanSubject subject{
-        .settings = values, .field = field, .line = {.slope = values.acuity.mar}};
+        .settings = settings, .field = field, .line = {.slope = values.acuity.mar}};
     const auto plan_of = [&](const auto& wanted) {
         std::vector<PlanRow> rows;
         for (const PlanMethod& method : plan_methods()) {

@@ -4,8 +4,8 @@
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/gaze_sources.h"
+#include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_options.h"
-#include "runtime/cli/tracker_settings.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -20,7 +20,7 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
     Settings settings;
     value_or_throw(command.options.apply_to(settings, true));
     value_or_throw(default_tracker(command.gaze, settings));
-    const TrackerProfile tracker = value_or_throw(tracker_in_force(settings));
+    const TrackerProfile tracker = value_or_throw(simulate_tracker_in_force(settings));
     if (command.options.print_config) {
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;

@@ -4,9 +4,9 @@
 
 #include "drivers/trace/native_trace.h"
 #include "runtime/cli/commands.h"
+#include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/cli/simulate_tracker.h"
-#include "runtime/cli/tracker_settings.h"
 #include "sim/gaze_generator.h"
 
 namespace gazeloop::cli {
@@ -21,7 +21,7 @@ struct SimulateGazeCommand {
 ExitCode simulate_gaze(const SimulateGazeCommand& command) {
     Settings settings;
     value_or_throw(command.options.apply_to(settings, true));
-    value_or_throw(tracker_in_force(settings));
+    value_or_throw(simulate_tracker_in_force(settings));
     if (command.options.print_config) {
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;

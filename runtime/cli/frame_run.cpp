@@ -125,7 +125,8 @@ class FrameRun {
         }
         context_ = std::make_unique<render::VulkanContext>(
             render::VulkanOptions{.validation = values_.vulkan.validation,
-                                  .device = values_.vulkan.device},
+                                  .device = values_.vulkan.device,
+                                  .device_origin = request_.settings->origin("vulkan.device")},
             target_->vulkan_factory());
         target_->start(*context_);
         if (request_.openxr_gaze) {
@@ -170,7 +171,7 @@ class FrameRun {
         return {.method = method_named(values_.render.method),
                 .scene = values_.render.scene,
                 .samples = static_cast<std::uint32_t>(values_.render.spp),
-                .kfr = value_or_throw(kfr_parameters(values_)),
+                .kfr = value_or_throw(kfr_parameters(*request_.settings)),
                 .acuity = acuity_parameters(values_),
                 .extents = target_->extents(),
                 .format = target_->format(),

@@ -25,8 +25,7 @@ Expected<std::vector<double>> numbers(std::string_view text) {
         if (error != std::errc{} || end != item.data() + item.size()) {
             return std::unexpected(Error{
                 ExitCode::Usage,
-                fmt::format("kfr.polynomial = '{}': numbers with commas between are expected, e.g. "
-                            "0.25,0.25,0.5",
+                fmt::format("'{}': numbers with commas between are expected, e.g. 0.25,0.25,0.5",
                             text)});
         }
         list.push_back(value);
@@ -34,7 +33,29 @@ Expected<std::vector<double>> numbers(std::string_view text) {
     return list;
 }
 
-Expected<foveation::RadialKernel> kernel(const decltype(SettingValues::kfr)& kfr) {
+Expected<foveation::RadialKernel> polynomial_kernel(std::string_view text) {
+    const auto coefficients = numbers(text);
+    if (!coefficients) {
+        return std::unexpected(coefficients.error());
+    }
+    auto polynomial = foveation::PolynomialKernel::create(*coefficients);
+    if (!polynomial) {
+        return std::unexpected(Error{polynomial.error().code,
+                                     fmt::format("'{}': {}", text, polynomial.error().message)});
+    }
+    return std::move(*polynomial);
+}
+
+Expected<foveation::RadialKernel> table_kernel(std::string_view samples) {
+    auto table = foveation::read_kernel_samples(samples, "sample");
+    if (!table) {
+        return std::unexpected(table.error());
+    }
+    return std::move(*table);
+}
+
+Expected<foveation::RadialKernel> kernel(const Settings& settings) {
+    const auto& kfr = settings.values().kfr;
     if (kfr.kernel == "power") {
         return kfr.alpha;
     }
@@ -48,28 +69,17 @@ Expected<foveation::RadialKernel> kernel(const decltype(SettingValues::kfr)& kfr
         return foveation::ExponentialKernel{};
     }
     if (kfr.kernel == "polynomial") {
-        const auto coefficients = numbers(kfr.polynomial);
-        if (!coefficients) {
-            return std::unexpected(coefficients.error());
-        }
-        auto polynomial = foveation::PolynomialKernel::create(*coefficients);
-        if (!polynomial) {
-            return std::unexpected(Error{polynomial.error().code,
-                                         fmt::format("kfr.polynomial = {}: {}", kfr.polynomial,
-                                                     polynomial.error().message)});
-        }
-        return std::move(*polynomial);
+        return settings.at_origin("kfr.polynomial", polynomial_kernel(kfr.polynomial));
     }
     if (kfr.kernel_samples.empty()) {
-        return std::unexpected(Error{ExitCode::Usage,
-                                     "kfr.kernel = table: its file is missing; state it with "
-                                     "kfr.kernel_table, or its samples with kfr.kernel_samples"});
+        return settings.at_origin(
+            "kfr.kernel",
+            Expected<foveation::RadialKernel>(std::unexpected(Error{
+                ExitCode::Usage,
+                "the table's file is missing; state it with kfr.kernel_table, or its samples with "
+                "kfr.kernel_samples"})));
     }
-    auto table = foveation::read_kernel_samples(kfr.kernel_samples, "kfr.kernel_samples");
-    if (!table) {
-        return std::unexpected(table.error());
-    }
-    return std::move(*table);
+    return settings.at_origin("kfr.kernel_samples", table_kernel(kfr.kernel_samples));
 }
 
 }  // namespace
@@ -79,7 +89,7 @@ Expected<void> take_kernel_table(Settings& settings) {
     if (settings.values().kfr.kernel != "table" || file.empty()) {
         return {};
     }
-    const auto table = foveation::load_kernel_table(file);
+    const auto table = settings.at_origin("kfr.kernel_table", foveation::load_kernel_table(file));
     if (!table) {
         return std::unexpected(table.error());
     }
@@ -90,18 +100,19 @@ Expected<void> take_kernel_table(Settings& settings) {
     return settings.set("kfr.kernel_table", "", "taken");
 }
 
-Expected<foveation::KfrParameters> kfr_parameters(const SettingValues& values) {
-    auto made = kernel(values.kfr);
+Expected<foveation::KfrParameters> kfr_parameters(const Settings& settings) {
+    auto made = kernel(settings);
     if (!made) {
         return std::unexpected(made.error());
     }
-    return foveation::KfrParameters{.sigma = values.kfr.sigma,
+    const auto& kfr = settings.values().kfr;
+    return foveation::KfrParameters{.sigma = kfr.sigma,
                                     .kernel = std::move(*made),
-                                    .disc = values.kfr.disc,
-                                    .border_px = values.kfr.border_px,
-                                    .lp_width = static_cast<std::uint32_t>(values.kfr.lp_width),
-                                    .lp_height = static_cast<std::uint32_t>(values.kfr.lp_height),
-                                    .close_hole = values.kfr.close_hole};
+                                    .disc = kfr.disc,
+                                    .border_px = kfr.border_px,
+                                    .lp_width = static_cast<std::uint32_t>(kfr.lp_width),
+                                    .lp_height = static_cast<std::uint32_t>(kfr.lp_height),
+                                    .close_hole = kfr.close_hole};
 }
 
 }  // namespace gazeloop::cli

@@ -11,8 +11,8 @@ namespace gazeloop::cli {
 Expected<void> take_kernel_table(Settings& settings);
 
 /// What the settings kfr.* say. Errors: a polynomial that cannot be a kernel or is no list of
-/// numbers, a missing table (Usage); samples that are no kernel (BadInput). Precondition:
-/// take_kernel_table.
-Expected<foveation::KfrParameters> kfr_parameters(const SettingValues& values);
+/// numbers, a missing table (Usage); samples that are no kernel (BadInput); with the
+/// place where it was set. Precondition: take_kernel_table.
+Expected<foveation::KfrParameters> kfr_parameters(const Settings& settings);
 
 }  // namespace gazeloop::cli

@@ -36,7 +36,7 @@ Expected<PlannedMethod> plan_full(const PlanSubject& subject) {
 }
 
 Expected<PlannedMethod> plan_kfr(const PlanSubject& subject) {
-    const auto& set = subject.settings.kfr;
+    const auto& set = subject.settings.values().kfr;
     const auto stated = kfr_parameters(subject.settings);
     if (!stated) {
         return std::unexpected(stated.error());
@@ -70,7 +70,7 @@ Expected<PlannedMethod> plan_kfr(const PlanSubject& subject) {
 }
 
 Expected<PlannedMethod> plan_acuity(const PlanSubject& subject) {
-    const foveation::AcuityParameters parameters = acuity_parameters(subject.settings);
+    const foveation::AcuityParameters parameters = acuity_parameters(subject.settings.values());
     const gaze::EyeView& view = subject.field.view();
     const auto profile = foveation::AcuityProfile::create(parameters, view);
     if (!profile) {
@@ -95,7 +95,7 @@ Expected<PlannedMethod> plan_acuity(const PlanSubject& subject) {
 }
 
 Expected<PlannedMethod> plan_layers(const PlanSubject& subject) {
-    const auto& set = subject.settings.layers;
+    const auto& set = subject.settings.values().layers;
     foveation::LayerOptions options{.layers = static_cast<int>(set.n), .weights = {1.0}};
     options.weights.resize(static_cast<std::size_t>(set.n), set.outer_weight);
     options.second_factor = set.s2_fixed ? 2.0 : 0.0;
@@ -124,7 +124,7 @@ Expected<PlannedMethod> plan_layers(const PlanSubject& subject) {
 }
 
 Expected<PlannedMethod> plan_rings(const PlanSubject& subject) {
-    const auto& set = subject.settings.rings;
+    const auto& set = subject.settings.values().rings;
     const auto tile_px = static_cast<std::uint32_t>(set.tile_px);
     foveation::RingParameters parameters{set.inner_deg, set.outer_deg, tile_px};
     if (set.inner_deg == 0.0 && set.outer_deg == 0.0) {
@@ -153,7 +153,7 @@ Expected<PlannedMethod> plan_rings(const PlanSubject& subject) {
 }
 
 Expected<PlannedMethod> plan_sparse(const PlanSubject& subject) {
-    const auto& set = subject.settings.sparse;
+    const auto& set = subject.settings.values().sparse;
     const bool blue_noise = set.placement == "blue_noise";
     const foveation::SparseParameters parameters{
         .share = set.share,

@@ -17,7 +17,7 @@ namespace gazeloop::cli {
 
 /// What a method is to plan: one eye's picture at one gaze.
 struct PlanSubject {
-    const SettingValues& settings;
+    const Settings& settings;
     const foveation::GazeField& field;
     foveation::MarLine line;
 };

@@ -13,12 +13,14 @@ namespace gazeloop::cli {
 void check_request(const FrameRunRequest& request) {
     const SettingValues& values = request.settings->values();
     if (values.target.name == "openxr" && !values.vulkan.device.empty()) {
-        throw SetupError(ExitCode::Usage,
-                         "vulkan.device: over OpenXR the runtime chooses the device; use it "
-                         "with --target headless");
+        throw SetupError(
+            ExitCode::Usage,
+            fmt::format("{}: vulkan.device: over OpenXR the runtime chooses the device; use it "
+                        "with --target headless",
+                        request.settings->origin("vulkan.device")));
     }
     if (values.render.method == "kfr") {
-        (void)value_or_throw(kfr_parameters(values));
+        (void)value_or_throw(kfr_parameters(*request.settings));
     }
     if (request.openxr_gaze &&
         (values.target.name != "openxr" || request.clock != RunClock::Wall)) {

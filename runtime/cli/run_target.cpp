@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "runtime/cli/profiles.h"
+#include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/session_summary.h"
 #include "runtime/present/headless_target.h"
 #include "runtime/present/scaled_extent.h"
@@ -36,7 +36,7 @@ gaze::PerEye<vk::Extent2D> scaled_extents(const present::DisplayProfile& display
 present::DisplayProfile display_of(const FrameRunRequest& request) {
     const SettingValues& values = request.settings->values();
     if (request.clock != RunClock::Recorded || values.target.name != "headless") {
-        return value_or_throw(load_display(values.profile.display));
+        return value_or_throw(display_in_force(*request.settings));
     }
     return recorded_display(*request.session);
 }

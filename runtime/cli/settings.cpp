@@ -186,7 +186,7 @@ Settings::Settings() {
         {"kfr.kernel_samples", "of the kernel table: x,y;x,y;... from 0,0 to 1,1",
          Choice{&v.kfr.kernel_samples, {}}},
         {"kfr.kernel_table", "of the kernel table: a .csv or .toml file to take its samples from",
-         Choice{&v.kfr.kernel_table, {}}},
+         Path{&v.kfr.kernel_table, ""}},
         {"kfr.lp_height", "rows of the LP-buffer; 0: the picture's over sigma",
          Whole{&v.kfr.lp_height, 0, foveation::LpSize::kMaxSide}},
         {"kfr.lp_width", "columns of the LP-buffer; 0: the picture's over sigma",
@@ -200,8 +200,8 @@ Settings::Settings() {
          Number{&v.layers.outer_weight, 0.05, 1.0}},
         {"layers.s2_fixed", "middle layer at 2x2 pixels, as published (layers.n over 2)",
          &v.layers.s2_fixed},
-        {"profile.display", "display profile, or a .toml file", Choice{&v.profile.display, {}}},
-        {"profile.tracker", "tracker profile, or a .toml file", Choice{&v.profile.tracker, {}}},
+        {"profile.display", "display profile, or a .toml file", Path{&v.profile.display, ".toml"}},
+        {"profile.tracker", "tracker profile, or a .toml file", Path{&v.profile.tracker, ".toml"}},
         {"render.depth", "hand depth images to the runtime, where it takes them", &v.render.depth},
         {"render.frames_in_flight", "frames that the GPU may be working on",
          Whole{&v.render.frames_in_flight, 1, 3}},
@@ -259,11 +259,11 @@ std::vector<std::string> Settings::keys() const {
 }
 
 Expected<void> Settings::set(std::string_view key, std::string_view text, std::string_view origin) {
-    return assign(key, text, Written::Bare, origin);
+    return assign(key, text, Written::Bare, origin, "");
 }
 
 Expected<void> Settings::assign(std::string_view key, std::string_view text, Written written,
-                                std::string_view origin) {
+                                std::string_view origin, const std::filesystem::path& folder) {
     const auto entry = std::ranges::find(entries_, key, &Entry::key);
     if (entry == entries_.end()) {
         const bool group =
@@ -325,10 +325,11 @@ Expected<void> Settings::assign(std::string_view key, std::string_view text, Wri
                                               text, std::numeric_limits<std::uint64_t>::max()));
         }
         *seed->value = *value;
+    } else if (!is({Written::Text})) {
+        return wrong_kind("a text in quotes");
+    } else if (Path* const path = std::get_if<Path>(&entry->slot)) {
+        *path->value = path->is_file(text) ? (folder / text).string() : std::string(text);
     } else {
-        if (!is({Written::Text})) {
-            return wrong_kind("a text in quotes");
-        }
         Choice& choice = std::get<Choice>(entry->slot);
         if (!choice.names.empty() && std::ranges::find(choice.names, text) == choice.names.end()) {
             const std::string_view what = key.substr(key.find('.') + 1);
@@ -378,8 +379,8 @@ Expected<void> Settings::load(const std::filesystem::path& file) {
     // The first of several errors is the one that stands first.
     std::ranges::stable_sort(lines, {}, &Assignment::line);
     for (const Assignment& line : lines) {
-        if (auto set =
-                assign(line.key, line.text, line.written, fmt::format("{}:{}", name, line.line));
+        if (auto set = assign(line.key, line.text, line.written,
+                              fmt::format("{}:{}", name, line.line), file.parent_path());
             !set) {
             return set;
         }
@@ -433,12 +434,33 @@ std::string Settings::text(const Entry& entry) {
     if (bool* const* const flag = std::get_if<bool*>(&entry.slot)) {
         return **flag ? "true" : "false";
     }
+    if (const auto* const path = std::get_if<Path>(&entry.slot)) {
+        // In full, since what is printed or recorded may be read elsewhere.
+        std::error_code no_current_folder;
+        const std::filesystem::path full =
+            path->is_file(*path->value) ? std::filesystem::absolute(*path->value, no_current_folder)
+                                        : std::filesystem::path();
+        return full.empty() ? *path->value : full.string();
+    }
     return *std::get<Choice>(entry.slot).value;
 }
 
+const Settings::Entry& Settings::entry(std::string_view key) const {
+    return *std::ranges::find(entries_, key, &Entry::key);
+}
+
+const std::string& Settings::origin(std::string_view key) const { return entry(key).origin; }
+
+Error Settings::at_origin(std::string_view key, const Error& error) const {
+    const Entry& at = entry(key);
+    return at.origin == kBuiltIn
+               ? error
+               : Error{error.code, fmt::format("{}: {}: {}", at.origin, key, error.message)};
+}
+
 std::string Settings::with_origin(std::string_view key) const {
-    const Entry& entry = *std::ranges::find(entries_, key, &Entry::key);
-    return fmt::format("{} = {} ({})", key, text(entry), entry.origin);
+    const Entry& at = entry(key);
+    return fmt::format("{} = {} ({})", key, text(at), at.origin);
 }
 
 Expected<void> Settings::check() const {
@@ -467,8 +489,9 @@ std::string Settings::describe() const {
     std::string table;
     for (const Entry& entry : entries_) {
         // A seed may be above what TOML's numbers hold.
-        const bool is_text =
-            std::holds_alternative<Choice>(entry.slot) || std::holds_alternative<Seed>(entry.slot);
+        const bool is_text = std::holds_alternative<Choice>(entry.slot) ||
+                             std::holds_alternative<Path>(entry.slot) ||
+                             std::holds_alternative<Seed>(entry.slot);
         table +=
             fmt::format("{:28} = {:12} # {:9} {}\n", entry.key,
                         is_text ? quoted(text(entry)) : text(entry), entry.origin, entry.meaning);

@@ -120,8 +120,9 @@ class Settings {
     Expected<void> set_default(std::string_view key, std::string_view text,
                                std::string_view origin);
 
-    /// Sets all keys of a TOML file, which must give each value in its kind. Errors: BadInput if it
-    /// cannot be read or parsed (line named), else as set().
+    /// Sets all keys of a TOML file, which must give each value in its kind. A relative path in it
+    /// starts at the file's folder. Errors: BadInput if it cannot be read or parsed (line named),
+    /// else as set().
     Expected<void> load(const std::filesystem::path& file);
 
     /// /etc/gazeloop/config.toml and $XDG_CONFIG_HOME/gazeloop/config.toml, in the order in which
@@ -136,6 +137,19 @@ class Settings {
 
     /// Whether the settings fit together. Errors (Usage): which two do not, and what would.
     [[nodiscard]] Expected<void> check() const;
+
+    /// Where a key's value comes from: "FILE:LINE", "--set", a flag or "built-in".
+    [[nodiscard]] const std::string& origin(std::string_view key) const;
+
+    /// What came of a key's value; an error with the place where that was set and the key in front,
+    /// as it is where nobody has set it.
+    template <typename T>
+    [[nodiscard]] Expected<T> at_origin(std::string_view key, Expected<T> result) const {
+        if (!result) {
+            return std::unexpected(at_origin(key, result.error()));
+        }
+        return result;
+    }
 
     /// Key and value of every setting, in the order of the keys.
     [[nodiscard]] std::vector<session::NamedValue> list() const;
@@ -163,16 +177,28 @@ class Settings {
         std::string* value;
         std::vector<std::string> names;  ///< empty: any text
     };
+    /// A file, or the name of something built in, which does not end in the extension.
+    struct Path {
+        std::string* value;
+        std::string_view extension;  ///< empty: always a file
+
+        [[nodiscard]] bool is_file(std::string_view text) const {
+            return !text.empty() && text.ends_with(extension);
+        }
+    };
     struct Entry {
         std::string key;
         std::string meaning;
-        std::variant<Number, Whole, bool*, Seed, Choice> slot;
+        std::variant<Number, Whole, bool*, Seed, Choice, Path> slot;
         std::string origin{kBuiltIn};
     };
 
+    /// Relative paths start at `folder`.
     Expected<void> assign(std::string_view key, std::string_view text, Written written,
-                          std::string_view origin);
+                          std::string_view origin, const std::filesystem::path& folder);
     [[nodiscard]] static std::string text(const Entry& entry);
+    [[nodiscard]] const Entry& entry(std::string_view key) const;
+    [[nodiscard]] Error at_origin(std::string_view key, const Error& error) const;
     [[nodiscard]] std::string with_origin(std::string_view key) const;
     [[nodiscard]] std::vector<std::string> keys() const;
 

@@ -13,8 +13,9 @@ namespace gazeloop::doctor {
 using Findings = std::vector<Finding>;
 
 struct VulkanChecks {
-    std::string device;       ///< the setting vulkan.device
-    bool validation = false;  ///< the setting vulkan.validation
+    std::string device;         ///< the setting vulkan.device
+    std::string device_origin;  ///< where that was set
+    bool validation = false;    ///< the setting vulkan.validation
 };
 
 /// Loader, each device, the one that the loop would choose, its clock, validation layers. In a

@@ -55,9 +55,14 @@ class RuntimeProbe {
                  {"manifest", choice.manifest}, {"reason", choice.reason}, {"library", library}}});
         report_.step("loading the OpenXR runtime");
         list_extensions();
-        report_.step("creating an OpenXR instance");
+        report_.step(
+            "creating an OpenXR instance",
+            fmt::format("start the runtime's service, if it is one with a service (Monado: "
+                        "monado-service); or {}",
+                        kOtherRuntime));
         create_instance();
-        report_.step("asking for the headset");
+        report_.step("asking for the headset",
+                     fmt::format("connect the headset and switch it on; or {}", kOtherRuntime));
         describe_system();
         report_.step("asking for eye gaze");
         check_eye_gaze();

@@ -92,6 +92,7 @@ void read_messages(std::string& text, ProbeResult& result, bool& ended) {
         }
         if (message.contains("step")) {
             result.step = message["step"];
+            result.remedy = message["remedy"];
         } else if (message.contains("finding")) {
             result.findings.push_back(message["finding"]);
         } else if (message.contains("failed")) {
@@ -131,18 +132,21 @@ void ProbeReport::send(const nlohmann::json& message) const {
     }
 }
 
-void ProbeReport::step(std::string_view what) { send({{"step", what}}); }
+void ProbeReport::step(std::string_view what, std::string_view remedy) {
+    send({{"step", what}, {"remedy", remedy}});
+}
 void ProbeReport::add(const Finding& finding) { send({{"finding", finding}}); }
 void ProbeReport::failed(std::string_view why) { send({{"failed", why}}); }
 void ProbeReport::ended() { send({{"ended", true}}); }
 
-std::vector<Finding> ProbeResult::findings_and_end(std::string_view check, std::string_view remedy,
+std::vector<Finding> ProbeResult::findings_and_end(std::string_view check,
+                                                   std::string_view general_remedy,
                                                    bool stops_loop) && {
     if (!broken.empty()) {
         findings.push_back({.check = std::string(check),
                             .verdict = Verdict::Failure,
                             .found = step.empty() ? broken : fmt::format("{}: {}", step, broken),
-                            .remedy = std::string(remedy),
+                            .remedy = remedy.empty() ? std::string(general_remedy) : remedy,
                             .stops_loop = stops_loop});
     }
     return std::move(findings);

@@ -16,8 +16,9 @@ class ProbeReport {
   public:
     explicit ProbeReport(int pipe) : pipe_(pipe) {}
 
-    /// What is tried next, "loading the runtime".
-    void step(std::string_view what);
+    /// What is tried next, "loading the runtime", and what to do if it fails, where that is
+    /// something of its own.
+    void step(std::string_view what, std::string_view remedy = "");
     void add(const Finding& finding);
     /// Why the probe could not go on.
     void failed(std::string_view why);
@@ -32,12 +33,13 @@ class ProbeReport {
 struct ProbeResult {
     std::vector<Finding> findings;
     std::string step;    ///< the last one begun
+    std::string remedy;  ///< its own, or empty
     std::string broken;  ///< empty: it ran to its end; else how it ended, "crashed (SIGSEGV)"
 
     /// The findings, and if it broke one more, a Failure named `check`, that says how and while
-    /// doing what.
+    /// doing what; `general_remedy` is for steps without one of their own.
     [[nodiscard]] std::vector<Finding> findings_and_end(std::string_view check,
-                                                        std::string_view remedy,
+                                                        std::string_view general_remedy,
                                                         bool stops_loop) &&;
 };
 

@@ -149,18 +149,24 @@ void probe_vulkan(const VulkanChecks& asked, ProbeReport& report) {
     report.add(check_validation(context, asked.validation));
     report.step("loading the Vulkan drivers");
     const vk::ApplicationInfo application("gazeloop doctor", 1, "gazeloop", 1, VK_API_VERSION_1_3);
+    std::size_t devices = 0;
     try {
         const vk::raii::Instance instance(context, vk::InstanceCreateInfo({}, &application));
-        std::size_t index = 0;
         for (const vk::raii::PhysicalDevice& device : vk::raii::PhysicalDevices(instance)) {
-            report.add(describe_device(device, index++));
+            report.add(describe_device(device, devices++));
         }
     } catch (const vk::SystemError&) {
         // No driver at all: what follows says so, with the remedy.
         report.step("looking for Vulkan drivers");
     }
-    report.step("opening the Vulkan device that the loop takes");
-    const render::VulkanContext chosen({.validation = false, .device = asked.device}, nullptr);
+    report.step("opening the Vulkan device that the loop takes",
+                asked.device.empty() || devices == 0
+                    ? ""
+                    : "let vulkan.device be part of the name of one of the devices above that has "
+                      "all that is needed, or leave it out");
+    const render::VulkanContext chosen(
+        {.validation = false, .device = asked.device, .device_origin = asked.device_origin},
+        nullptr);
     report.add(describe_choice(chosen));
     report.step("reading the GPU's clock");
     report.add(check_gpu_clock(chosen));

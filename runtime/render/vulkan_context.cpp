@@ -161,9 +161,9 @@ void VulkanContext::choose_device(const VulkanOptions& options, VulkanFactory* f
         if (!options.device.empty() && !seen.empty()) {
             throw SetupError(
                 ExitCode::NoDevice,
-                fmt::format("vulkan.device = '{}': no usable Vulkan device has that in "
-                            "its name; there are: {}",
-                            options.device, seen));
+                fmt::format("{}: vulkan.device = '{}': no usable Vulkan device has that in its "
+                            "name; there are: {}",
+                            options.device_origin, options.device, seen));
         }
         throw no_device(seen.empty() ? std::string("there is no Vulkan device")
                                      : "no Vulkan device has all that is needed: " + seen);

@@ -17,6 +17,7 @@ inline constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 struct VulkanOptions {
     bool validation = false;  ///< Khronos validation layer with synchronization validation
     std::string device;  ///< part of the device's name; empty: the best one (no factory choice)
+    std::string device_origin = "setting";  ///< where that was asked for, for messages
 };
 
 /// Instance, device and queue. Vulkan 1.3 with dynamic rendering, synchronization2 and timeline

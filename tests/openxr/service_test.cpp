@@ -92,6 +92,10 @@ TEST_F(Service, IsMissedBeforeTheFirstFrame) {
     EXPECT_NE(result.err.find("did not start"), std::string::npos) << result.err;
     EXPECT_NE(result.err.find("is its service running"), std::string::npos) << result.err;
     EXPECT_FALSE(std::filesystem::exists(session()));
+    const ProgramResult doctor =
+        run_gazeloop({"doctor"}, {.environment = MonadoService::client_environment(scratch_)});
+    EXPECT_EQ(doctor.exit_code, 4) << doctor.err;
+    EXPECT_NE(doctor.out.find("-> start the runtime's service"), std::string::npos) << doctor.out;
 }
 
 TEST_F(Service, ServesAWholeRun) {

@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
                  {"run", "--target", "headless", "--frames", "1", "--set", "kfr.kernel=table",
                   "--set", "kfr.kernel_samples=0,0;0.5,0.7;0.6,0.6;1,1"},
                  3,
-                 "kfr.kernel_samples:3: (0.6, 0.6) follows (0.5, 0.7)"},
+                 "--set: kfr.kernel_samples: sample:3: (0.6, 0.6) follows (0.5, 0.7)"},
         BadInput{"sigma_comma", {"run", "--sigma", "1,8"}, 2, "not a number"},
         BadInput{"alpha_large", {"run", "--alpha", "17"}, 2, "must lie in [0.25, 16]"},
         BadInput{"spp", {"run", "--spp", "17"}, 2, "must lie in [1, 16]"},

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <tuple>
 
 #include "tests/support/comma_locale.h"
 #include "tests/support/preload.h"
@@ -262,6 +263,58 @@ TEST_F(Configuration, AssignmentsAreCheckedToo) {
         EXPECT_EQ(result.exit_code, 2) << assignment;
         EXPECT_TRUE(has(result.err, message)) << assignment << ": " << result.err;
     }
+}
+
+// What a value names is looked for only when it is needed; the message still says where it stands.
+TEST_F(Configuration, WhatAValueNamesIsMissedAtItsLine) {
+    const std::tuple<const char*, int, const char*> refusals[] = {
+        {"\nprofile.display = \"fove1\"\n", 2, ":2: profile.display: unknown display 'fove1'"},
+        {"[profile]\ntracker = \"nobody\"\n", 2, ":2: profile.tracker: unknown tracker 'nobody'"},
+        {"profile.display = \"none.toml\"\n", 3, ":1: profile.display: "},
+        {"kfr.kernel = \"table\"\nkfr.kernel_table = \"none.csv\"\n", 3, ":2: kfr.kernel_table: "},
+        {"kfr.kernel = \"table\"\n", 2, ":1: kfr.kernel: the table's file is missing"},
+        {"kfr.kernel = \"polynomial\"\nkfr.polynomial = \"1,x\"\n", 2, ":2: kfr.polynomial: '1,x'"},
+        {"kfr.kernel = \"polynomial\"\nkfr.polynomial = [-1]\n", 2, ":2: kfr.polynomial: '-1'"},
+        {"target.name = \"headless\"\nvulkan.device = \"Voodoo\"\n", 4,
+         ":2: vulkan.device = 'Voodoo'"},
+        {"vulkan.device = \"Voodoo\"\n", 2, ":1: vulkan.device: over OpenXR the runtime chooses"},
+    };
+    for (const auto& [text, code, message] : refusals) {
+        const std::string file = folder_.write("a.toml", text);
+        const ProgramResult result =
+            run_gazeloop({"run", "--frames", "1", "--config", file},
+                         {.environment = {{"XDG_CONFIG_HOME", folder_.file("home")}}});
+        EXPECT_EQ(result.exit_code, code) << result.err;
+        EXPECT_TRUE(has(result.err, file + message)) << result.err;
+    }
+}
+
+TEST_F(Configuration, PathsInAFileStartAtItsFolder) {
+    std::filesystem::create_directories(home("gazeloop/mine"));
+    std::filesystem::copy_file(GAZELOOP_SOURCE_DIR "/config/displays/vive_pro_eye.toml",
+                               home("gazeloop/mine/display.toml"));
+    std::filesystem::copy_file(GAZELOOP_SOURCE_DIR "/config/trackers/vive_pro_eye.toml",
+                               home("gazeloop/tracker.toml"));
+    std::ofstream(home("gazeloop/kernel.csv")) << "0,0\n0.5,0.25\n1,1\n";
+    write_users(
+        "kfr.kernel = \"table\"\nkfr.kernel_table = \"kernel.csv\"\n"
+        "profile.display = \"mine/display.toml\"\nprofile.tracker = \"tracker.toml\"\n");
+    const ProgramResult result = print({});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    // In full: what is printed is a configuration again, wherever it is put.
+    const std::string display = home("gazeloop/mine/display.toml");
+    EXPECT_TRUE(has(line_of(result, "profile.display"), "'" + display + "'")) << result.out;
+    EXPECT_TRUE(has(line_of(result, "sim.delay_ms"), "= 50 ")) << result.out;
+    EXPECT_TRUE(has(line_of(result, "kfr.kernel_samples"), "0.5,0.25")) << result.out;
+    const ProgramResult run =
+        run_gazeloop({"run", "--target", "headless", "--frames", "2", "--set", "render.scale=0.02"},
+                     {.environment = {{"XDG_CONFIG_HOME", folder_.file("home")}}});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    // On the command line a path starts where the person is; a name stays a name.
+    const ProgramResult named = print({"--display", "psvr2", "--tracker", "./none.toml"});
+    EXPECT_EQ(named.exit_code, 3);
+    EXPECT_TRUE(has(named.err, "--tracker: profile.tracker: ./none.toml: ")) << named.err;
+    EXPECT_TRUE(has(line_of(print({"--display", "psvr2"}), "profile.display"), "'psvr2'"));
 }
 
 // A library that sets the user's locale must not change a digit of what is read or written.

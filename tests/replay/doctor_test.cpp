@@ -215,6 +215,19 @@ TEST(Doctor, SaysWhichSettingsRunWouldRefuse) {
     EXPECT_EQ(diagnose({"--target", "headless"}).verdict("configuration.settings"), "ok");
 }
 
+TEST(Doctor, SaysWhatToDoAboutADeviceThatIsNotThere) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("a.toml", "vulkan.device = \"Voodoo\"\n");
+    const Diagnosis diagnosis = diagnose({"--target", "headless", "--config", file});
+    EXPECT_EQ(diagnosis.exit_code, 4);
+    const nlohmann::json choice = diagnosis["vulkan.choice"];
+    EXPECT_NE(choice["found"].get<std::string>().find(file + ":1: vulkan.device = 'Voodoo'"),
+              std::string::npos)
+        << choice;
+    EXPECT_EQ(choice["remedy"].get<std::string>().find("let vulkan.device be part of the name"), 0U)
+        << choice;
+}
+
 TEST(Doctor, SaysThatANamedConfigurationIsNotThere) {
     const Diagnosis diagnosis =
         diagnose({"--target", "headless", "--config", "/nowhere/config.toml"});

@@ -6,7 +6,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "config/built_in_files.h"
-#include "runtime/cli/tracker_settings.h"
+#include "runtime/cli/profiles_in_force.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::cli {
@@ -164,11 +164,11 @@ TEST(Profiles, NameAllThatThereAre) {
                                HasSubstr("varjo_xr4"), HasSubstr("vive_pro_eye")));
 }
 
-TEST(TrackerInForce, FillsInWhatNobodyHasSet) {
+TEST(SimulateTrackerInForce, FillsInWhatNobodyHasSet) {
     Settings settings;
     ASSERT_TRUE(settings.set("profile.tracker", "vive_pro_eye", "--tracker").has_value());
     ASSERT_TRUE(settings.set("sim.noise_deg", "1", "--set").has_value());
-    ASSERT_TRUE(tracker_in_force(settings).has_value());
+    ASSERT_TRUE(simulate_tracker_in_force(settings).has_value());
     const sim::GazeSimulation& simulation = settings.values().sim;
     EXPECT_EQ(simulation.tracker.noise_deg, 1.0);
     EXPECT_EQ(simulation.tracker.delay_ms, 50.0);
