@@ -15,6 +15,9 @@ namespace gazeloop::drivers {
 /// so that the quickest report took no time at all (TraceSource adds the tracker's delay). Times
 /// increase: samples whose time did not advance were dropped and counted. At least one sample has a
 /// valid eye.
+///
+/// A recorded session's gaze is in the order of its arrival, the first of it at 0, as it was:
+/// `sampled` may be unknown or go back, `ready` may be known.
 struct Trace {
     std::string file;
     std::string format;  ///< "gazeloop", "htc-vive-pro"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <utility>
 
 namespace gazeloop::drivers {
@@ -33,15 +34,25 @@ TraceSource::TraceSource(Trace trace, std::int64_t start_ns, std::int64_t delay_
     const gaze::Pose recentre =
         first_head != trace_.samples.end() ? recentring(*first_head->head) : gaze::Pose{};
     std::int64_t arrived_before_ns = start_ns;
+    std::int64_t head_before_ns = std::numeric_limits<std::int64_t>::min();
     for (gaze::GazeSample& sample : trace_.samples) {
         const std::int64_t reported_ns =
             sample.arrived.known() ? sample.arrived.ns : sample.sampled.ns;
-        sample.sampled = {start_ns + sample.sampled.ns, latency::StampKind::Modelled};
+        for (latency::Stamp* const stamp : {&sample.sampled, &sample.ready}) {
+            if (stamp->known()) {
+                *stamp = {start_ns + stamp->ns, latency::StampKind::Modelled};
+            }
+        }
         arrived_before_ns = std::max(arrived_before_ns, start_ns + reported_ns + delay_ns);
         sample.arrived = {arrived_before_ns, latency::StampKind::Modelled};
         if (sample.head) {
             sample.head = gaze::compose(recentre, *sample.head);
-            head_track_.add(sample.sampled.ns, *sample.head);
+            const std::int64_t head_ns =
+                sample.sampled.known() ? sample.sampled.ns : sample.arrived.ns;
+            if (head_ns >= head_before_ns) {
+                head_track_.add(head_ns, *sample.head);
+                head_before_ns = head_ns;
+            }
         }
     }
 }

@@ -11,7 +11,7 @@
 #include "drivers/trace/read_trace.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/gaze_sources.h"
-#include "runtime/cli/profiles.h"
+#include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/session/session_file.h"
 
@@ -31,7 +31,7 @@ struct ReplayCommand {
 ExitCode replay_trace(const ReplayCommand& command, drivers::Trace trace, Settings& settings,
                       FrameRunRequest& request) {
     value_or_throw(settings.check());
-    const TrackerProfile tracker = value_or_throw(load_tracker(settings.values().profile.tracker));
+    const TrackerProfile tracker = value_or_throw(tracker_in_force(settings));
     // A session knows when its samples arrived; other traces get the profile's delay.
     const std::int64_t delay_ns = trace.format == kSessionFormat ? 0 : tracker.delay_ns;
     request.make_source = trace_player(std::move(trace), delay_ns, command.speed);
@@ -40,7 +40,8 @@ ExitCode replay_trace(const ReplayCommand& command, drivers::Trace trace, Settin
     return frame_run(request);
 }
 
-/// A session's gaze as a trace that starts at 0.
+/// A session's gaze as a trace, in the order in which it arrived, the first of it at 0. What has no
+/// known time keeps none: losses, and what came before the tracker's clock was known.
 drivers::Trace trace_of(const session::SessionFile& session, const std::string& file) {
     drivers::Trace trace;
     trace.file = file;
@@ -50,16 +51,22 @@ drivers::Trace trace_of(const session::SessionFile& session, const std::string& 
         throw SetupError(ExitCode::BadInput,
                          fmt::format("{}: the session holds no gaze to replay", file));
     }
-    const std::int64_t start_ns = session.samples.front().sample.sampled.ns;
+    const gaze::GazeSample& first = session.samples.front().sample;
+    const latency::Stamp start = first.arrived.known() ? first.arrived : first.sampled;
     for (const session::RecordedSample& recorded : session.samples) {
-        if (!trace.samples.empty() &&
-            recorded.sample.sampled.ns - start_ns < trace.samples.back().sampled.ns) {
-            ++trace.rows_out_of_order;
-            continue;
+        gaze::GazeSample sample = recorded.sample;
+        for (latency::Stamp* const stamp : {&sample.sampled, &sample.ready, &sample.arrived}) {
+            // Eleven days; --speed may stretch them a thousandfold.
+            constexpr std::int64_t kLongest_ns = 1'000'000'000'000'000;
+            std::int64_t since_start_ns = 0;
+            if (__builtin_sub_overflow(stamp->ns, start.ns, &since_start_ns) ||
+                since_start_ns < -kLongest_ns || since_start_ns > kLongest_ns) {
+                stamp->kind = latency::StampKind::Unknown;
+            }
+            *stamp =
+                stamp->known() ? latency::Stamp{since_start_ns, stamp->kind} : latency::Stamp{};
         }
-        trace.samples.push_back(recorded.sample);
-        trace.samples.back().sampled.ns -= start_ns;
-        trace.samples.back().arrived.ns -= start_ns;
+        trace.samples.push_back(sample);
     }
     return trace;
 }

@@ -77,8 +77,14 @@ Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfi
 
 MakeSource trace_player(drivers::Trace trace, std::int64_t delay_ns, double speed) {
     for (gaze::GazeSample& sample : trace.samples) {
-        for (latency::Stamp* const stamp : {&sample.sampled, &sample.arrived}) {
-            stamp->ns = std::llround(static_cast<double>(stamp->ns) / speed);
+        const auto quicker = [speed](std::int64_t ns) {
+            return std::llround(static_cast<double>(ns) / speed);
+        };
+        for (latency::Stamp* const stamp : {&sample.sampled, &sample.ready, &sample.arrived}) {
+            stamp->ns = quicker(stamp->ns);
+        }
+        if (sample.uncertainty_ns) {
+            sample.uncertainty_ns = quicker(*sample.uncertainty_ns);
         }
     }
     return [trace = std::move(trace), delay_ns](std::int64_t start_ns) {

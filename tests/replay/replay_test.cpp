@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -77,6 +78,53 @@ TEST_F(Replay, OfASessionGivesTheRecordedFrames) {
     const ProgramResult wall =
         run_gazeloop({"replay", session, "--clock", "wall", "--frames", "3", "--set", kSmall});
     EXPECT_EQ(wall.exit_code, 0) << wall.err;
+}
+
+// A live tracker's session: its first samples and its losses have no time, the rest have `ready`.
+TEST_F(Replay, PlaysALiveTrackersSessionLikeATrace) {
+    const std::string session = folder_.file("session.gaze");
+    ASSERT_EQ(run_gazeloop({"run", "--gaze", "sim", "--target", "headless", "--frames", "60",
+                            "--record", session, "--set", kSmall, "--set", "sim.blinks_per_min=0"})
+                  .exit_code,
+              0);
+    const std::string change =
+        "sqlite3 '" + session +
+        "' 'UPDATE gaze SET sampled_ns = 0, sampled_kind = 0 WHERE position <= 16;"
+        "UPDATE gaze SET sampled_ns = 0, sampled_kind = 0, left_valid = 0, right_valid = 0 "
+        "WHERE position BETWEEN 40 AND 60;"
+        "UPDATE gaze SET ready_ns = sampled_ns + 1000000 WHERE sampled_kind <> 0' 2>&1";
+    ASSERT_EQ(std::system(change.c_str()), 0);
+    const auto recorded = session::read_session(session);
+    ASSERT_TRUE(recorded.has_value());
+    const std::string json = folder_.file("summary.json");
+    const std::string again = folder_.file("again.gaze");
+    const ProgramResult wall = run_gazeloop(
+        {"replay", session, "--clock", "wall", "--set", kSmall, "--json", json, "--record", again});
+    ASSERT_EQ(wall.exit_code, 0) << wall.err;
+    EXPECT_NE(wall.err.find("gaze source ended"), std::string::npos) << wall.err;
+    const auto played = session::read_session(again);
+    ASSERT_TRUE(played.has_value());
+    ASSERT_EQ(played->samples.size(), recorded->samples.size());
+    const std::int64_t shift_ns =
+        played->samples[0].sample.arrived.ns - recorded->samples[0].sample.arrived.ns;
+    for (std::size_t i = 0; i < played->samples.size(); ++i) {
+        const gaze::GazeSample& before = recorded->samples[i].sample;
+        const gaze::GazeSample& after = played->samples[i].sample;
+        EXPECT_EQ(after.arrived.ns, before.arrived.ns + shift_ns) << i;
+        ASSERT_EQ(after.sampled.known(), before.sampled.known()) << i;
+        if (after.sampled.known()) {
+            EXPECT_EQ(after.sampled.ns, before.sampled.ns + shift_ns) << i;
+            EXPECT_EQ(after.ready.ns, before.ready.ns + shift_ns) << i;
+        }
+    }
+    // 21 lost samples of 120 Hz are held and known as such, not left out.
+    EXPECT_TRUE(std::ranges::any_of(played->frames, [](const session::RecordedFrame& frame) {
+        return frame.frame.fovea.eyes[0].state == gaze::FoveaState::Held;
+    }));
+    const nlohmann::json rows = nlohmann::json::parse(std::ifstream(json))["durations"];
+    EXPECT_EQ(rows["stage_tracker"]["max_ms"], 1.0);
+    EXPECT_GE(rows["stage_delivery"]["min_ms"], 0.0);
+    EXPECT_LT(rows["stage_delivery"]["max_ms"], rows["gaze_age_at_display"]["max_ms"]);
 }
 
 TEST_F(Replay, NoticesWhenTheSessionWasTamperedWith) {

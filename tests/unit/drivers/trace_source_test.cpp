@@ -84,6 +84,27 @@ TEST(TraceSource, AddsTheRecordedDelayToTheModelledOne) {
     EXPECT_EQ(samples[3].arrived.ns, kStart_ns + 410);
 }
 
+TEST(TraceSource, LeavesUnknownWhatIsUnknown) {
+    gaze::GazeSample unknown = sample_at(0);
+    unknown.sampled = {};
+    unknown.arrived = {100, StampKind::Measured};
+    unknown.head = gaze::Pose{};
+    gaze::GazeSample known = sample_at(60);  // before that, as its arrival's time line has it
+    known.ready = {80, StampKind::Measured};
+    known.arrived = {110, StampKind::Measured};
+    known.head = gaze::Pose{};
+    TraceSource source(trace_of({unknown, known}), kStart_ns, 0);
+    const std::vector<gaze::GazeSample> samples = all_of(source);
+    ASSERT_EQ(samples.size(), 2U);
+    EXPECT_FALSE(samples[0].sampled.known());
+    EXPECT_FALSE(samples[0].ready.known());
+    EXPECT_EQ(samples[0].arrived, (Stamp{kStart_ns + 100, StampKind::Modelled}));
+    EXPECT_EQ(samples[1].sampled, (Stamp{kStart_ns + 60, StampKind::Modelled}));
+    EXPECT_EQ(samples[1].ready, (Stamp{kStart_ns + 80, StampKind::Modelled}));
+    EXPECT_EQ(samples[1].arrived, (Stamp{kStart_ns + 110, StampKind::Modelled}));
+    ASSERT_NE(source.head_track(), nullptr);
+}
+
 TEST(TraceSource, HasNoHeadTrackWithoutPoses) {
     const TraceSource source(trace_of({sample_at(0), sample_at(100)}), kStart_ns, 0);
     EXPECT_EQ(source.head_track(), nullptr);
