@@ -36,19 +36,23 @@ Expected<FixedGaze> parse_fixed_gaze(std::string_view text) {
                           text)});
 }
 
+glm::dvec3 FixedGaze::direction() const {
+    const double azimuth = glm::radians(azimuth_deg);
+    const double elevation = glm::radians(elevation_deg);
+    return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+            -std::cos(azimuth) * std::cos(elevation)};
+}
+
 FixedSource::FixedSource(const FixedGaze& fixed_gaze) : gaze_(fixed_gaze) {}
 
 void FixedSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) {
-    const double azimuth = glm::radians(gaze_.azimuth_deg);
-    const double elevation = glm::radians(gaze_.elevation_deg);
     gaze::GazeSample sample;
     sample.sequence = sequence_++;
     sample.device_ns = now_ns;
     sample.sampled = {now_ns, latency::StampKind::Modelled};
     sample.arrived = sample.sampled;
     for (gaze::EyeRay& ray : sample.eyes) {
-        ray.direction = {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-                         -std::cos(azimuth) * std::cos(elevation)};
+        ray.direction = gaze_.direction();
         ray.valid = true;
     }
     samples.push_back(sample);

@@ -14,6 +14,8 @@ namespace gazeloop::drivers {
 struct FixedGaze {
     double azimuth_deg = 0.0;    ///< positive to the right, -180 .. 180
     double elevation_deg = 0.0;  ///< positive up, -90 .. 90
+
+    [[nodiscard]] glm::dvec3 direction() const;  ///< unit vector
 };
 
 /// "AZ,EL" in degrees, e.g. "-5,2.5". Errors (Usage): not two numbers, or out of range.

@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <memory>
 #include <string>
@@ -17,10 +19,12 @@
 #include "runtime/cli/plan_report.h"
 #include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/cli/tracker_widening.h"
 #include "runtime/foveation/fovea_widening.h"
 #include "runtime/foveation/geisler_perry_acuity.h"
 #include "runtime/foveation/guenter_acuity.h"
 #include "runtime/foveation/stela_acuity.h"
+#include "runtime/gaze/direction.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -31,7 +35,7 @@ struct PlanCommand {
     std::string model = "all";
     std::string gaze = "0,0";
     std::string eye = "left";
-    double widening_deg = 0.0;
+    std::string widening = "0";
     std::string chart;
     std::string figures;
 };
@@ -70,21 +74,37 @@ class Selection {
     std::string asked_;
 };
 
-/// In the head frame.
-glm::dvec3 direction(const drivers::FixedGaze& gaze) {
-    const double azimuth = glm::radians(gaze.azimuth_deg);
-    const double elevation = glm::radians(gaze.elevation_deg);
-    return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-            -std::cos(elevation) * std::cos(azimuth)};
+constexpr const char* kByTracker = "tracker";
+
+TrackerWidening widening(const std::string& text, const Settings& settings,
+                         const present::DisplayProfile& display, const drivers::FixedGaze& at) {
+    if (text == kByTracker) {
+        const double off_axis_deg = glm::degrees(
+            std::acos(std::clamp(glm::dot(at.direction(), gaze::kStraightAhead), -1.0, 1.0)));
+        return value_or_throw(tracker_widening(settings, display, off_axis_deg));
+    }
+    double deg = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), deg);
+    if (error != std::errc{} || end != text.data() + text.size() ||
+        !(deg >= 0.0 && deg <= foveation::kMaxWideningDeg)) {
+        throw SetupError(ExitCode::Usage,
+                         fmt::format("--widen: '{}' must be degrees in [0, {}], or '{}'", text,
+                                     foveation::kMaxWideningDeg, kByTracker));
+    }
+    return {.deg = deg, .terms = ""};
 }
 
 ExitCode plan(const PlanCommand& command) {
     Settings settings;
     value_or_throw(command.options.apply_to(settings, true));
+    if (command.widening == kByTracker) {
+        value_or_throw(simulate_tracker_in_force(settings));
+    }
     if (command.options.print_config) {
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;
     }
+    value_or_throw(settings.check());
     if (!command.options.json.empty()) {
         value_or_throw(check_output(command.options.json));
     }
@@ -103,13 +123,15 @@ ExitCode plan(const PlanCommand& command) {
     const gaze::EyeView view =
         present::profile_view(display, eye, display.width_px, display.height_px);
     const foveation::GazeField field = value_or_throw(foveation::GazeField::create(
-        view, glm::conjugate(view.pose.orientation) * direction(gaze)));
+        view, glm::conjugate(view.pose.orientation) * gaze.direction()));
 
+    const TrackerWidening widened_by = widening(command.widening, settings, display, gaze);
     PlanQuestion question{.display = display.name,
                           .eye = eye,
                           .azimuth_deg = gaze.azimuth_deg,
                           .elevation_deg = gaze.elevation_deg,
-                          .widening_deg = command.widening_deg,
+                          .widening_deg = widened_by.deg,
+                          .widening_terms = widened_by.terms,
                           .field = &field,
                           .models = {}};
     const Models models = acuity_models(values);
@@ -121,8 +143,7 @@ ExitCode plan(const PlanCommand& command) {
     std::vector<std::unique_ptr<foveation::WidenedAcuity>> widened;
     for (const auto& model : models) {
         if (models_asked.includes(model->name())) {
-            widened.push_back(
-                std::make_unique<foveation::WidenedAcuity>(*model, command.widening_deg));
+            widened.push_back(std::make_unique<foveation::WidenedAcuity>(*model, widened_by.deg));
             question.models.push_back(widened.back().get());
         }
     }
@@ -172,6 +193,7 @@ void add_plan_command(CLI::App& program, Action& action) {
     RunOptions& options = command->options;
     options.aliases = {
         {"--display", "profile.display", "display profile, by name or .toml file", ""},
+        {"--tracker", "profile.tracker", "tracker profile, by name or .toml file", ""},
         {"--sigma", "kfr.sigma", "picture width over LP-buffer width, .5 to 32", ""},
         {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16", ""},
         {"--mar", "acuity.mar", "slope of the acuity line, e.g. .022", ""},
@@ -184,10 +206,10 @@ void add_plan_command(CLI::App& program, Action& action) {
         ->type_name("AZ,EL");
     app->add_option("--eye", command->eye, "left or right")
         ->check(CLI::IsMember({"left", "right"}));
-    app->add_option("--widen", command->widening_deg,
-                    "by how much the gaze may be off, degrees: what eyes then need")
-        ->check(number_between(0.0, foveation::kMaxWideningDeg))
-        ->type_name("DEG");
+    app->add_option("--widen", command->widening,
+                    "by how much the gaze may be off, degrees, or as much as the tracker's figures "
+                    "(sim.*) say: what eyes then need")
+        ->type_name("DEG|tracker");
     app->add_option("--json", options.json, "write the plan as JSON; without a file, to stdout")
         ->expected(0, 1)
         ->default_str("-")

@@ -27,7 +27,10 @@ std::string heading(const PlanQuestion& question) {
                        view.height_px, question.azimuth_deg, question.elevation_deg, fovea.x_px,
                        fovea.y_px) +
            (question.widening_deg > 0.0
-                ? fmt::format(", fovea widened by {:g} deg", question.widening_deg)
+                ? fmt::format(", fovea widened by {:.4g} deg{}", question.widening_deg,
+                              question.widening_terms.empty()
+                                  ? std::string()
+                                  : fmt::format(" ({})", question.widening_terms))
                 : std::string());
 }
 
@@ -106,6 +109,7 @@ nlohmann::ordered_json plan_report_json(const PlanReport& report) {
                       {"gaze_deg", {asked.azimuth_deg, asked.elevation_deg}},
                       {"fovea_px", {asked.field->fovea().x_px, asked.field->fovea().y_px}},
                       {"widening_deg", asked.widening_deg},
+                      {"widening_terms", asked.widening_terms},
                       {"display_pixels", report.display_pixels}};
     auto models = ordered_json::array();
     for (std::size_t i = 0; i < asked.models.size(); ++i) {

@@ -17,7 +17,8 @@ struct PlanQuestion {
     gaze::Eye eye = gaze::Eye::Left;
     double azimuth_deg = 0.0;
     double elevation_deg = 0.0;
-    double widening_deg = 0.0;  ///< the models' foveae are this much wider
+    double widening_deg = 0.0;   ///< the models' foveae are this much wider
+    std::string widening_terms;  ///< what that is made of; may be empty
     const foveation::GazeField* field = nullptr;
     std::vector<const foveation::AcuityModel*> models;  ///< widened
 };

@@ -5,11 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -23,6 +20,7 @@
 #include "runtime/foveation/shading_rings.h"
 #include "runtime/foveation/sparse_pattern.h"
 #include "runtime/foveation/stela_csf.h"
+#include "runtime/open_for_reading.h"
 #include "runtime/render/eye_uniforms.h"
 #include "runtime/render/method.h"
 
@@ -353,22 +351,15 @@ Expected<void> Settings::set_default(std::string_view key, std::string_view text
 
 Expected<void> Settings::load(const std::filesystem::path& file) {
     const std::string name = file.string();
-    const auto unreadable = [&](std::string_view why) {
+    auto in = open_for_reading(file);
+    if (!in) {
         return std::unexpected(
             Error{ExitCode::BadInput,
-                  fmt::format("{}: the configuration cannot be read ({})", name, why)});
-    };
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) {
-        return unreadable("it is a folder");
-    }
-    std::ifstream in(file);
-    if (!in) {
-        return unreadable(std::strerror(errno));
+                  fmt::format("{}: the configuration cannot be read ({})", name, in.error())});
     }
     std::vector<Assignment> lines;
     try {
-        if (auto flat = flatten(toml::parse(in, name), "", name, lines); !flat) {
+        if (auto flat = flatten(toml::parse(*in, name), "", name, lines); !flat) {
             return flat;
         }
     } catch (const toml::parse_error& error) {
@@ -464,6 +455,18 @@ std::string Settings::with_origin(std::string_view key) const {
 }
 
 Expected<void> Settings::check() const {
+    if (is_built_in("kfr.kernel")) {
+        // Nobody has chosen the kernel that these are for.
+        for (const auto& [key, kernel] :
+             {std::pair{"kfr.kernel_table", "table"}, std::pair{"kfr.kernel_samples", "table"},
+              std::pair{"kfr.polynomial", "polynomial"}}) {
+            if (!is_built_in(key)) {
+                return refuse(with_origin(key),
+                              fmt::format("has no effect while {}: set kfr.kernel={} too",
+                                          with_origin("kfr.kernel"), kernel));
+            }
+        }
+    }
     // Gaze that stops coming counts as lost only when it is stale: past its hold time by then, the
     // fovea would begin its return in the middle.
     if (values_.gaze.hold_ms < values_.gaze.stale_ms) {

@@ -138,6 +138,9 @@ class Settings {
     /// Whether the settings fit together. Errors (Usage): which two do not, and what would.
     [[nodiscard]] Expected<void> check() const;
 
+    /// Whether nobody has set a key.
+    [[nodiscard]] bool is_built_in(std::string_view key) const { return origin(key) == kBuiltIn; }
+
     /// Where a key's value comes from: "FILE:LINE", "--set", a flag or "built-in".
     [[nodiscard]] const std::string& origin(std::string_view key) const;
 

@@ -9,24 +9,6 @@
 
 namespace gazeloop::foveation {
 
-std::span<const TrackerBias> vive_pro_eye_bias() {
-    static constexpr std::array<TrackerBias, 3> kBias{{{1.5, 1.13}, {10.0, 1.56}, {21.0, 2.30}}};
-    return kBias;
-}
-
-double bias95_deg(std::span<const TrackerBias> bias, double target_deg) {
-    const auto above = std::ranges::lower_bound(bias, target_deg, {}, &TrackerBias::target_deg);
-    if (above == bias.begin()) {
-        return bias.front().p95_deg;
-    }
-    if (above == bias.end()) {
-        return bias.back().p95_deg;
-    }
-    const TrackerBias& below = *std::prev(above);
-    return std::lerp(below.p95_deg, above->p95_deg,
-                     (target_deg - below.target_deg) / (above->target_deg - below.target_deg));
-}
-
 Expected<double> widening_deg(const GazeUncertainty& uncertainty) {
     const GazeUncertainty& u = uncertainty;
     const std::array<std::pair<const char*, double>, 9> terms{

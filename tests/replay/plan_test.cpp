@@ -131,6 +131,31 @@ TEST(Plan, KnowsTheGazeAndItsError) {
     EXPECT_TRUE(away.at("methods")[0].at("sufficiency")[0].at("least_ratio").is_null());
 }
 
+TEST(Plan, WidensByWhatTheTrackersFiguresSay) {
+    const auto widened = [](std::vector<std::string> more) {
+        more.insert(more.begin(), {"--method", "full", "--widen", "tracker", "--display", "fove0"});
+        return plan(more).at("widening_deg").get<double>();
+    };
+    // Bias .41 for half and 2.6 times that for 95 %, noise .135, 10 deg/s over 50 + 1 ms, half of
+    // 1/120 s and 1/70 s.
+    const double latency_s = 0.051 + 0.5 / 120.0 + 1.0 / 70.0;
+    const std::vector<std::string> vive{"--tracker", "vive_pro_eye"};
+    EXPECT_NEAR(widened(vive), 2.6 * 0.41 + 1.96 * 0.135 + 10.0 * latency_s, 1e-6);
+    EXPECT_NEAR(
+        widened({"--tracker", "vive_pro_eye", "--gaze", "-12,-16"}),
+        2.6 * 0.41 * (1.0 + 0.05 * 19.91) + 1.96 * 0.135 * (1.0 + 0.03 * 19.91) + 10.0 * latency_s,
+        1e-3);
+    EXPECT_NEAR(widened({"--tracker", "vive_pro_eye", "--set", "sim.pursuit_deg_per_s=0", "--set",
+                         "sim.bias_deg=0"}),
+                1.96 * 0.135, 1e-9);
+    // Of a tracker that states nothing nothing follows.
+    const ScratchFolder folder;
+    const std::string bare = folder.write("bare.toml", "delay_ms = 5\n");
+    const ProgramResult refused = run_gazeloop({"plan", "--widen", "tracker", "--tracker", bare});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("states no sim.bias_deg: state it with"));
+}
+
 TEST(Plan, DrawsAllMethods) {
     const ScratchFolder folder;
     const std::string png = folder.file("plan.png");
@@ -184,6 +209,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"mar_zero", {"plan", "--mar", "0"}, 2, "acuity.mar = 0: must lie in [1e-06, 1]"},
         Refused{"mar_nan", {"plan", "--mar", "nan"}, 2, "acuity.mar = nan"},
         Refused{"widen", {"plan", "--widen", "181"}, 2, "[0, 180]"},
+        Refused{"widen_by_what", {"plan", "--widen", "trackr"}, 2, "'trackr' must be degrees"},
         Refused{"eye", {"plan", "--eye", "third"}, 2, "--eye"},
         Refused{"rings",
                 {"plan", "--method", "rings", "--set", "rings.inner_deg=9", "--set",
