@@ -116,9 +116,14 @@ ExitCode run_doctor(const DoctorCommand& command) {
                               .device_origin = settings.origin("vulkan.device"),
                               .validation = values.vulkan.validation},
                              limits));
+    const bool vulkan_works = std::ranges::any_of(findings, [](const doctor::Finding& finding) {
+        return finding.check.starts_with("vulkan.device.") &&
+               finding.verdict == doctor::Verdict::Ok;
+    });
     add(doctor::check_openxr({.display = display,
                               .scale = values.render.scale,
                               .validation = values.target.validation,
+                              .vulkan_works = vulkan_works,
                               .is_target = values.target.name == "openxr"},
                              limits));
     add(doctor::check_hid());

@@ -26,7 +26,8 @@ struct OpenXrChecks {
     present::DisplayProfile display;
     double scale = 1.0;
     bool validation = false;
-    bool is_target = true;  ///< the loop is to run over OpenXR: a failure stops it
+    bool vulkan_works = true;  ///< whether there is a device that could render
+    bool is_target = true;     ///< the loop is to run over OpenXR: a failure stops it
 };
 
 /// Runtime, extensions, system, eye gaze gate by gate, clock, and the loop's own session. In

@@ -27,6 +27,13 @@ constexpr const char* kOtherRuntime =
     "use another runtime (XR_RUNTIME_JSON), the Monado that ./dev setup builds, or --target "
     "headless";
 
+constexpr const char* kVulkanFirst =
+    "mend Vulkan first (above): runtimes render with it, too, and none starts without";
+
+std::string remedy(const OpenXrChecks& asked, std::string_view first = "") {
+    return asked.vulkan_works ? fmt::format("{}{}", first, kOtherRuntime) : kVulkanFirst;
+}
+
 /// What the runtime's manifest says of its library.
 std::string library_of(const std::string& manifest) {
     std::ifstream file(manifest);
@@ -55,14 +62,13 @@ class RuntimeProbe {
                  {"manifest", choice.manifest}, {"reason", choice.reason}, {"library", library}}});
         report_.step("loading the OpenXR runtime");
         list_extensions();
-        report_.step(
-            "creating an OpenXR instance",
-            fmt::format("start the runtime's service, if it is one with a service (Monado: "
-                        "monado-service); or {}",
-                        kOtherRuntime));
+        report_.step("creating an OpenXR instance",
+                     remedy(asked_,
+                            "start the runtime's service, if it is one with a service (Monado: "
+                            "monado-service); or "));
         create_instance();
         report_.step("asking for the headset",
-                     fmt::format("connect the headset and switch it on; or {}", kOtherRuntime));
+                     remedy(asked_, "connect the headset and switch it on; or "));
         describe_system();
         report_.step("asking for eye gaze");
         check_eye_gaze();
@@ -247,12 +253,12 @@ Findings check_openxr(const OpenXrChecks& asked, const ProbeLimits& limits) {
         run_probe([&](ProbeReport& report) { RuntimeProbe(asked, report).run(); }, limits);
     const bool runtime_works = runtime.broken.empty();
     Findings findings =
-        std::move(runtime).findings_and_end("openxr.start", kOtherRuntime, asked.is_target);
+        std::move(runtime).findings_and_end("openxr.start", remedy(asked), asked.is_target);
     if (runtime_works) {
         ProbeResult session =
             run_probe([&](ProbeReport& report) { probe_session(asked, report); }, limits);
         std::ranges::move(
-            std::move(session).findings_and_end("openxr.session", kOtherRuntime, asked.is_target),
+            std::move(session).findings_and_end("openxr.session", remedy(asked), asked.is_target),
             std::back_inserter(findings));
     }
     return findings;

@@ -102,6 +102,9 @@ TEST(Doctor, SaysThatThereIsNoVulkanDriver) {
     EXPECT_EQ(diagnosis.verdict("vulkan.choice"), "failure");
     EXPECT_NE(diagnosis["vulkan.choice"]["remedy"].get<std::string>().find("mesa-vulkan-drivers"),
               std::string::npos);
+    // The runtime fails for the same reason: it is not to blame.
+    EXPECT_EQ(diagnosis["openxr.start"]["remedy"].get<std::string>().find("mend Vulkan first"), 0U)
+        << diagnosis["openxr.start"];
 }
 
 TEST(Doctor, SurvivesAVulkanDriverThatCrashes) {
