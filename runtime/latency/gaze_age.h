@@ -28,6 +28,13 @@ inline constexpr std::array<std::string_view, kStageCount> kStageNames{
     "tracker", "delivery",         "queue",       "submit",
     "gpu",     "wait for display", "scan to row", "switching"};
 
+/// Whether a stage is left out where it is unknown: Delivery, which is then part of Tracker, and
+/// Row, since that nobody knows how the display lights its rows is said once.
+[[nodiscard]] constexpr bool shown_only_if_known(std::size_t stage) {
+    return stage == static_cast<std::size_t>(Stage::Delivery) ||
+           stage == static_cast<std::size_t>(Stage::Row);
+}
+
 /// When a frame came to light.
 struct ShownFrame {
     Stamp at;

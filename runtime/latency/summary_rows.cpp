@@ -12,11 +12,8 @@ std::vector<NamedRow> rows_of(const SummaryReport& report) {
         rows.push_back({"gaze_age_uncertainty", "  uncertain by", &report.gaze_age_uncertainty});
     }
     for (std::size_t stage = 0; stage < kStageCount; ++stage) {
-        if (stage == static_cast<std::size_t>(Stage::Delivery) && report.stages[stage].count == 0) {
-            continue;  // no clock was fitted
-        }
-        if (stage == static_cast<std::size_t>(Stage::Row) && report.stages[stage].count == 0) {
-            continue;  // how the display lights its rows is unknown, which is said once
+        if (report.stages[stage].count == 0 && shown_only_if_known(stage)) {
+            continue;
         }
         std::string key = "stage_" + std::string(kStageNames[stage]);
         std::replace(key.begin(), key.end(), ' ', '_');

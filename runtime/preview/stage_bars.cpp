@@ -49,6 +49,9 @@ StageBars stage_bars(const latency::FrameRecord& frame, const latency::FrameGpuR
     StageBar& photon = result.bars[0];
     photon.title = text("eye to photon");
     for (std::size_t stage = 0; stage < latency::kStageCount; ++stage) {
+        if (!age.stages[stage].known() && latency::shown_only_if_known(stage)) {
+            continue;
+        }
         add(photon, latency::kStageNames[stage], age.stages[stage]);
     }
     set_total(photon, age.at_display);
