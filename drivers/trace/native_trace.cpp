@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -287,12 +289,22 @@ void write_native_trace(const Trace& trace, std::ostream& out) {
     }
 }
 
+namespace {
+
+std::unexpected<Error> cannot_be_written(const std::string& file) {
+    return bad_input(fmt::format("{}: cannot be written ({})", file,
+                                 errno != 0 ? std::strerror(errno) : "unknown why"));
+}
+
+}  // namespace
+
 Expected<void> write_native_trace(const Trace& trace, const std::string& file) {
+    errno = 0;
     std::ofstream csv(file, std::ios::binary | std::ios::trunc);
     write_native_trace(trace, csv);
     csv.close();
     if (!csv) {
-        return bad_input(fmt::format("{}: cannot be written", file));
+        return cannot_be_written(file);
     }
 
     const nlohmann::ordered_json sidecar{
@@ -308,7 +320,7 @@ Expected<void> write_native_trace(const Trace& trace, const std::string& file) {
     json << sidecar.dump(4) << '\n';
     json.close();
     if (!json) {
-        return bad_input(fmt::format("{}: cannot be written", sidecar_file(file)));
+        return cannot_be_written(sidecar_file(file));
     }
     return {};
 }

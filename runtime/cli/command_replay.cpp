@@ -30,7 +30,6 @@ struct ReplayCommand {
 
 ExitCode replay_trace(const ReplayCommand& command, drivers::Trace trace, Settings& settings,
                       FrameRunRequest& request) {
-    value_or_throw(settings.check());
     const TrackerProfile tracker = value_or_throw(tracker_in_force(settings));
     // A session knows when its samples arrived; other traces get the profile's delay.
     const std::int64_t delay_ns = trace.format == kSessionFormat ? 0 : tracker.delay_ns;
@@ -135,6 +134,7 @@ ExitCode replay_session(const ReplayCommand& command, Settings& settings,
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;
     }
+    value_or_throw(settings.check());
     if (command.clock == "wall") {
         return replay_trace(command, trace_of(session, command.file), settings, request);
     }
@@ -183,6 +183,7 @@ ExitCode replay(const ReplayCommand& command, const std::string& command_line) {
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;
     }
+    value_or_throw(settings.check());
     return replay_trace(command, value_or_throw(drivers::read_trace(command.file, command.format)),
                         settings, request);
 }

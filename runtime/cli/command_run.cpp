@@ -39,6 +39,7 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
         request.make_source =
             value_or_throw(gaze_source_named(command.gaze, tracker, settings.values()));
     }
+    request.from_device = is_device(command.gaze);
     request.clock = command.clock == "wall" ? RunClock::Wall : RunClock::Virtual;
     command.options.fill(request);
     request.loop.end_with_source = !command.options.frames && !command.options.seconds;

@@ -14,6 +14,7 @@
 #include "runtime/cli/acuity_settings.h"
 #include "runtime/cli/interrupt.h"
 #include "runtime/cli/kfr_settings.h"
+#include "runtime/cli/milliseconds.h"
 #include "runtime/cli/output_file.h"
 #include "runtime/cli/replay_check.h"
 #include "runtime/cli/run_checks.h"
@@ -32,8 +33,6 @@
 
 namespace gazeloop::cli {
 namespace {
-
-std::int64_t ms_to_ns(double ms) { return std::llround(ms * 1e6); }
 
 gaze::FoveaPolicy fovea_policy(const SettingValues& values) {
     return {.stale_ns = ms_to_ns(values.gaze.stale_ms),
@@ -386,8 +385,10 @@ class FrameRun {
         if (request_.clock == RunClock::Wall && !result_.fixed_in_head &&
             report.gaze.received <= report.gaze.invalid + report.gaze.out_of_order &&
             report.frames.total > 0) {
-            spdlog::warn("no gaze in all {} frames: gazeloop devices says why a tracker gives none",
-                         report.frames.total);
+            spdlog::warn("no gaze in all {} frames{}", report.frames.total,
+                         request_.from_device
+                             ? ": gazeloop devices says why a tracker gives none"
+                             : ": the run ended before any had arrived, or all of it was lost");
         }
         std::string text;
         if (request_.clock == RunClock::Recorded && !request_.quiet) {

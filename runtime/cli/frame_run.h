@@ -30,6 +30,7 @@ struct FrameRunRequest {
     std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)> make_source;
     /// The gaze of the target's own OpenXR session, in place of make_source.
     std::optional<drivers::OpenXrGazeOptions> openxr_gaze;
+    bool from_device = false;                       ///< the gaze, of either
     const session::SessionFile* session = nullptr;  ///< with Recorded, and to be compared with
     bool same_gaze = true;                          ///< settings as the session's
     bool same_rendering = true;                     ///< settings as the session's

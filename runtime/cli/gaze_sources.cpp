@@ -1,5 +1,7 @@
 #include "runtime/cli/gaze_sources.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <string>
 #include <utility>
@@ -12,8 +14,13 @@
 #include "drivers/trace/read_trace.h"
 #include "drivers/trace/trace_source.h"
 #include "runtime/cli/nearest_name.h"
+#include "runtime/session/session_file.h"
 
 namespace gazeloop::cli {
+
+bool is_device(std::string_view gaze) {
+    return gaze == "openxr" || gaze == "psvr2" || gaze == "hid" || gaze.starts_with("hid:");
+}
 
 drivers::hid::HidOptions hid_options(const TrackerProfile& tracker, const SettingValues& values) {
     return {.path = "",
@@ -38,6 +45,13 @@ Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfi
     const std::string_view argument =
         colon == std::string_view::npos ? std::string_view{} : text.substr(colon + 1);
     if (kind == "trace" && !argument.empty()) {
+        if (session::looks_like_session(argument)) {
+            return std::unexpected(
+                Error{ExitCode::BadInput,
+                      fmt::format("{0}: a recorded session, not a trace: gazeloop replay {0} "
+                                  "(--clock wall plays it in real time)",
+                                  argument)});
+        }
         auto trace = drivers::read_trace(std::string(argument));
         if (!trace) {
             return std::unexpected(std::move(trace.error()));

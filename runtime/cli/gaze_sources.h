@@ -23,6 +23,9 @@ using MakeSource = std::function<std::unique_ptr<drivers::GazeSource>(std::int64
 Expected<MakeSource> gaze_source_named(std::string_view text, const TrackerProfile& tracker,
                                        const SettingValues& values);
 
+/// Whether --gaze names a device, which may be there or not.
+bool is_device(std::string_view gaze);
+
 /// The options of HID trackers (node not chosen) as configured.
 drivers::hid::HidOptions hid_options(const TrackerProfile& tracker, const SettingValues& values);
 

@@ -48,6 +48,34 @@ std::optional<std::string> unknown_command(const CLI::App& program, int count, c
     return gazeloop::cli::unknown_name("command", arguments[1], known);
 }
 
+/// Of what was left over after parsing; CLI11 lists it from the end, without saying what is near.
+std::string unexpected_word(const CLI::App& program, int count, char** arguments) {
+    const CLI::App* command = &program;
+    std::string name = program.get_name();
+    while (!command->get_subcommands().empty()) {
+        command = command->get_subcommands().front();
+        name += " " + command->get_name();
+    }
+    std::vector<std::string> known;
+    for (const CLI::Option* const option : command->get_options()) {
+        for (const std::string& one : option->get_lnames()) {
+            known.push_back("--" + one);
+        }
+    }
+    const std::string help = fmt::format("{} --help lists what there is", name);
+    for (int i = 1; i < count; ++i) {
+        const std::string word =
+            std::string(arguments[i]).substr(0, std::string(arguments[i]).find('='));
+        if (word.starts_with("--") && std::ranges::find(known, word) == known.end()) {
+            const auto nearest = gazeloop::cli::nearest_name(word, known);
+            return fmt::format("unknown option '{}'{}; {}", word,
+                               nearest ? fmt::format("; did you mean '{}'?", *nearest) : "", help);
+        }
+    }
+    const std::vector<std::string> left = command->remaining();
+    return fmt::format("'{}' was not expected; {}", left.empty() ? "" : left.front(), help);
+}
+
 int gazeloop_main(int count, char** arguments) {
     const auto log = spdlog::stderr_color_mt("gazeloop");
     log->set_pattern("%^%l%$: %v");
@@ -81,6 +109,9 @@ int gazeloop_main(int count, char** arguments) {
     }
     try {
         program.parse(count, arguments);
+    } catch (const CLI::ExtrasError&) {
+        spdlog::error("{}", unexpected_word(program, count, arguments));
+        return code(ExitCode::Usage);
     } catch (const CLI::ParseError& error) {
         return program.exit(error) == 0 ? code(ExitCode::Ok) : code(ExitCode::Usage);
     }

@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <optional>
 #include <span>
 #include <sstream>
 
 #include "config/built_in_files.h"
+#include "runtime/cli/milliseconds.h"
 #include "runtime/cli/nearest_name.h"
+#include "runtime/open_for_reading.h"
 #include "sim/gaze_simulation.h"
 
 namespace gazeloop::cli {
@@ -41,15 +41,20 @@ std::vector<std::string> built_in_names(std::string_view folder) {
 Expected<ProfileText> find_text(std::string_view folder, std::string_view what,
                                 std::string_view name) {
     if (name.ends_with(".toml")) {
-        std::ifstream in{std::string(name)};
-        std::error_code ignored;
-        if (!in || std::filesystem::is_directory(std::string(name), ignored)) {
+        const auto in = open_for_reading(name);
+        if (!in) {
             return std::unexpected(Error{
-                ExitCode::BadInput, fmt::format("{}: the {} profile cannot be read", name, what)});
+                ExitCode::BadInput,
+                fmt::format("{}: the {} profile cannot be read ({})", name, what, in.error())});
         }
         std::ostringstream text;
-        text << in.rdbuf();
+        text << in->rdbuf();
         return ProfileText{std::string(name), text.str()};
+    }
+    if (name.find('/') != std::string_view::npos) {
+        return std::unexpected(Error{
+            ExitCode::Usage,
+            fmt::format("'{}': the name of a {} profile's file must end in .toml", name, what)});
     }
     for (const config::BuiltInFile& file : config::built_in_files()) {
         if (file.folder == folder && file.name == name) {
@@ -83,8 +88,6 @@ Expected<Profile> load(std::string_view folder, std::string_view what, std::stri
     }
     return parse(*text);
 }
-
-std::int64_t ms_to_ns(double ms) { return std::llround(ms * 1e6); }
 
 /// Reads the figures of a profile and keeps the first complaint.
 class ProfileReader {

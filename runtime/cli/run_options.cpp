@@ -54,6 +54,20 @@ CLI::Validator number_between(double least, double greatest) {
             "", "NUMBER"};
 }
 
+CLI::Validator whole_number(std::uint64_t greatest) {
+    return {[greatest](const std::string& text) {
+                std::uint64_t value = 0;
+                const auto [end, error] =
+                    std::from_chars(text.data(), text.data() + text.size(), value);
+                const bool good =
+                    error == std::errc{} && end == text.data() + text.size() && value <= greatest;
+                return good
+                           ? std::string()
+                           : fmt::format("'{}' must be a whole number, at most {}", text, greatest);
+            },
+            "", "N"};
+}
+
 void LogOptions::add_to(CLI::App& command) {
     command.add_option("--log-level", log_level, "what goes to stderr")
         ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
@@ -70,7 +84,7 @@ void RunOptions::add_to(CLI::App& command) {
     add_settings_to(command);
     command.add_option("--frames", frames, "end after N frames")
         ->type_name("N")
-        ->check(number_between(0, 1e15));
+        ->check(whole_number(1'000'000'000'000'000));
     command.add_option("--seconds", seconds, "end after S seconds")
         ->type_name("S")
         ->check(number_between(0, 1e9));

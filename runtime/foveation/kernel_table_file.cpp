@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <string_view>
 #include <vector>
+
+#include "runtime/open_for_reading.h"
 
 namespace gazeloop::foveation {
 namespace {
@@ -127,18 +128,17 @@ Expected<TableKernel> read_kernel_samples(std::string_view samples, const std::s
 }
 
 Expected<TableKernel> load_kernel_table(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    std::error_code ignored;
-    if (!in || std::filesystem::is_directory(file, ignored)) {
-        return std::unexpected(
-            Error{ExitCode::BadInput,
-                  fmt::format("{}: the kernel's table cannot be read", file.string())});
+    auto in = open_for_reading(file);
+    if (!in) {
+        return std::unexpected(Error{
+            ExitCode::BadInput,
+            fmt::format("{}: the kernel's table cannot be read ({})", file.string(), in.error())});
     }
     // Far more than the samples of a table take; some files never end.
     constexpr std::size_t kLongestFile = 1 << 20;
     std::string text(kLongestFile + 1, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(in.gcount()));
+    in->read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(in->gcount()));
     if (text.size() > kLongestFile) {
         return std::unexpected(
             Error{ExitCode::BadInput,

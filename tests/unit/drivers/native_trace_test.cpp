@@ -237,7 +237,8 @@ TEST(NativeTrace, SaysWhereItCannotWrite) {
     const Expected<void> done = write_native_trace(awkward_trace(), "/nonexistent/folder/out.csv");
     ASSERT_FALSE(done.has_value());
     EXPECT_EQ(done.error().code, ExitCode::BadInput);
-    EXPECT_EQ(done.error().message, "/nonexistent/folder/out.csv: cannot be written");
+    EXPECT_EQ(done.error().message,
+              "/nonexistent/folder/out.csv: cannot be written (No such file or directory)");
 }
 
 }  // namespace
