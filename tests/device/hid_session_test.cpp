@@ -65,16 +65,19 @@ TEST_F(HidDevice, IsNotStoppedWhileAnotherReadsIt) {
     EXPECT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 0}));
 }
 
+/// What another program may do to a tracker that we have started.
+void stop_as_another(const EmulatedTracker& tracker) {
+    auto device = HidrawDevice::open(tracker.node());
+    ASSERT_TRUE(device.has_value());
+    ASSERT_TRUE(device->send_feature(std::vector<std::uint8_t>{0x14, 0}).has_value());
+    ASSERT_EQ(tracker.sent(0x14), (std::vector<std::uint8_t>{0x14, 0}));
+}
+
 TEST_F(HidDevice, IsAskedAgainWhenSomethingStoppedIt) {
     tracker_->plug_in();
     auto session = TrackerSession::open(find_trackers().at(0), {}, never);
     ASSERT_TRUE(session.has_value());
-    {
-        auto device = HidrawDevice::open(tracker_->node());
-        ASSERT_TRUE(device.has_value());
-        ASSERT_TRUE(device->send_feature(std::vector<std::uint8_t>{0x14, 0}).has_value());
-    }
-    ASSERT_EQ(tracker_->sent(0x14), (std::vector<std::uint8_t>{0x14, 0}));
+    ASSERT_NO_FATAL_FAILURE(stop_as_another(*tracker_));
     DeviceFeed feed;
     for (int i = 0; i < 1000 && tracker_->sent(0x14)->at(1) == 0; ++i) {
         ASSERT_TRUE(session->read(std::chrono::milliseconds(50), feed).has_value());
@@ -87,11 +90,7 @@ TEST_F(HidDevice, IsAskedAgainWhileItsStatusComes) {
     tracker_->plug_in();
     auto session = TrackerSession::open(find_trackers().at(0), {}, never);
     ASSERT_TRUE(session.has_value());
-    {
-        auto device = HidrawDevice::open(tracker_->node());
-        ASSERT_TRUE(device.has_value());
-        ASSERT_TRUE(device->send_feature(std::vector<std::uint8_t>{0x14, 0}).has_value());
-    }
+    ASSERT_NO_FATAL_FAILURE(stop_as_another(*tracker_));
     DeviceFeed feed;
     for (int i = 0; i < 1000 && tracker_->sent(0x14)->at(1) == 0; ++i) {
         tracker_->send(std::vector<std::uint8_t>{0x13, 1, 120, 0});

@@ -113,12 +113,12 @@ TEST(HtcVivePro, AppliesRollThenPitchThenYaw) {
 
 // ---- Recordings of people -----------------------------------------------------------------------
 
+const std::filesystem::path kRecordings =
+    std::filesystem::path(GAZELOOP_SOURCE_DIR) / ".." / "shared/data/traces/htc_vive_pro";
+
 std::vector<Trace> recorded() {
-    const std::filesystem::path folder =
-        std::filesystem::path(GAZELOOP_SOURCE_DIR) / ".." / "shared/data/traces/htc_vive_pro";
     std::vector<std::string> files;
-    std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    for (const auto& entry : std::filesystem::directory_iterator(kRecordings)) {
         files.push_back(entry.path().string());
     }
     std::sort(files.begin(), files.end());
@@ -211,10 +211,11 @@ Velocities velocities(const Trace& trace, std::size_t eye) {
 }
 
 TEST(HtcViveProRecordings, HaveTheEyesOnTheirSidesAndLookForward) {
-    const std::vector<Trace> traces = recorded();
-    if (traces.empty()) {
+    if (!std::filesystem::exists(kRecordings)) {
         GTEST_SKIP() << "no recorded data";
     }
+    const std::vector<Trace> traces = recorded();
+    ASSERT_FALSE(traces.empty()) << kRecordings << " is there and holds nothing";
     for (const Trace& trace : traces) {
         std::vector<double> left_x;
         std::vector<double> right_x;
@@ -239,10 +240,11 @@ TEST(HtcViveProRecordings, HaveTheEyesOnTheirSidesAndLookForward) {
 }
 
 TEST(HtcViveProRecordings, ShowTheVestibuloOcularReflex) {
-    const std::vector<Trace> traces = recorded();
-    if (traces.empty()) {
+    if (!std::filesystem::exists(kRecordings)) {
         GTEST_SKIP() << "no recorded data";
     }
+    const std::vector<Trace> traces = recorded();
+    ASSERT_FALSE(traces.empty()) << kRecordings << " is there and holds nothing";
     for (const Trace& trace : traces) {
         for (const std::size_t eye : {0U, 1U}) {
             const Velocities v = velocities(trace, eye);
