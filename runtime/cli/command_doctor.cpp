@@ -7,6 +7,7 @@
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/interrupt.h"
+#include "runtime/cli/kfr_settings.h"
 #include "runtime/cli/output_file.h"
 #include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_checks.h"
@@ -71,6 +72,7 @@ doctor::Finding check_settings(Settings& settings) {
     doctor::Finding finding{.check = "configuration.settings",
                             .found = "no setting is at odds with another"};
     try {
+        value_or_throw(take_kernel_table(settings));
         value_or_throw(settings.check());
         (void)value_or_throw(simulate_tracker_in_force(settings));
         (void)value_or_throw(display_in_force(settings));
@@ -98,7 +100,7 @@ ExitCode run_doctor(const DoctorCommand& command) {
     // The files are loaded already, as far as they can be.
     RunOptions rest = command.options;
     rest.config_files.clear();
-    value_or_throw(rest.apply_to(settings, false));
+    value_or_throw(rest.set_in(settings, false));
     const SettingValues& values = settings.values();
     findings.push_back(check_settings(settings));
     const present::DisplayProfile display = display_or_default(settings);

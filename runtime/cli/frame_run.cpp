@@ -413,9 +413,14 @@ class FrameRun {
         std::FILE* const out = request_.json == "-" ? stderr : stdout;
         std::fputs(text.c_str(), out);
         if (request_.json) {
-            if (const auto written =
-                    write_text(*request_.json, latency::summary_json(report).dump(2) + "\n");
-                !written) {
+            nlohmann::ordered_json json = latency::summary_json(report);
+            if (request_.hash) {
+                json["hash"] = hash_.json();
+            }
+            if (check_) {
+                json["replay"] = check_->json();
+            }
+            if (const auto written = write_text(*request_.json, json.dump(2) + "\n"); !written) {
                 fail(written.error().code, written.error().message);
             }
         }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <nlohmann/json.hpp>
 
 namespace gazeloop::cli {
 namespace {
@@ -25,6 +26,14 @@ FoveaBits bits(const gaze::FrameFovea& fovea) {
         all[i++] = point.sample_sequence;
     }
     return all;
+}
+
+nlohmann::ordered_json hash_json(std::uint64_t hash, std::uint64_t frames) {
+    return {{"hash", fmt::format("{:016x}", hash)}, {"frames", frames}};
+}
+
+nlohmann::ordered_json comparison_json(std::uint64_t equal, std::uint64_t compared) {
+    return {{"equal", equal}, {"of", compared}};
 }
 
 std::uint64_t fold(std::uint64_t seed, const void* data, std::size_t bytes) {
@@ -52,6 +61,12 @@ std::string ReplayHash::text() const {
         text += fmt::format("hash pixels {:016x} over {} frames\n", pixels_, pixel_frames_);
     }
     return text;
+}
+
+nlohmann::ordered_json ReplayHash::json() const {
+    return {{"foveae", hash_json(foveae_, fovea_frames_)},
+            {"pixels", pixel_frames_ > 0 ? hash_json(pixels_, pixel_frames_)
+                                         : nlohmann::ordered_json(nullptr)}};
 }
 
 void ReplayCheck::on_frame(const latency::FrameRecord& record) {
@@ -103,6 +118,15 @@ std::string ReplayCheck::text() const {
         text += fmt::format("replay: first difference in frame {}\n", *first_difference_);
     }
     return text;
+}
+
+nlohmann::ordered_json ReplayCheck::json() const {
+    const nlohmann::ordered_json none(nullptr);
+    return {
+        {"foveae", same_gaze_ ? comparison_json(foveae_equal_, foveae_compared_) : none},
+        {"pixels", pixels_compared_ > 0 ? comparison_json(pixels_equal_, pixels_compared_) : none},
+        {"first_difference",
+         first_difference_ ? nlohmann::ordered_json(*first_difference_) : none}};
 }
 
 }  // namespace gazeloop::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,9 @@ class ReplayHash final : public FrameObserver {
 
     /// "foveae HEX over N frames" and, where pixels were hashed, "pixels HEX over N frames".
     [[nodiscard]] std::string text() const;
+    /// The same for programs: numbers of 64 bits as 16 hexadecimal digits; pixels are null where
+    /// none were hashed.
+    [[nodiscard]] nlohmann::ordered_json json() const;
 
   private:
     std::uint64_t foveae_ = 0;
@@ -40,6 +44,8 @@ class ReplayCheck final : public FrameObserver {
 
     [[nodiscard]] bool equal() const;
     [[nodiscard]] std::string text() const;
+    /// The same for programs: null is what was not compared.
+    [[nodiscard]] nlohmann::ordered_json json() const;
 
   private:
     const session::SessionFile& session_;

@@ -126,6 +126,13 @@ void RunOptions::add_settings_to(CLI::App& command) {
 }
 
 Expected<void> RunOptions::apply_to(Settings& settings, bool standard_files) const {
+    if (auto set = set_in(settings, standard_files); !set) {
+        return set;
+    }
+    return take_kernel_table(settings);
+}
+
+Expected<void> RunOptions::set_in(Settings& settings, bool standard_files) const {
     if (standard_files) {
         if (auto loaded = settings.load_standard_files(); !loaded) {
             return loaded;
@@ -155,7 +162,7 @@ Expected<void> RunOptions::apply_to(Settings& settings, bool standard_files) con
             }
         }
     }
-    return take_kernel_table(settings);
+    return {};
 }
 
 void RunOptions::fill(FrameRunRequest& request) const {

@@ -60,9 +60,11 @@ struct RunOptions {
     /// Of them only those about settings: --config, --set, the aliases and --print-config.
     void add_settings_to(CLI::App& command);
 
-    /// Applies --config, --set and the aliases, in this order. `standard_files`: the user's and the
-    /// system's configuration first.
+    /// Applies --config, --set and the aliases, in this order, and reads the file of a kernel
+    /// table. `standard_files`: the user's and the system's configuration first.
     Expected<void> apply_to(Settings& settings, bool standard_files) const;
+    /// The same without the file of a kernel table.
+    Expected<void> set_in(Settings& settings, bool standard_files) const;
 
     /// What these options say of a run.
     void fill(FrameRunRequest& request) const;

@@ -25,11 +25,12 @@ figure { margin: 0; } figcaption { font-weight: 600; }
 svg { width: 100%; height: auto; } svg text { font: 11px system-ui, sans-serif; fill: #444c56; }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
 th, td { padding: .15rem .55rem; text-align: right; border-bottom: 1px solid #e3e6ea; }
-th { position: sticky; top: 0; background: #fff; } td.name { text-align: left; white-space: nowrap; }
-td.note { text-align: left; color: #6a737d; min-width: 12em; }
+th { position: sticky; top: 0; background: #fff; }
+th.name, td.name, td.note { text-align: left; } td.name { white-space: nowrap; }
+tr.noted td { border-bottom: 0; } td.note { color: #6a737d; padding-left: 1.8rem; }
 .missed { color: #b3261e; font-weight: 600; } .met { color: #1a7f37; }
 .key span { display: inline-block; width: .8em; height: .8em; border-radius: 50%; margin: 0 .35em 0 1em; }
-.scroll { overflow-x: auto; }
+@media (max-width: 68rem) { .scroll { overflow-x: auto; } }
 </style></head><body>
 )";
 
@@ -142,29 +143,33 @@ std::string plots(const std::vector<EnvelopeGroup>& groups) {
 }
 
 std::string table(const std::vector<EnvelopeGroup>& groups) {
+    constexpr int kColumns = 13;
     std::string html =
-        "<div class=\"scroll\"><table><thead><tr><th>map<th>picture<th>fovea<th>float<th>device"
-        "<th>bound<th>float32<th>target<th>texels<th>seam<th>fall<th>not finite<th><th>"
+        "<div class=\"scroll\"><table><thead><tr><th "
+        "class=\"name\">map<th>picture<th>fovea<th>float"
+        "<th>device<th>bound<th>float32<th>target<th>texels<th>seam<th>fall<th>not finite<th>"
         "</tr></thead>\n<tbody>\n";
     for (const EnvelopeGroup& group : groups) {
         html += fmt::format(
-            "<tr><td class=\"name\">{}<td>{}x{}<td>{}<td>{:.5f}<td>{:.5f}<td>{:.5f}<td>{:.5f}"
-            "<td>{:.5f}<td>{:.5f}<td>{:.5f}<td>{:.5f}<td>{}<td class=\"{}\">{}"
-            "<td class=\"note\">{}</tr>\n",
-            escaped(group.map), group.image.width_px, group.image.height_px,
-            group.on_screen ? "on" : "off", group.cpu_px, group.device_px, group.bound_px,
-            group.conditioning_px, group.target_px, group.texels, group.seam_px, group.fall_px,
-            group.not_finite, group.met ? "met" : "missed", group.met ? "met" : "missed",
-            group.useless > 0
-                ? fmt::format("{} of {} useless ({}: {})", group.useless, group.rows,
-                              escaped(group.useless_where), escaped(group.why_useless))
-                : "");
+            "<tr{}><td class=\"name\">{}<td>{}x{}<td>{}<td>{:.5f}<td>{:.5f}<td>{:.5f}<td>{:.5f}"
+            "<td>{:.5f}<td>{:.5f}<td>{:.5f}<td>{:.5f}<td>{}<td class=\"{}\">{}</tr>\n",
+            group.useless > 0 ? " class=\"noted\"" : "", escaped(group.map), group.image.width_px,
+            group.image.height_px, group.on_screen ? "on" : "off", group.cpu_px, group.device_px,
+            group.bound_px, group.conditioning_px, group.target_px, group.texels, group.seam_px,
+            group.fall_px, group.not_finite, group.met ? "met" : "missed",
+            group.met ? "met" : "missed");
+        if (group.useless > 0) {
+            html += fmt::format(
+                "<tr><td class=\"note\" colspan=\"{}\">{} of {} useless ({}: {})</tr>\n", kColumns,
+                group.useless, group.rows, escaped(group.useless_where),
+                escaped(group.why_useless));
+        }
     }
     return html + "</tbody></table></div>\n";
 }
 
 std::string builds(const Envelope& envelope) {
-    std::string html = "<table><thead><tr><th>map<th>ms</tr></thead><tbody>\n";
+    std::string html = "<table><thead><tr><th class=\"name\">map<th>ms</tr></thead><tbody>\n";
     for (const TableBuild& build : envelope.tables) {
         html += fmt::format("<tr><td class=\"name\">{}<td>{:.3f}</tr>\n", escaped(build.map),
                             build.milliseconds);

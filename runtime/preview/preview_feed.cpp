@@ -6,15 +6,14 @@
 #include <cstring>
 #include <limits>
 
+#include "runtime/render/picture.h"
+
 namespace gazeloop::preview {
 namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 using Layout = vk::ImageLayout;
-
-/// As in a marked snapshot, where no disc is shaded.
-constexpr double kRingWithoutDiscPx = 24.0;
 
 std::uint32_t reduction_of(const gaze::PerEye<vk::Extent2D>& extents) {
     std::uint32_t longest = 1;
@@ -111,12 +110,12 @@ void PreviewFeed::describe(const render::FrameRequest& request, std::uint32_t ey
         const auto in_preview = [this](double px) {
             return static_cast<float>(px / static_cast<double>(reduction_));
         };
-        next_.pictures[e] = {
-            .width_px = extent.width,
-            .height_px = extent.height,
-            .fovea_x_px = in_preview(request.foveae[e].x_px),
-            .fovea_y_px = in_preview(request.foveae[e].y_px),
-            .ring_radius_px = in_preview(radius_px > 0.0 ? radius_px : kRingWithoutDiscPx)};
+        next_.pictures[e] = {.width_px = extent.width,
+                             .height_px = extent.height,
+                             .fovea_x_px = in_preview(request.foveae[e].x_px),
+                             .fovea_y_px = in_preview(request.foveae[e].y_px),
+                             .ring_radius_px = in_preview(
+                                 radius_px > 0.0 ? radius_px : render::kRingWithoutDisc_px)};
     }
 }
 

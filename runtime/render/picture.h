@@ -30,6 +30,9 @@ std::vector<float> read_back_depth(const VulkanContext& context, const DepthImag
 /// |a - b| times `gain` for each channel, clamped. Precondition: equal sizes.
 Picture amplified_difference(const Picture& a, const Picture& b, double gain);
 
+/// Of the ring that marks a fovea where no disc is shaded.
+inline constexpr double kRingWithoutDisc_px = 24.0;
+
 /// Draws a ring and a cross around a position; parts beyond the picture are left out.
 void mark_fovea(Picture& picture, const gaze::PixelPosition& fovea, double radius_px);
 

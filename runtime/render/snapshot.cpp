@@ -9,8 +9,6 @@
 namespace gazeloop::render {
 namespace {
 
-constexpr double kUnmarkedDiscRing = 24.0;
-
 struct Rendered {
     gaze::PerEye<Picture> result;
     gaze::PerEye<Picture> lp;  ///< empty for full resolution
@@ -88,7 +86,7 @@ Expected<std::vector<std::filesystem::path>> write_snapshot(const VulkanContext&
             }
             if (in_screen_space && options.mark_fovea) {
                 const double disc = foveated.disc_radius_px[e];
-                mark_fovea(picture, request.foveae[e], disc > 0.0 ? disc : kUnmarkedDiscRing);
+                mark_fovea(picture, request.foveae[e], disc > 0.0 ? disc : kRingWithoutDisc_px);
             }
             files.push_back(options.folder / fmt::format("{}-{}.png", gaze::kEyeNames[e], what));
             return write_png(picture, files.back());

@@ -199,13 +199,13 @@ TEST(Doctor, ReadsEveryLayerOfTheConfiguration) {
 TEST(Doctor, SaysWhichSettingsRunWouldRefuse) {
     const ScratchFolder folder;
     const std::string table = folder.write("table.toml", "kfr.kernel = \"table\"\n");
+    const std::string no_table = folder.write(
+        "no_table.toml", "kfr.kernel = \"table\"\nkfr.kernel_table = \"nosuch.csv\"\n");
     const std::string display = folder.write("display.toml", "profile.display = \"fove1\"\n");
     const std::vector<std::vector<std::string>> refused{
-        {"--set", "gaze.hold_ms=1"},
-        {"--tracker", "nosuch"},
-        {"--config", table},
-        {"--config", display},
-        {"--target", "openxr", "--set", "vulkan.device=llvm"}};
+        {"--set", "gaze.hold_ms=1"}, {"--tracker", "nosuch"},
+        {"--config", table},         {"--config", no_table},
+        {"--config", display},       {"--target", "openxr", "--set", "vulkan.device=llvm"}};
     for (std::vector<std::string> arguments : refused) {
         const Diagnosis diagnosis = diagnose(arguments);
         EXPECT_EQ(diagnosis.exit_code, 4) << arguments[1];

@@ -63,12 +63,24 @@ TEST_F(Replay, OfASessionGivesTheRecordedFrames) {
         run_gazeloop({"run", "--gaze", "trace:" + trace(), "--target", "headless", "--frames", "8",
                       "--hash", "--record", session, "--set", kSmall, "--sigma", "2"});
     ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
-    const ProgramResult replayed = run_gazeloop({"replay", session, "--hash"});
+    const std::string summary = folder_.file("summary.json");
+    const ProgramResult replayed = run_gazeloop({"replay", session, "--hash", "--json", summary});
     EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
     EXPECT_NE(replayed.out.find("foveae bit-equal in 8 of 8 frames"), std::string::npos)
         << replayed.out;
     EXPECT_NE(replayed.out.find("pictures equal in 8 of 8 frames"), std::string::npos)
         << replayed.out;
+    // What is printed is in the file too.
+    const auto json = nlohmann::json::parse(std::ifstream(summary));
+    const auto all = nlohmann::json{{"equal", 8}, {"of", 8}};
+    EXPECT_EQ(json["replay"]["foveae"], all);
+    EXPECT_EQ(json["replay"]["pixels"], all);
+    EXPECT_TRUE(json["replay"]["first_difference"].is_null());
+    for (const std::string what : {"foveae", "pixels"}) {
+        const std::string line =
+            "hash " + what + " " + json["hash"][what]["hash"].get<std::string>() + " over 8 frames";
+        EXPECT_NE(replayed.out.find(line), std::string::npos) << line << '\n' << replayed.out;
+    }
     // Another sampling leaves the foveae as they are, and the pictures are no longer comparable.
     const ProgramResult other = run_gazeloop({"replay", session, "--hash", "--sigma", "3"});
     EXPECT_EQ(other.exit_code, 0) << other.err;
@@ -179,7 +191,8 @@ TEST_F(Replay, NeedsNoProfileThatTheSessionWasRecordedWith) {
                   .exit_code,
               0);
     std::filesystem::remove(display);
-    const ProgramResult replayed = run_gazeloop({"replay", session, "--hash"});
+    const std::string summary = folder_.file("summary.json");
+    const ProgramResult replayed = run_gazeloop({"replay", session, "--hash", "--json", summary});
     EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
     EXPECT_NE(replayed.out.find("pictures equal in 4 of 4"), std::string::npos) << replayed.out;
 }
