@@ -25,9 +25,12 @@ struct TrackerFacts {
     std::optional<std::uint32_t> display_serial;
     std::optional<double> screen_width_m;  ///< that it is calibrated to
     std::optional<double> screen_height_m;
+    std::optional<std::uint32_t> quality;  ///< on a scale of its own
     std::optional<double> minimum_distance_m;
     std::optional<double> optimum_distance_m;
     std::optional<double> maximum_distance_m;
+    std::optional<double> maximum_screen_width_m;  ///< that it can track gaze on
+    std::optional<double> maximum_screen_height_m;
 };
 
 /// What came from a tracker.

@@ -82,6 +82,9 @@ class LayoutFinder {
         const std::uint32_t elements = std::min(field.count, kMostElements);
         for (std::uint32_t element = 0; element < elements; ++element) {
             switch (field.usage_of(element)) {
+                case kTrackerQuality:
+                    keep(layout_.quality, field, element, Quantity::Count);
+                    break;
                 case kMinimumTrackingDistance:
                     keep(layout_.minimum_distance, field, element, Quantity::Length);
                     break;
@@ -207,9 +210,9 @@ class LayoutFinder {
 std::vector<std::uint8_t> EyeTrackerLayout::feature_ids() const {
     std::vector<std::uint8_t> ids;
     for (const auto* value :
-         {&minimum_distance, &optimum_distance, &maximum_distance, &maximum_width, &maximum_height,
-          &display_manufacturer, &display_product, &display_serial, &screen_width, &screen_height,
-          &status_feature.status, &status_feature.sampling_hz}) {
+         {&quality, &minimum_distance, &optimum_distance, &maximum_distance, &maximum_width,
+          &maximum_height, &display_manufacturer, &display_product, &display_serial, &screen_width,
+          &screen_height, &status_feature.status, &status_feature.sampling_hz}) {
         if (*value && std::ranges::find(ids, (*value)->report_id) == ids.end()) {
             ids.push_back((*value)->report_id);
         }

@@ -50,6 +50,7 @@ struct EyeTrackerLayout {
     StatusLayout status_feature;
 
     // Features.
+    std::optional<ReportValue> quality;
     std::optional<ReportValue> minimum_distance;
     std::optional<ReportValue> optimum_distance;
     std::optional<ReportValue> maximum_distance;

@@ -187,6 +187,7 @@ TrackerFeatures decode_features(const EyeTrackerLayout& layout,
                                 std::span<const FeatureReport> reports) {
     const FeatureReader read(reports);
     TrackerFeatures features;
+    features.quality = nonzero(read.count(layout.quality));
     features.minimum_distance_m = read.length_m(layout.minimum_distance);
     features.optimum_distance_m = read.length_m(layout.optimum_distance);
     features.maximum_distance_m = read.length_m(layout.maximum_distance);

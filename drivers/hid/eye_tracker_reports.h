@@ -61,6 +61,7 @@ struct ImplausibleLength {
 /// What the device said of itself. Zero and no data are absent, and lengths that cannot be: those
 /// below 1 cm or above 10 m, but for a common factor of 1000.
 struct TrackerFeatures {
+    std::optional<std::uint32_t> quality;  ///< on a scale of the device's own
     std::optional<double> minimum_distance_m;
     std::optional<double> optimum_distance_m;
     std::optional<double> maximum_distance_m;

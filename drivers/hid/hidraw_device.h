@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,22 +10,19 @@
 
 #include "runtime/error.h"
 
+struct hid_device_;
+
 namespace gazeloop::drivers::hid {
 
-/// An open /dev/hidrawN (linux/hidraw.h).
-///
-/// Without hidapi, each of whose calls would stand for one system call here: up to 0.13 its
-/// hid_open_path() uses freed memory where a node does not answer HIDIOCGRDESCSIZE, which a tracker
-/// that is pulled out just then does not, and it cannot be given a node that is open already.
+/// An open /dev/hidrawN, through hidapi's hidraw backend, whose open is worked around: up to 0.13
+/// it uses freed memory where a node does not answer HIDIOCGRDESCSIZE, and it keeps its last error
+/// in a variable of the whole program. So the node is opened and asked by ourselves first, and kept
+/// open, and one thread opens at a time. What is left is a tracker that is pulled out in the
+/// microseconds between the two questions; from 0.14 on that is an error like any other.
 class HidrawDevice {
   public:
     /// Errors (NoDevice): it cannot be opened, or is no HID device (any more).
     [[nodiscard]] static Expected<HidrawDevice> open(const std::string& path);
-    HidrawDevice(HidrawDevice&& other) noexcept;
-    HidrawDevice(const HidrawDevice&) = delete;
-    HidrawDevice& operator=(HidrawDevice&&) = delete;
-    HidrawDevice& operator=(const HidrawDevice&) = delete;
-    ~HidrawDevice();
 
     /// Waits for an input report; its size with the id, 0 after the time. Errors (NoDevice): the
     /// device was unplugged, or failed.
@@ -43,11 +41,30 @@ class HidrawDevice {
     [[nodiscard]] Expected<void> send_feature(std::span<const std::uint8_t> report);
 
   private:
-    HidrawDevice(std::string path, int fd) : path_(std::move(path)), fd_(fd) {}
+    /// A file of our own on the node, which hidapi cannot be given: asked first, and locked.
+    class Node {
+      public:
+        explicit Node(const std::string& path);
+        Node(Node&& other) noexcept;
+        Node(const Node&) = delete;
+        Node& operator=(Node&&) = delete;
+        Node& operator=(const Node&) = delete;
+        ~Node();
+        [[nodiscard]] int fd() const { return fd_; }
+
+      private:
+        int fd_;  ///< -1: it could not be opened, or was moved from
+    };
+    struct Close {
+        void operator()(hid_device_* device) const;
+    };
+
+    HidrawDevice(std::string path, Node node) : path_(std::move(path)), node_(std::move(node)) {}
     [[nodiscard]] std::unexpected<Error> error(const std::string& what) const;
 
     std::string path_;
-    int fd_;  ///< -1: moved from
+    Node node_;
+    std::unique_ptr<hid_device_, Close> device_;
 };
 
 }  // namespace gazeloop::drivers::hid

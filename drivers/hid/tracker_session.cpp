@@ -146,9 +146,12 @@ TrackerFacts TrackerSession::facts() const {
     facts.display_serial = features_.display_serial;
     facts.screen_width_m = features_.screen_width_m;
     facts.screen_height_m = features_.screen_height_m;
+    facts.quality = features_.quality;
     facts.minimum_distance_m = features_.minimum_distance_m;
     facts.optimum_distance_m = features_.optimum_distance_m;
     facts.maximum_distance_m = features_.maximum_distance_m;
+    facts.maximum_screen_width_m = features_.maximum_width_m;
+    facts.maximum_screen_height_m = features_.maximum_height_m;
     if (samples_.status()) {
         facts.status = text_of(*samples_.status());
     }

@@ -76,7 +76,7 @@ Json clock_json(const latency::ClockFit& clock) {
             {"steps", clock.steps()}};
 }
 
-void append_range(std::string& text, const drivers::TrackerFacts& facts) {
+void append_capabilities(std::string& text, const drivers::TrackerFacts& facts) {
     if (facts.minimum_distance_m && facts.maximum_distance_m) {
         fmt::format_to(std::back_inserter(text), "  distance  {:.2f} to {:.2f} m",
                        *facts.minimum_distance_m, *facts.maximum_distance_m);
@@ -84,6 +84,14 @@ void append_range(std::string& text, const drivers::TrackerFacts& facts) {
             fmt::format_to(std::back_inserter(text), ", best {:.2f} m", *facts.optimum_distance_m);
         }
         text += "\n";
+    }
+    if (facts.maximum_screen_width_m && facts.maximum_screen_height_m) {
+        fmt::format_to(std::back_inserter(text), "  screen    up to {:.0f} x {:.0f} mm\n",
+                       *facts.maximum_screen_width_m * 1e3, *facts.maximum_screen_height_m * 1e3);
+    }
+    if (facts.quality) {
+        fmt::format_to(std::back_inserter(text), "  quality   {} on a scale of its own\n",
+                       *facts.quality);
     }
 }
 
@@ -111,7 +119,7 @@ std::string devices_text(const std::vector<TrackerProbe>& probes) {
         for (const std::string& remark : probe.remarks) {
             fmt::format_to(out, "  device    {}\n", remark);
         }
-        append_range(text, probe.facts);
+        append_capabilities(text, probe.facts);
         if (probe.seconds > 0.0) {
             fmt::format_to(out, "  samples   {} in {:.1f} s", probe.counts.samples, probe.seconds);
             if (probe.rate_hz) {
@@ -159,9 +167,12 @@ Json devices_json(const std::vector<TrackerProbe>& probes) {
                         {"display_serial", or_null(facts.display_serial)},
                         {"screen_width_m", or_null(facts.screen_width_m)},
                         {"screen_height_m", or_null(facts.screen_height_m)},
+                        {"quality", or_null(facts.quality)},
                         {"minimum_distance_m", or_null(facts.minimum_distance_m)},
                         {"optimum_distance_m", or_null(facts.optimum_distance_m)},
                         {"maximum_distance_m", or_null(facts.maximum_distance_m)},
+                        {"maximum_screen_width_m", or_null(facts.maximum_screen_width_m)},
+                        {"maximum_screen_height_m", or_null(facts.maximum_screen_height_m)},
                         {"seconds", probe.seconds},
                         {"samples", probe.counts.samples},
                         {"samples_with_gaze", probe.with_gaze},

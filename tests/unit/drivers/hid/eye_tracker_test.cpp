@@ -278,7 +278,9 @@ std::vector<FeatureReport> features_in_um(double factor, std::int32_t screen_wid
 TEST(EyeTracker, FeaturesAreReadByUsage) {
     const EyeTrackerLayout layout = layout_of(first_layout());
     const TrackerFeatures features = decode_features(layout, features_in_um(1.0));
+    EXPECT_EQ(features.quality, 2U);
     EXPECT_DOUBLE_EQ(*features.minimum_distance_m, 0.45);
+    EXPECT_DOUBLE_EQ(*features.maximum_width_m, 0.6);
     EXPECT_DOUBLE_EQ(*features.maximum_height_m, 0.34);
     EXPECT_DOUBLE_EQ(features.capability_correction, 1.0);
     EXPECT_EQ(features.display_manufacturer, 0x4D10U);
