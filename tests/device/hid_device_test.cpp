@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <thread>
 
 #include "drivers/device/usb_polling.h"
@@ -86,6 +88,33 @@ TEST_F(HidDevice, ANodeThatIsNoHidDeviceIsRefused) {
     EXPECT_EQ(opened.error().code, ExitCode::NoDevice);
     EXPECT_NE(opened.error().message.find("/dev/null"), std::string::npos);
     EXPECT_FALSE(HidrawDevice::open("/dev/hidraw77").has_value());
+}
+
+// Ctrl-C is not to be told as an unplugged tracker.
+TEST_F(HidDevice, ASignalWhileItIsWaitedForIsNoFailure) {
+    tracker_->plug_in();
+    auto device = HidrawDevice::open(tracker_->node());
+    ASSERT_TRUE(device.has_value());
+    struct sigaction ours{};
+    ours.sa_handler = [](int) {};
+    ours.sa_flags = SA_RESTART;
+    struct sigaction before{};
+    sigaction(SIGUSR1, &ours, &before);
+    std::atomic<bool> done{false};
+    Expected<std::size_t> bytes = 1;
+    std::thread reader([&] {
+        std::array<std::uint8_t, 65> report{};
+        bytes = device->read(report, std::chrono::seconds(60));
+        done = true;
+    });
+    while (!done) {
+        pthread_kill(reader.native_handle(), SIGUSR1);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    reader.join();
+    sigaction(SIGUSR1, &before, nullptr);
+    ASSERT_TRUE(bytes.has_value()) << bytes.error().message;
+    EXPECT_EQ(*bytes, 0U);
 }
 
 TEST_F(HidDevice, ReportsBecomeSamplesWholeAndShort) {
