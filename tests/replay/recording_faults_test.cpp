@@ -33,7 +33,7 @@ constexpr std::uint64_t kFrames = 1500;
 /// Room for part of them, however slowly they come: at the worst each has a commit of its own,
 /// which writes at most one page of 4 KiB more for each of ten tables and indices.
 constexpr std::uint64_t kRoom_bytes = 1'000'000;
-constexpr std::uint64_t kLeastFrames = kRoom_bytes / (11 * 4096);
+constexpr std::uint64_t kLeastFrames = kRoom_bytes / (11ULL * 4096);
 
 class RecordingFault : public testing::Test {
   protected:
