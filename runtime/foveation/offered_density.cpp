@@ -6,10 +6,6 @@
 
 namespace gazeloop::foveation {
 
-double SampleGrid::area_density() const {
-    return std::abs(first.x * second.y - first.y * second.x);
-}
-
 double SampleGrid::worst_density() const {
     // Gauss's reduction of a lattice in two dimensions. Each step shortens the longer vector, by at
     // least a factor of sqrt(3) or it is the last; the limit is for vectors that are not finite.

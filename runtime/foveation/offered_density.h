@@ -17,9 +17,6 @@ struct SampleGrid {
     /// A square grid of this many samples a unit.
     static SampleGrid square(double per_unit) { return {{per_unit, 0.0}, {0.0, per_unit}}; }
 
-    /// Samples a unit of area.
-    [[nodiscard]] double area_density() const;
-
     /// Samples a unit in the direction that the grid serves worst: the length of the shortest
     /// vector of the reciprocal lattice that the gradients span. Gratings of up to half as many
     /// cycles pass without aliasing in every direction (Petersen and Middleton 1962).

@@ -84,7 +84,6 @@ GazeToFovea::GazeToFovea(const FoveaPolicy& policy) : policy_(policy) {}
 void GazeToFovea::add(const GazeSample& sample) {
     const Times times{sample.sampled, sample.arrived, sample.ready, sample.uncertainty_ns};
     if (latency::goes_back(std::exchange(sampled_before_, times.sampled), times.sampled)) {
-        ++out_of_order_;
         return;
     }
 
@@ -95,7 +94,6 @@ void GazeToFovea::add(const GazeSample& sample) {
     }
     newest_valid_ = seen[0] || seen[1];
     if (!newest_valid_) {
-        ++invalid_;
         return;
     }
     ValidSample valid{.direction_in_head = {},

@@ -41,17 +41,14 @@ class GazeToFovea {
     explicit GazeToFovea(const FoveaPolicy& policy);
 
     /// Takes samples in the order of arrival; one with a sample time before that of the sample
-    /// added before it is counted as out of order and otherwise ignored. Unknown times are not
-    /// compared, nor is the tracker's own clock, which may lie: then the order of arrival stands.
+    /// added before it is ignored. Unknown times are not compared, nor is the tracker's own clock,
+    /// which may lie: then the order of arrival stands.
     void add(const GazeSample& sample);
 
     /// The foveae of a frame whose gaze is read at `latched` (known), for views at their display
     /// time. `head` is the head pose those views belong to. Precondition: is_valid(view) of both.
     [[nodiscard]] FrameFovea latch(latency::Stamp latched, const Pose& head,
                                    const StereoView& views) const;
-
-    [[nodiscard]] std::uint64_t samples_out_of_order() const { return out_of_order_; }
-    [[nodiscard]] std::uint64_t samples_invalid() const { return invalid_; }
 
   private:
     struct Times {
@@ -84,8 +81,6 @@ class GazeToFovea {
     std::optional<Times> newest_;    ///< of the sample taken last
     bool newest_valid_ = false;
     std::optional<ValidSample> last_valid_;
-    std::uint64_t out_of_order_ = 0;
-    std::uint64_t invalid_ = 0;
 };
 
 }  // namespace gazeloop::gaze

@@ -118,7 +118,6 @@ TEST(GazeToFovea, NeverCountsInvalidSamplesAsGaze) {
     gaze.add(invalid_sample(0));
     gaze.add(invalid_sample(8));
     expect_state(left_at(gaze, 9), FoveaState::Centre, LossReason::Never);
-    EXPECT_EQ(gaze.samples_invalid(), 2U);
 }
 
 TEST(GazeToFovea, TracksEachEyeByItself) {
@@ -148,7 +147,6 @@ TEST(GazeToFovea, LendsTheOtherEyesDirection) {
     expect_state(frame.eyes[kLeft], FoveaState::OtherEye, LossReason::None);
     expect_state(frame.eyes[kRight], FoveaState::Tracking, LossReason::None);
     EXPECT_NEAR(frame.eyes[kLeft].position.x_px, 400.0, 1e-9);
-    EXPECT_EQ(gaze.samples_invalid(), 0U);
 
     // Lost afterwards, the borrowed direction is what is held.
     gaze.add(invalid_sample(20));
@@ -164,7 +162,7 @@ TEST(GazeToFovea, BelievesOnlyConfidentFiniteDirections) {
         sample.eyes[kRight].valid = true;
         change(sample.eyes[kRight]);
         gaze.add(sample);
-        return gaze.samples_invalid() == 0;
+        return left_at(gaze, 1).state != FoveaState::Centre;
     };
     EXPECT_TRUE(is_taken([](EyeRay&) {}));
     EXPECT_TRUE(is_taken([](EyeRay& ray) { ray.confidence = 0.6; }));
@@ -259,12 +257,11 @@ TEST(GazeToFovea, ReturnsAtOnceWhereThePolicyLeavesNoTime) {
     expect_state(left_at(gaze, 301), FoveaState::Centre, LossReason::Stale);
 }
 
-TEST(GazeToFovea, IgnoresAndCountsWhatGoesBackInTime) {
+TEST(GazeToFovea, IgnoresWhatGoesBackInTime) {
     GazeToFovea gaze(policy());
     gaze.add(sample_of(20, towards(20.0)));
     GazeSample late = sample_of(10, towards(-20.0));
     gaze.add(late);
-    EXPECT_EQ(gaze.samples_out_of_order(), 1U);
     EXPECT_EQ(left_at(gaze, 21).sample_sequence, 20U);
 
     // The same time is not back; an unknown sample time is not compared.
@@ -273,7 +270,6 @@ TEST(GazeToFovea, IgnoresAndCountsWhatGoesBackInTime) {
     GazeSample unknown = sample_of(30, towards(5.0));
     unknown.sampled = {};
     gaze.add(unknown);
-    EXPECT_EQ(gaze.samples_out_of_order(), 1U);
     EXPECT_EQ(left_at(gaze, 31).sample_sequence, 30U);
 }
 
@@ -286,16 +282,14 @@ TEST(GazeToFovea, TakesTheOrderOfArrivalWhereTheTrackersClockLies) {
         gaze.add(sample);
         EXPECT_EQ(left_at(gaze, ms + 1).sample_sequence, static_cast<std::uint64_t>(ms));
     }
-    EXPECT_EQ(gaze.samples_out_of_order(), 0U);
 }
 
-TEST(GazeToFovea, DoesNotCountAnIgnoredSampleAsFreshOrInvalid) {
+TEST(GazeToFovea, DoesNotTakeAnIgnoredSampleForFreshOrInvalid) {
     GazeToFovea gaze(policy());
     gaze.add(sample_of(0, towards(20.0)));
     GazeSample back = invalid_sample(90);
     back.sampled = at_ms(-1);
     gaze.add(back);
-    EXPECT_EQ(gaze.samples_invalid(), 0U);
     expect_state(left_at(gaze, 91), FoveaState::Tracking, LossReason::None);
     expect_state(left_at(gaze, 101), FoveaState::Held, LossReason::Stale);
 }
@@ -308,7 +302,6 @@ TEST(GazeToFovea, LosesNothingWhenTheTrackersClockRestarts) {
     sample = sample_of(108, towards(10.0));
     sample.device_ns = 0;
     gaze.add(sample);
-    EXPECT_EQ(gaze.samples_out_of_order(), 0U);
     EXPECT_EQ(left_at(gaze, 109).sample_sequence, 108U);
 }
 
@@ -321,8 +314,8 @@ TEST(GazeToFovea, RecoversFromASampleTimeFarInTheFuture) {
     expect_state(left_at(gaze, 100), FoveaState::Tracking, LossReason::None);
     expect_state(left_at(gaze, 101), FoveaState::Held, LossReason::Stale);
     gaze.add(sample_of(102, towards(0.0)));
+    expect_state(left_at(gaze, 103), FoveaState::Held, LossReason::Stale);
     gaze.add(sample_of(110, towards(0.0)));
-    EXPECT_EQ(gaze.samples_out_of_order(), 1U);
     EXPECT_EQ(left_at(gaze, 111).sample_sequence, 110U);
 }
 
