@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "runtime/latency/span.h"
 
 namespace gazeloop::drivers {
@@ -36,15 +38,22 @@ void SampleClock::stamp(std::uint64_t ticks, std::int64_t arrived_ns, gaze::Gaze
         const auto step =
             latency::saturated(static_cast<__int128>(sample.device_ns) - *last_device_ns_);
         // A clock that was set leaves the sample's time unknown, and is no loss.
-        if (queued_in_a_row_ >= kBacklog && sample.ready.known() &&
-            step > period_ns + period_ns / 2) {
+        if (backlog_ >= kBacklog && sample.ready.known() && step > period_ns + period_ns / 2) {
             const bool up = step % period_ns >= period_ns - period_ns / 2;
             lost_ = static_cast<std::uint64_t>(step / period_ns - (up ? 0 : 1));
         }
-        const bool queued = arrived_ns - last_arrived_ns_ < period_ns / 4;
-        queued_in_a_row_ = queued ? queued_in_a_row_ + 1 : 0;
     }
     last_device_ns_ = sample.device_ns;
+    backlog_ = 0;
+    count_backlog(arrived_ns);
+}
+
+void SampleClock::pass(std::int64_t arrived_ns) { count_backlog(arrived_ns); }
+
+void SampleClock::count_backlog(std::int64_t arrived_ns) {
+    const bool queued = arrived_ns - last_arrived_ns_ < fit_.period_ns() / 4;
+    queued_in_a_row_ = queued ? queued_in_a_row_ + 1 : 0;
+    backlog_ = std::max(backlog_, queued_in_a_row_);
     last_arrived_ns_ = arrived_ns;
 }
 

@@ -35,6 +35,10 @@ class SampleClock {
     /// delay before that, kind Profile) and the uncertainty of both together with the polling's.
     void stamp(std::uint64_t ticks, std::int64_t arrived_ns, gaze::GazeSample& sample);
 
+    /// Another report of the same device, which this clock has no timestamp of: it waited in the
+    /// same queue.
+    void pass(std::int64_t arrived_ns);
+
     /// How many reports are missing before the sample stamped last, where that is certain: after a
     /// backlog as long as the kernel's queue a gap is a loss. Any other gap may be a tracker that
     /// sends nothing while it sees no eyes.
@@ -52,12 +56,15 @@ class SampleClock {
     static constexpr std::int64_t kCalm_ns = 10'000'000'000;
 
   private:
+    void count_backlog(std::int64_t arrived_ns);
+
     latency::TickCounter counter_;
     TrackerDelay delay_;
     latency::ClockFit fit_;
     std::optional<std::int64_t> last_device_ns_;
     std::int64_t last_arrived_ns_ = 0;
     std::uint64_t queued_in_a_row_ = 0;
+    std::uint64_t backlog_ = 0;  ///< the longest of these since the sample stamped last
     std::uint64_t lost_ = 0;
     std::uint64_t unusable_in_a_row_ = 0;
     std::optional<std::int64_t> told_ns_;

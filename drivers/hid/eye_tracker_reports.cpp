@@ -169,14 +169,15 @@ InputReport decode_input(const EyeTrackerLayout& layout, std::span<const std::ui
     }
     const std::uint8_t id = layout.numbered ? bytes.front() : std::uint8_t{0};
     const Payload payload = layout.numbered ? bytes.subspan(1) : bytes;
+    const StatusReport status = decode_status(layout.status_input, id, payload);
     const auto found = std::ranges::find(layout.tracking, id, &TrackingLayout::report_id);
     if (found != layout.tracking.end()) {
         TrackingReport report = decode_tracking(*found, payload);
+        report.status = status;
         const ReportSize* const size = find_report(layout.reports, ReportKind::Input, id);
         report.truncated = size != nullptr && payload.size() < size->payload_bytes();
         return report;
     }
-    const StatusReport status = decode_status(layout.status_input, id, payload);
     if (status.status || status.sampling_hz) {
         return status;
     }

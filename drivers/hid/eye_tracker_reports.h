@@ -13,18 +13,6 @@
 
 namespace gazeloop::drivers::hid {
 
-/// One report of tracking data. Positions are on and before the screen, metres: origin at the
-/// screen's top left corner, +X right as the viewer sees it, +Y down, +Z from the screen towards
-/// the viewer. (The usage page leaves the origin open; top left is what its drivers do.) What the
-/// device does not say, or marks as no data, is absent.
-struct TrackingReport {
-    std::uint8_t report_id = 0;
-    std::optional<std::uint64_t> ticks;  ///< of the timestamp field
-    std::optional<glm::dvec2> gaze_m;
-    gaze::PerEye<std::optional<glm::dvec3>> eye_m;
-    bool truncated = false;  ///< shorter than the descriptor says
-};
-
 /// Configuration Status, usage 0x301.
 enum class TrackerStatus : std::uint8_t {
     Unknown = 0,
@@ -41,6 +29,19 @@ struct StatusReport {
     std::optional<std::uint32_t> sampling_hz;
 
     friend bool operator==(const StatusReport&, const StatusReport&) = default;
+};
+
+/// One report of tracking data. Positions are on and before the screen, metres: origin at the
+/// screen's top left corner, +X right as the viewer sees it, +Y down, +Z from the screen towards
+/// the viewer. (The usage page leaves the origin open; top left is what its drivers do.) What the
+/// device does not say, or marks as no data, is absent.
+struct TrackingReport {
+    std::uint8_t report_id = 0;
+    std::optional<std::uint64_t> ticks;  ///< of the timestamp field
+    std::optional<glm::dvec2> gaze_m;
+    gaze::PerEye<std::optional<glm::dvec3>> eye_m;
+    StatusReport status;     ///< where it stands in the same report
+    bool truncated = false;  ///< shorter than the descriptor says
 };
 
 /// A report of something else: other keys, an unknown id, or no bytes at all.

@@ -26,6 +26,12 @@ void TrackerSamples::note(std::optional<TrackerStatus> status) {
     }
 }
 
+void TrackerSamples::note_reported(const StatusReport& report) {
+    // Status and rate may come in reports of their own.
+    status_reported_ = status_reported_ || report.status;
+    note(report.status);
+}
+
 void TrackerSamples::learn(const ScreenGeometry& geometry, std::optional<TrackerStatus> status) {
     geometry_ = geometry;
     if (!status_reported_) {
@@ -38,16 +44,15 @@ std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_
     const InputReport input = decode_input(layout_, report);
     tracked_last_ = std::holds_alternative<TrackingReport>(input);
     if (const auto* const status = std::get_if<StatusReport>(&input)) {
-        // Status and rate may come in reports of their own.
-        status_reported_ = status_reported_ || status->status;
-        note(status->status);
-        return std::nullopt;
+        note_reported(*status);
     }
     const auto* const tracking = std::get_if<TrackingReport>(&input);
     if (tracking == nullptr) {
-        ++counts_.others;
+        pass_clocks(arrived_ns);
+        counts_.others += std::holds_alternative<OtherReport>(input) ? 1 : 0;
         return std::nullopt;
     }
+    note_reported(tracking->status);
     counts_.damaged += tracking->truncated ? 1 : 0;
     const auto layout =
         std::ranges::find(layout_.tracking, tracking->report_id, &TrackingLayout::report_id);
@@ -56,6 +61,7 @@ std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_
         eyes_ = {arrived_ns, tracking->eye_m};
     }
     if (!layout->has_gaze()) {
+        pass_clocks(arrived_ns);
         return std::nullopt;  // eyes alone: the next gaze is theirs
     }
     ++counts_.samples;
@@ -68,6 +74,7 @@ std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_
     sample.arrived = {arrived_ns, latency::StampKind::Measured};
 
     const auto index = static_cast<std::size_t>(std::distance(layout_.tracking.begin(), layout));
+    pass_clocks(arrived_ns, index);
     std::optional<SampleClock>& clock = clocks_[index];
     lost_before_last_ = 0;
     if (clock && tracking->ticks) {
@@ -77,6 +84,14 @@ std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_
         counts_.lost += lost_before_last_;
     }
     return sample;
+}
+
+void TrackerSamples::pass_clocks(std::int64_t arrived_ns, std::optional<std::size_t> but) {
+    for (std::size_t i = 0; i < clocks_.size(); ++i) {
+        if (clocks_[i] && i != but) {
+            clocks_[i]->pass(arrived_ns);
+        }
+    }
 }
 
 std::optional<std::string> TrackerSamples::take_change() {

@@ -47,6 +47,9 @@ class TrackerSamples {
 
   private:
     void note(std::optional<TrackerStatus> status);
+    void note_reported(const StatusReport& report);
+    /// Tells the clocks, but this one, of a report that they do not stamp.
+    void pass_clocks(std::int64_t arrived_ns, std::optional<std::size_t> but = {});
 
     EyeTrackerLayout layout_;
     ScreenGeometry geometry_;

@@ -26,13 +26,18 @@ std::array<std::uint8_t, 65> report_at(std::uint64_t time_us) {
     return report;
 }
 
-/// Gaze in report 3, one eye after the other in report 4; tenths of a millimetre.
-std::vector<std::uint8_t> eyes_apart() {
+/// Gaze in report 3, one eye after the other in report 4; tenths of a millimetre. `timed`: the gaze
+/// with microseconds of 32 bits before it.
+std::vector<std::uint8_t> eyes_apart(bool timed = false) {
     using namespace eye_tracker;
     DescriptorItems d;
     d.page(0x12).open(CollectionType::Application, kEyeTracker).logical(-32768, 32767);
     d.unit(0x11).exponent(0x0E);
-    d.report_id(3).open(CollectionType::Logical, kGazePoint);
+    d.report_id(3);
+    if (timed) {
+        d.usage(kSensorTimestamp).fields(32, 1).input(DescriptorItems::kVariable);
+    }
+    d.open(CollectionType::Logical, kGazePoint);
     d.usage(kPositionX).usage(kPositionY).fields(16, 2).input(DescriptorItems::kVariable).close();
     d.report_id(4);
     for (const Usage eye : {kLeftEyePosition, kRightEyePosition}) {
@@ -108,6 +113,28 @@ TEST(TrackerSamples, TellChangesOfTheStatusOnce) {
     EXPECT_FALSE(samples.take_change().has_value());
     (void)samples.take(uncalibrated, 3);
     EXPECT_NE(samples.take_change().value_or("").find("calibrat"), std::string::npos);
+}
+
+// A tracker without report ids has no report of its own for it.
+TEST(TrackerSamples, TellChangesOfAStatusThatComesWithTheGaze) {
+    using namespace eye_tracker;
+    DescriptorItems d;
+    d.page(kPage).open(CollectionType::Application, kEyeTracker);
+    d.usage(kConfigurationStatus).fields(8, 1).input(DescriptorItems::kVariable);
+    d.usage(kGazePoint).fields(32, 2).input(DescriptorItems::kVariable).close();
+    TrackerSamples samples = samples_of(d.bytes());
+    std::vector<std::uint8_t> report(9, 0);
+    report[0] = 1;
+    EXPECT_TRUE(samples.take(report, 1).has_value());
+    EXPECT_EQ(samples.take_change(), "status: ready");
+    EXPECT_TRUE(samples.take(report, 2).has_value());
+    EXPECT_FALSE(samples.take_change().has_value());
+    report[0] = 4;
+    EXPECT_TRUE(samples.take(report, 3).has_value());
+    EXPECT_EQ(samples.status(), TrackerStatus::UserCalibrationNeeded);
+    EXPECT_TRUE(samples.take_change().has_value());
+    samples.learn({}, TrackerStatus::Ready);
+    EXPECT_EQ(samples.status(), TrackerStatus::UserCalibrationNeeded) << "reports are newer";
 }
 
 TEST(TrackerSamples, DoNotTellAStatusThatWasToldBefore) {
@@ -191,6 +218,36 @@ TEST(TrackerSamples, CountALossOnlyBehindAFullBacklog) {
     (void)take(taken_ns + kMs);
     EXPECT_EQ(samples.lost_before_last(), 137U);
     EXPECT_EQ(samples.counts().lost, 137U);
+}
+
+// Reports of all ids wait in one queue.
+TEST(TrackerSamples, CountALossBehindABacklogOfSeveralIds) {
+    TrackerSamples samples = samples_of(eyes_apart(true));
+    const auto take_both = [&](std::int64_t taken_ns, std::int64_t arrived_ns) {
+        const auto time_us = static_cast<std::uint32_t>(taken_ns / 1000);
+        std::vector<std::uint8_t> gaze{3, 0, 0, 0, 0, 1, 0, 1, 0};
+        std::memcpy(gaze.data() + 1, &time_us, sizeof(time_us));
+        (void)samples.take(std::vector<std::uint8_t>(13, 4), arrived_ns);
+        (void)samples.take(gaze, arrived_ns);
+    };
+    std::int64_t taken_ns = 0;
+    for (int i = 0; i < 100; ++i) {
+        taken_ns += 10 * kMs;
+        take_both(taken_ns, taken_ns + kMs);
+    }
+    taken_ns += 500 * kMs;  // no eyes were seen
+    take_both(taken_ns, taken_ns + kMs);
+    EXPECT_EQ(samples.counts().lost, 0U);
+    // 62 reports waited, 31 of the gaze; of the next 168, 84 of the gaze, there is none.
+    const std::int64_t awake_ns = taken_ns + 1150 * kMs;
+    for (int i = 0; i < 31; ++i) {
+        taken_ns += 10 * kMs;
+        take_both(taken_ns, awake_ns + i * std::int64_t{1000});
+    }
+    EXPECT_EQ(samples.counts().lost, 0U);
+    taken_ns += 850 * kMs;
+    take_both(taken_ns, taken_ns + kMs);
+    EXPECT_EQ(samples.counts().lost, 84U);
 }
 
 TEST(TrackerSamples, WithoutTimestampsOnlyTheArrivalIsKnown) {
