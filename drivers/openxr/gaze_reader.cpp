@@ -47,13 +47,19 @@ std::optional<gaze::GazeSample> GazeReader::take(const GazeAnswer& answer, GazeG
     const bool newer = answer.time.given != last_given_ || !last_pose_;
     const bool same_pose = last_pose_ && last_pose_->orientation == answer.pose->orientation &&
                            last_pose_->position_m == answer.pose->position_m;
+    const bool timeless =
+        time.trouble == SampleTimeTrouble::NotGiven || time.trouble == SampleTimeTrouble::Absurd;
+    const auto since = [&](std::int64_t then_ns) {
+        return latency::saturated(static_cast<__int128>(now_ns) - then_ns);
+    };
     if (newer) {
         advanced_ns_ = now_ns;
     } else if (same_pose) {
-        return std::nullopt;
-    } else if (time.trouble != SampleTimeTrouble::NotGiven &&
-               time.trouble != SampleTimeTrouble::Absurd) {
-        if (latency::saturated(static_cast<__int128>(now_ns) - advanced_ns_) < kStandstill_ns) {
+        if (!timeless || since(taken_ns_) < kStillGaze_ns) {
+            return std::nullopt;
+        }
+    } else if (!timeless) {
+        if (since(advanced_ns_) < kStandstill_ns) {
             return std::nullopt;
         }
         time.trouble = SampleTimeTrouble::StandsStill;
@@ -63,6 +69,7 @@ std::optional<gaze::GazeSample> GazeReader::take(const GazeAnswer& answer, GazeG
     const bool known = time.trouble == SampleTimeTrouble::None;
     pass(GazeGate::SampleTime, known, text_of(time.trouble), text_of(time.trouble));
 
+    taken_ns_ = now_ns;
     last_pose_ = answer.pose;
     last_given_ = answer.time.given;
     told_loss_ = false;

@@ -37,9 +37,10 @@ class GazeReader {
     }
     [[nodiscard]] const gaze::PerEye<glm::dvec3>& eyes_m() const { return eyes_m_; }
 
-    /// The sample of an answer. None where the runtime had nothing new. Where there is no gaze, one
-    /// sample without a valid eye, so that the policy for lost gaze takes over with this frame; and
-    /// one more for each answer while the runtime tracks, but sees no eyes.
+    /// The sample of an answer. None where the runtime had nothing new: of its times, or where it
+    /// gives none of its poses, of which one that stays is new again from time to time. Where there
+    /// is no gaze, one sample without a valid eye, so that the policy for lost gaze takes over with
+    /// this frame; and one more for each answer while the runtime tracks, but sees no eyes.
     ///
     /// A pose that the runtime calls sub-nominal has confidence 0: it counts only for who sets
     /// gaze.minimum_confidence to 0.
@@ -59,6 +60,9 @@ class GazeReader {
   private:
     /// A gaze whose time stands still for so long while it moves has no time.
     static constexpr std::int64_t kStandstill_ns = 100'000'000;
+    /// Without times, the same pose after so long is a gaze that rests: the runtime still vouches
+    /// for it. Below any gaze.stale_ms of use, above the period of most trackers.
+    static constexpr std::int64_t kStillGaze_ns = 20'000'000;
 
     [[nodiscard]] std::optional<gaze::GazeSample> lost(std::int64_t now_ns, bool sees_no_eyes);
     [[nodiscard]] gaze::GazeSample next(std::int64_t now_ns);
@@ -75,6 +79,7 @@ class GazeReader {
     std::optional<gaze::Pose> last_pose_;  ///< of the last sample with gaze; none after a loss
     std::int64_t last_given_ = 0;
     std::int64_t advanced_ns_ = 0;  ///< when a newer time came, in host time
+    std::int64_t taken_ns_ = 0;     ///< when the last sample with gaze was, in host time
     bool told_loss_ = true;
     gaze::Vergence vergence_;
 };

@@ -96,6 +96,36 @@ TEST_F(GazeReaderTest, GivesASampleOnceWithoutTimesToo) {
     EXPECT_TRUE(take(timeless).has_value());
 }
 
+// Only a runtime that says when the eye was seen can say that it has not been seen since.
+TEST_F(GazeReaderTest, KeepsAGazeThatRestsWithoutTimes) {
+    for (const bool absurd : {false, true}) {
+        GazeReader reader{1.5};
+        GazeAnswer resting = answer(1000);
+        resting.time.given = absurd ? -1 : 0;
+        resting.time.host_ns.reset();
+        std::int64_t last_ns = resting.time.now_ns;
+        for (int frame = 0; frame < 100; ++frame) {
+            if (const auto sample = reader.take(resting, gates_)) {
+                EXPECT_TRUE(sample->eyes[0].valid && sample->eyes[1].valid);
+                EXPECT_FALSE(sample->sampled.known());
+                last_ns = sample->arrived.ns;
+            }
+            EXPECT_LE(resting.time.now_ns - last_ns, 28 * kMs);
+            resting.time.now_ns += 14 * kMs;
+        }
+    }
+}
+
+TEST_F(GazeReaderTest, DoesNotKeepAGazeWhoseTimeStands) {
+    GazeAnswer frozen = answer(1000);
+    EXPECT_TRUE(take(frozen).has_value());
+    for (int frame = 0; frame < 100; ++frame) {
+        frozen.time.now_ns += 14 * kMs;
+        frozen.time.asked += 14 * kMs;
+        EXPECT_FALSE(take(frozen).has_value());
+    }
+}
+
 TEST_F(GazeReaderTest, TellsALossOnce) {
     using Shut = void (*)(GazeAnswer&);
     const std::pair<GazeGate, Shut> ways[] = {
