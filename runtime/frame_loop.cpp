@@ -48,6 +48,7 @@ class FrameLoop {
                 break;
             }
             if (state == present::TargetState::Idle) {
+                take_idle_gaze();
                 continue;
             }
             if (ending_) {
@@ -207,12 +208,21 @@ class FrameLoop {
         }
     }
 
+    /// While the target wants no frames the gaze is taken all the same: the first one after would
+    /// find a queue full of the oldest.
+    void take_idle_gaze() {
+        if (timeline_ != nullptr && timeline_->is_live()) {
+            read_gaze(timeline_->now().ns);
+            report_source_events();
+        }
+    }
+
     /// In the world that the views are in: the source's, if it knows the head, else the target's.
     [[nodiscard]] std::optional<gaze::Pose> head_at(std::int64_t time_ns) {
         if (const gaze::HeadMotion* const motion = source_->head_track()) {
             return motion->at(time_ns);
         }
-        return timeline_->asks_target_for_head() ? parts_.target.head_at(time_ns) : std::nullopt;
+        return timeline_->is_live() ? parts_.target.head_at(time_ns) : std::nullopt;
     }
 
     void render(const gaze::PerEye<render::EyeTarget>& images, latency::FrameRecord& record) {

@@ -47,8 +47,9 @@ class FrameTimeline {
     virtual void settle(latency::FrameRecord&) {}
     virtual void settle(latency::FrameGpuRecord&) {}
 
-    /// Whether a sample without a head pose is to get it from the target.
-    [[nodiscard]] virtual bool asks_target_for_head() const { return false; }
+    /// Whether time passes by itself, under the target's own head: then a sample without a head
+    /// pose gets it from the target, and gaze goes on coming while the target wants no frames.
+    [[nodiscard]] virtual bool is_live() const { return false; }
 
     /// For how long the machine has slept, without any time passing here, in all; 0 where nothing
     /// depends on it.
@@ -67,7 +68,7 @@ class LiveTimeline final : public FrameTimeline {
     latency::Stamp now() override;
     void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
               PlannedFrame& frame) override;
-    [[nodiscard]] bool asks_target_for_head() const override { return true; }
+    [[nodiscard]] bool is_live() const override { return true; }
     [[nodiscard]] std::int64_t slept_ns() const override;
 
   private:

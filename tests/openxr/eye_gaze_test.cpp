@@ -13,8 +13,10 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <iomanip>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <ranges>
 #include <sstream>
 
 #include "drivers/trace/native_trace.h"
@@ -158,6 +160,26 @@ TEST_F(EyeGaze, ArrivesWithItsTimeAndItsHead) {
         EXPECT_THAT(tracker_events(session), testing::Contains(HasSubstr(gate)));
         EXPECT_THAT(result.err, HasSubstr(gate));
     }
+    const ProgramResult replayed = run_gazeloop({"replay", EyeGaze::session(), "--hash"});
+    EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+    EXPECT_THAT(replayed.out, HasSubstr("foveae bit-equal in 80 of 80 frames"));
+}
+
+// Else the first frame after it would find the gaze of before, as much as a queue holds.
+TEST_F(EyeGaze, IsTakenWhileTheRuntimeWantsNoFrames) {
+    const ProgramResult result = run("xrWaitFrame@20=pause");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    expect_no_validation_messages(result);
+    const session::SessionFile session = recorded();
+    std::map<std::uint64_t, std::size_t> samples_of_frame;
+    for (const auto& [frame, sample] : session.samples) {
+        EXPECT_TRUE(sample.head.has_value());
+        ++samples_of_frame[frame];
+    }
+    // One a frame, but for the pause: it is asked for 20 times in 100 ms, a new one at 120 Hz.
+    EXPECT_EQ(std::ranges::count_if(samples_of_frame, [](const auto& of) { return of.second > 1; }),
+              1);
+    EXPECT_GE(std::ranges::max(std::views::values(samples_of_frame)), 6U);
     const ProgramResult replayed = run_gazeloop({"replay", EyeGaze::session(), "--hash"});
     EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
     EXPECT_THAT(replayed.out, HasSubstr("foveae bit-equal in 80 of 80 frames"));
