@@ -11,6 +11,7 @@
 #include "runtime/session/session_file.h"
 #include "sim/virtual_tracker.h"
 #include "tests/device/emulated_tracker.h"
+#include "tests/device/standstill.h"
 #include "tests/support/background_process.h"
 #include "tests/support/run_program.h"
 
@@ -126,7 +127,7 @@ TEST_F(DevicesProgram, ListsWhatATrackerStatesAndDoes) {
     }
     const ProgramResult live = run_gazeloop({"devices", "--watch", "--seconds", "1"});
     EXPECT_EQ(live.exit_code, 0) << live.err;
-    EXPECT_NE(live.out.find("plugged in"), std::string::npos) << live.out;
+    EXPECT_NE(live.out.find("\nplugged in: "), std::string::npos) << live.out;
 }
 
 TEST_F(DevicesProgram, RunsOnThroughPluggingInAndPullingOut) {
@@ -165,6 +166,8 @@ TEST_F(DevicesProgram, RunsOnThroughPluggingInAndPullingOut) {
     }
     EXPECT_EQ(plugged, 2);
     EXPECT_EQ(gone, 2);
+    expect_no_standstill_at(file, "plugged in");
+    expect_no_standstill_at(file, "gone");
     bool any_tracking = false;
     for (const auto& frame : file.frames) {
         any_tracking =

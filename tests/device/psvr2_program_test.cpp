@@ -12,6 +12,7 @@
 #include "sim/gaze_generator.h"
 #include "sim/psvr2_packet.h"
 #include "tests/device/emulated_psvr2.h"
+#include "tests/device/standstill.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::tests {
@@ -191,6 +192,8 @@ TEST_F(Psvr2Program, RunsOnThroughPluggingInAndPullingOut) {
     EXPECT_EQ(told("plugged in"), 2) << all;
     EXPECT_EQ(told("gone"), 2);
     EXPECT_EQ(told("its gaze endpoint was halted"), 1);
+    expect_no_standstill_at(file, "plugged in");
+    expect_no_standstill_at(file, "gone");
     const std::vector<Loss> losses = losses_in(file);
     ASSERT_EQ(losses.size(), 3U) << "pulled out, halted, pulled out";
     for (const Loss& loss : losses) {
