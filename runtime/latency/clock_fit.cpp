@@ -107,6 +107,11 @@ ClockReading ClockFit::add(std::int64_t device_ns, std::int64_t arrived_ns) {
         const double uncertainty =
             line_uncertainty_ns(device_ns) + tick_ns() + static_cast<double>(polling_ns_);
         const bool judged = samples_ >= kFewestToJudge;
+        if (judged && jumped_once) {
+            jump_ns_ = device_ns;
+            least_since_jump_ns_ = height;
+        }
+        least_since_jump_ns_ = std::min(least_since_jump_ns_, height);
         if (judged && -height > std::max(kLeastEarly_ns, uncertainty)) {
             late_run_ = 0;
             calm_run_ = 0;
@@ -305,6 +310,7 @@ void ClockFit::step(std::size_t samples, std::int64_t arrived_ns) {
     early_run_ = 0;
     late_run_ = 0;
     jumped_in_run_ = false;
+    least_since_jump_ns_ = 0.0;
     // Lags count from the new line, so that double holds them however far the clock was set.
     const std::int64_t base_ns = recent(samples - 1).lag_ns;
     offset_ += base_ns;
@@ -374,6 +380,14 @@ double ClockFit::height_of_last_second_ns() const {
     return std::max(least, 0.0);
 }
 
+/// The same of the samples since regular timestamps jumped, until these are all of the last second:
+/// by so much the clock may have been set back.
+double ClockFit::height_since_jump_ns() const {
+    const bool covered = bucket_count_ >= kBucketsOfLastSecond &&
+                         buckets_[bucket_count_ - kBucketsOfLastSecond].begin_ns >= jump_ns_;
+    return covered ? 0.0 : std::max(least_since_jump_ns_, 0.0);
+}
+
 bool ClockFit::restless(std::int64_t arrived_ns) const {
     return steps_ >= kRestlessSteps &&
            difference(step_times_ns_[steps_ % kRestlessSteps], arrived_ns) < kWindow_ns;
@@ -400,7 +414,7 @@ ClockReading ClockFit::judge(const Point& point, std::int64_t arrived_ns) {
     }
     const double line = line_uncertainty_ns(point.device_ns);
     const double tick = tick_ns();
-    const double late = height_of_last_second_ns();
+    const double late = std::max(height_of_last_second_ns(), height_since_jump_ns());
     const auto polled = static_cast<double>(polling_ns_);
     const double uncertainty = line + tick + late + polled;
     const double most = std::max({line, tick, late, polled});

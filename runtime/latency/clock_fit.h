@@ -79,10 +79,12 @@ struct ClockReading {
 /// it makes samples early (three, with no more than two others between them) or their device times
 /// irregular (then eight late ones in a row are a step). Found within 10 samples if it is longer
 /// than 2.5 times the mean delay above the line plus the uncertainty; shorter ones are absorbed
-/// within 16 s. Until a step is clear, the times of the samples in question are unknown: the early
-/// and late ones, two after an early one, and one after which regular timestamps jump. What is left
-/// is a step of whole periods whose first sample is late by as much and so looks like one after a
-/// loss, which nothing can tell (6 ms and more, 1 ms of exponential jitter: 1 of 30,000 streams).
+/// within 16 s, and in the uncertainty until then: at once where timestamps that were regular to a
+/// tenth of their period jump, after a second where not. Until a step is clear, the times of the
+/// samples in question are unknown: the early and late ones, two after an early one, and one after
+/// which regular timestamps jump. What is left is a step of whole periods whose first sample is
+/// late by as much and so looks like one after a loss, which nothing can tell (6 ms and more, 1 ms
+/// of exponential jitter: 1 of 30,000 streams).
 ///
 /// What is forgotten. Setting a clock, a reset of the device too, moves its offset alone: the
 /// crystal is the same one, so that the slope may change by no more than crystals drift, and so is
@@ -156,6 +158,7 @@ class ClockFit {
     [[nodiscard]] std::int64_t hold_ns() const;
     [[nodiscard]] double tick_ns() const;
     [[nodiscard]] double height_of_last_second_ns() const;
+    [[nodiscard]] double height_since_jump_ns() const;
     [[nodiscard]] bool restless(std::int64_t arrived_ns) const;
     [[nodiscard]] ClockReading judge(const Point& point, std::int64_t arrived_ns);
     [[nodiscard]] ClockReading in_question(std::int64_t arrived_ns);
@@ -183,6 +186,8 @@ class ClockFit {
     std::size_t calm_run_ = 0;   ///< since the last of them
     std::size_t late_run_ = 0;
     bool jumped_in_run_ = false;
+    std::int64_t jump_ns_ = 0;          ///< device time of the last jump of regular timestamps
+    double least_since_jump_ns_ = 0.0;  ///< above the line
 
     std::array<std::int64_t, kRecentIncrements> increments_{};  ///< ring
     std::uint64_t increment_count_ = 0;

@@ -159,6 +159,35 @@ TEST(ClockFitSteps, AreFoundWithinTenSamplesAndThenFollowed) {
     }
 }
 
+// Too short to be found among the jitter, but the timestamp that jumped gives it away: until the
+// line tells more, it may be as wrong as all samples since are late.
+TEST(ClockFitSteps, TooShortToBeFoundAreInTheUncertainty) {
+    for (const Jitter jitter : {Jitter::None, Jitter::Uniform, Jitter::Exponential}) {
+        for (const double by_ms : {-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0}) {
+            std::size_t known = 0;
+            std::size_t outside = 0;
+            for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+                SimulatedTracker tracker{.jitter = jitter, .seed = seed};
+                ClockFit clock;
+                for (int i = 0; i < 12 * 120; ++i) {
+                    tracker.step_ns = i >= 10 * 120 ? by_ms * kMs : 0.0;
+                    const auto report = tracker.next();
+                    const ClockReading reading = clock.add(report.device_ns, report.arrived_ns);
+                    if (i >= 10 * 120 && reading.verdict != ClockVerdict::Unusable) {
+                        ++known;
+                        outside += std::abs(error_ns(reading, report)) >
+                                           static_cast<double>(reading.uncertainty_ns) + 1.0
+                                       ? 1
+                                       : 0;
+                    }
+                }
+            }
+            EXPECT_GT(known, 50U * 200U) << by_ms << " ms";
+            EXPECT_LE(outside, known / 100) << by_ms << " ms";
+        }
+    }
+}
+
 // One that is late by as much as the clock was set looks as if nothing had happened, but for its
 // timestamp, which is not where the next one belongs.
 TEST(ClockFitSteps, AreNotBelievedWhereALateSampleHidesThem) {
