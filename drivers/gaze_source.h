@@ -12,7 +12,7 @@ namespace gazeloop::drivers {
 
 /// Something that happened to a source, for log and session.
 struct SourceEvent {
-    latency::Stamp time;
+    time::Stamp time;
     std::string text;  ///< one line
 };
 
@@ -32,7 +32,7 @@ class GazeSource {
     /// How far away it was around the foveae of the newest frame that the GPU has finished, some
     /// frames ago: for sources that know one ray for both eyes and must find where they meet. A
     /// frame's gaze is recorded as it was split, so that a replay needs no depth.
-    virtual void see(const gaze::SeenDepth& /*seen*/) {}
+    virtual void take_seen_depth(const gaze::SeenDepth& /*seen*/) {}
 
     /// What happened since the last call: devices that came and went, changes of status and clock.
     [[nodiscard]] virtual std::vector<SourceEvent> take_events() { return {}; }

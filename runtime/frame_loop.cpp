@@ -122,7 +122,7 @@ class FrameLoop {
 
     void one_frame() {
         timeline_->begin(result_.frames);
-        latency::FrameRecord record;
+        frame::FrameRecord record;
         record.index = result_.frames;
 
         parts_.target.wait_frame(target_frame_);
@@ -144,7 +144,7 @@ class FrameLoop {
         gaze::PerEye<render::EyeTarget> images{};
         if (planned_.should_render) {
             images = parts_.target.acquire();
-            parts_.renderer.fit(planned_.views);
+            parts_.renderer.prepare(planned_.views);
             wait_for_gpu();
             report_finished_frames();
         }
@@ -160,7 +160,7 @@ class FrameLoop {
 
         report_source_events();
         report_gaze_changes(record.fovea);
-        for (FrameObserver* const observer : parts_.observers) {
+        for (frame::FrameObserver* const observer : parts_.observers) {
             observer->on_frame(record);
         }
         ++result_.frames;
@@ -181,7 +181,7 @@ class FrameLoop {
         hidden_views_ = planned_.views;
         hidden_areas_ = foveation::hidden_areas(meshes, planned_.views);
         if (changed) {
-            for (FrameObserver* const observer : parts_.observers) {
+            for (frame::FrameObserver* const observer : parts_.observers) {
                 observer->on_hidden(hidden_);
             }
             report_event(timeline_->now(), "hidden-area",
@@ -202,7 +202,7 @@ class FrameLoop {
                 sample.head = head_at(sample.sampled.ns);
             }
             parts_.gaze.add(sample);
-            for (FrameObserver* const observer : parts_.observers) {
+            for (frame::FrameObserver* const observer : parts_.observers) {
                 observer->on_sample(sample, result_.frames);
             }
         }
@@ -225,7 +225,7 @@ class FrameLoop {
         return timeline_->is_live() ? parts_.target.head_at(time_ns) : std::nullopt;
     }
 
-    void render(const gaze::PerEye<render::EyeTarget>& images, latency::FrameRecord& record) {
+    void render(const gaze::PerEye<render::EyeTarget>& images, frame::FrameRecord& record) {
         if (!result_.last) {
             result_.last.emplace();
         }
@@ -242,7 +242,7 @@ class FrameLoop {
         request.hidden = hidden_areas_;
         record.samples = parts_.renderer.render(request);
         record.stamps.submit = timeline_->now();
-        for (FrameObserver* const observer : parts_.observers) {
+        for (frame::FrameObserver* const observer : parts_.observers) {
             observer->on_rendered(request);
         }
     }
@@ -263,10 +263,10 @@ class FrameLoop {
                 last_gpu_ns_ = finished->gpu_end.ns - finished->gpu_begin.ns;
             }
             timeline_->settle(*finished);
-            for (FrameObserver* const observer : parts_.observers) {
+            for (frame::FrameObserver* const observer : parts_.observers) {
                 observer->on_gpu(*finished);
             }
-            source_->see(parts_.renderer.seen_depth());
+            source_->take_seen_depth(parts_.renderer.seen_depth());
         }
     }
 
@@ -290,7 +290,7 @@ class FrameLoop {
     }
 
     /// Stamps do not show it, but every device's clock has run on, and the gaze may be from before.
-    void watch_for_sleep(latency::Stamp now) {
+    void watch_for_sleep(time::Stamp now) {
         constexpr std::int64_t kWorthTelling = 500'000'000;
         const std::int64_t slept_ns = timeline_->slept_ns();
         if (slept_ns - slept_ns_ > kWorthTelling) {
@@ -305,8 +305,7 @@ class FrameLoop {
 
     void report_target_events() {
         for (const std::string& text : parts_.target.take_events()) {
-            report_event(timeline_ != nullptr ? timeline_->now() : latency::Stamp{}, "session",
-                         text);
+            report_event(timeline_ != nullptr ? timeline_->now() : time::Stamp{}, "session", text);
         }
     }
 
@@ -316,14 +315,14 @@ class FrameLoop {
         }
     }
 
-    void report_event(latency::Stamp time, std::string_view kind, std::string_view text) {
-        for (FrameObserver* const observer : parts_.observers) {
+    void report_event(time::Stamp time, std::string_view kind, std::string_view text) {
+        for (frame::FrameObserver* const observer : parts_.observers) {
             observer->on_event(time, kind, text);
         }
     }
 
     struct Seen {
-        gaze::FoveaState state = gaze::FoveaState::Centre;
+        gaze::FoveaState state = gaze::FoveaState::Ahead;
         gaze::LossReason reason = gaze::LossReason::Never;
     };
 

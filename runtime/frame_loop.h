@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "drivers/gaze_source.h"
-#include "runtime/frame_observer.h"
+#include "runtime/frame/frame_observer.h"
 #include "runtime/frame_timeline.h"
 #include "runtime/gaze/gaze_to_fovea.h"
 #include "runtime/present/frame_target.h"
@@ -48,7 +48,7 @@ struct LoopParts {
     gaze::GazeToFovea& gaze;
     std::function<std::unique_ptr<FrameTimeline>()> make_timeline;
     std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)> make_source;
-    std::vector<FrameObserver*> observers;
+    std::vector<frame::FrameObserver*> observers;
 };
 
 /// The gaze-contingent frame loop: wait, begin, locate, wait for the GPU, read the gaze as late as

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop {
 namespace {
@@ -21,9 +21,9 @@ gaze::StereoView on_head(const gaze::Pose& head, const gaze::StereoView& views,
 
 }  // namespace
 
-latency::Stamp LiveTimeline::now() { return latency::measured_now(); }
+time::Stamp LiveTimeline::now() { return time::measured_now(); }
 
-std::int64_t LiveTimeline::slept_ns() const { return latency::slept_ns(); }
+std::int64_t LiveTimeline::slept_ns() const { return time::slept_ns(); }
 
 void LiveTimeline::plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
                         PlannedFrame& frame) {
@@ -36,13 +36,13 @@ void LiveTimeline::plan(const present::TargetFrame& target, const gaze::HeadMoti
     frame.hidden = target.hidden;
 }
 
-latency::Stamp VirtualTimeline::now() {
-    return {static_cast<std::int64_t>(frame_) * model_.period_ns, latency::StampKind::Modelled};
+time::Stamp VirtualTimeline::now() {
+    return {static_cast<std::int64_t>(frame_) * model_.period_ns, time::StampKind::Modelled};
 }
 
 void VirtualTimeline::plan(const present::TargetFrame&, const gaze::HeadMotion* head,
                            PlannedFrame& frame) {
-    frame.display = {now().ns + model_.period_ns, latency::StampKind::Modelled};
+    frame.display = {now().ns + model_.period_ns, time::StampKind::Modelled};
     frame.period_ns = model_.period_ns;
     frame.should_render = true;
     frame.scene_time_s = static_cast<double>(frame.display.ns) * 1e-9;
@@ -50,25 +50,25 @@ void VirtualTimeline::plan(const present::TargetFrame&, const gaze::HeadMotion* 
     frame.views = on_head(frame.head, model_.views, gaze::Pose{});
 }
 
-void VirtualTimeline::settle(latency::FrameRecord& record) {
+void VirtualTimeline::settle(frame::FrameRecord& record) {
     if (record.should_render) {
         record.stamps.gpu_begin = record.stamps.submit;
         record.stamps.gpu_end = {record.stamps.submit.ns + model_.gpu_ns,
-                                 latency::StampKind::Modelled};
+                                 time::StampKind::Modelled};
     }
 }
 
-void VirtualTimeline::settle(latency::FrameGpuRecord& record) {
+void VirtualTimeline::settle(frame::FrameGpuRecord& record) {
     const std::int64_t submit = static_cast<std::int64_t>(record.index) * model_.period_ns;
-    record.gpu_begin = {submit, latency::StampKind::Modelled};
-    record.gpu_end = {submit + model_.gpu_ns, latency::StampKind::Modelled};
+    record.gpu_begin = {submit, time::StampKind::Modelled};
+    record.gpu_end = {submit + model_.gpu_ns, time::StampKind::Modelled};
 }
 
-latency::Stamp RecordedTimeline::now() { return frames_[frame_].frame.stamps.wake_up; }
+time::Stamp RecordedTimeline::now() { return frames_[frame_].frame.stamps.wake_up; }
 
 void RecordedTimeline::plan(const present::TargetFrame&, const gaze::HeadMotion*,
                             PlannedFrame& frame) {
-    const latency::FrameRecord& recorded = frames_[frame_].frame;
+    const frame::FrameRecord& recorded = frames_[frame_].frame;
     frame.display = recorded.stamps.display;
     frame.period_ns = recorded.period_ns;
     frame.should_render = recorded.should_render;
@@ -80,13 +80,13 @@ void RecordedTimeline::plan(const present::TargetFrame&, const gaze::HeadMotion*
     frame.hidden = later == hidden_.begin() ? nullptr : std::prev(later)->meshes;
 }
 
-latency::Stamp RecordedTimeline::latch() { return frames_[frame_].frame.stamps.latch; }
+time::Stamp RecordedTimeline::latch() { return frames_[frame_].frame.stamps.latch; }
 
-void RecordedTimeline::settle(latency::FrameRecord& record) {
+void RecordedTimeline::settle(frame::FrameRecord& record) {
     record.stamps = frames_[record.index].frame.stamps;
 }
 
-void RecordedTimeline::settle(latency::FrameGpuRecord& record) {
+void RecordedTimeline::settle(frame::FrameGpuRecord& record) {
     record.gpu_begin = frames_[record.index].gpu.gpu_begin;
     record.gpu_end = frames_[record.index].gpu.gpu_end;
 }

@@ -3,15 +3,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "runtime/frame/frame_record.h"
 #include "runtime/gaze/head_motion.h"
-#include "runtime/latency/frame_record.h"
 #include "runtime/present/frame_target.h"
 
 namespace gazeloop {
 
 /// What a frame is rendered for.
 struct PlannedFrame {
-    latency::Stamp display;
+    time::Stamp display;
     std::int64_t period_ns = 0;
     bool should_render = true;
     double scene_time_s = 0.0;
@@ -30,7 +30,7 @@ class FrameTimeline {
     virtual ~FrameTimeline() = default;
 
     /// The time now. Called at each of the frame's points in the order of FrameStamps.
-    virtual latency::Stamp now() = 0;
+    virtual time::Stamp now() = 0;
 
     /// The frame's time line begins; from here to the next call now() refers to it.
     virtual void begin(std::uint64_t /*frame*/) {}
@@ -41,11 +41,11 @@ class FrameTimeline {
                       PlannedFrame& frame) = 0;
 
     /// When the gaze is read: the time now, unless it was decided before.
-    virtual latency::Stamp latch() { return now(); }
+    virtual time::Stamp latch() { return now(); }
 
     /// Puts a frame's points into this time line (the loop has filled them in from now()).
-    virtual void settle(latency::FrameRecord&) {}
-    virtual void settle(latency::FrameGpuRecord&) {}
+    virtual void settle(frame::FrameRecord&) {}
+    virtual void settle(frame::FrameGpuRecord&) {}
 
     /// Whether time passes by itself, under the target's own head: then a sample without a head
     /// pose gets it from the target, and gaze goes on coming while the target wants no frames.
@@ -65,7 +65,7 @@ class LiveTimeline final : public FrameTimeline {
   public:
     explicit LiveTimeline(std::int64_t start_ns) : start_ns_(start_ns) {}
 
-    latency::Stamp now() override;
+    time::Stamp now() override;
     void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
               PlannedFrame& frame) override;
     [[nodiscard]] bool is_live() const override { return true; }
@@ -87,12 +87,12 @@ class VirtualTimeline final : public FrameTimeline {
     };
     explicit VirtualTimeline(const Model& model) : model_(model) {}
 
-    latency::Stamp now() override;
+    time::Stamp now() override;
     void begin(std::uint64_t frame) override { frame_ = frame; }
     void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
               PlannedFrame& frame) override;
-    void settle(latency::FrameRecord& record) override;
-    void settle(latency::FrameGpuRecord& record) override;
+    void settle(frame::FrameRecord& record) override;
+    void settle(frame::FrameGpuRecord& record) override;
 
   private:
     Model model_;
@@ -103,20 +103,20 @@ class VirtualTimeline final : public FrameTimeline {
 class RecordedTimeline final : public FrameTimeline {
   public:
     struct Frame {
-        latency::FrameRecord frame;
-        latency::FrameGpuRecord gpu;
+        frame::FrameRecord frame;
+        frame::FrameGpuRecord gpu;
     };
     /// Preconditions: frames by index, none missing; changes by frame.
     RecordedTimeline(std::vector<Frame> frames, std::vector<gaze::HiddenChange> hidden)
         : frames_(std::move(frames)), hidden_(std::move(hidden)) {}
 
-    latency::Stamp now() override;
+    time::Stamp now() override;
     void begin(std::uint64_t frame) override { frame_ = frame; }
     void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
               PlannedFrame& frame) override;
-    latency::Stamp latch() override;
-    void settle(latency::FrameRecord& record) override;
-    void settle(latency::FrameGpuRecord& record) override;
+    time::Stamp latch() override;
+    void settle(frame::FrameRecord& record) override;
+    void settle(frame::FrameGpuRecord& record) override;
     [[nodiscard]] bool over(std::uint64_t frame) const override { return frame >= frames_.size(); }
 
   private:

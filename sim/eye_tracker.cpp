@@ -109,7 +109,7 @@ std::optional<gaze::GazeSample> EyeTracker::step(Person& person) {
     gaze::GazeSample sample;
     sample.sequence = sequence_;
     sample.device_ns = next_device_ns_;
-    sample.sampled = {next_ns_, latency::StampKind::Modelled};
+    sample.sampled = {next_ns_, time::StampKind::Modelled};
     std::int64_t arrived_ns = earliest_arrival_ns_;
     if (terms_.jitter_ms > 0.0) {
         const std::int64_t late_ns = std::llround(jitter_.exponential(terms_.jitter_ms) * 1e6);
@@ -129,7 +129,7 @@ std::optional<gaze::GazeSample> EyeTracker::step(Person& person) {
         return std::nullopt;
     }
     arrived_before_ns_ = std::max(arrived_before_ns_, arrived_ns);
-    sample.arrived = {arrived_before_ns_, latency::StampKind::Modelled};
+    sample.arrived = {arrived_before_ns_, time::StampKind::Modelled};
     return sample;
 }
 

@@ -11,8 +11,8 @@
 
 namespace gazeloop::sim {
 
-drivers::Trace generate_gaze(const GazeSimulation& simulation, double seconds) {
-    drivers::Trace trace;
+gaze::GazeTrace generate_gaze(const GazeSimulation& simulation, double seconds) {
+    gaze::GazeTrace trace;
     trace.file = "generated";
     trace.format = "gazeloop";
     trace.device = fmt::format("simulated tracker, seed {}", simulation.seed);

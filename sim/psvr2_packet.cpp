@@ -36,7 +36,7 @@ void put_vector(Psvr2Packet& packet, std::size_t at, const glm::dvec3& in_head) 
 
 bool has_origin(const gaze::EyeRay& ray) { return glm::length(ray.origin_m) > 0.0; }
 
-void put_eye(Psvr2Packet& packet, std::size_t at, const gaze::EyeRay& ray) {
+void attach_eye(Psvr2Packet& packet, std::size_t at, const gaze::EyeRay& ray) {
     constexpr double kPupil_mm = 3.5;
     if (has_origin(ray)) {
         put_u32(packet, at, 1);
@@ -104,8 +104,8 @@ Psvr2Packet psvr2_packet(const gaze::GazeSample& sample, std::uint64_t time_us,
     put_u32(packet, 60, 1);  // some user's calibration
     put_u64(packet, 80, time_us);
     put_u32(packet, 88, frame);
-    put_eye(packet, 92, sample.eyes[0]);
-    put_eye(packet, 164, sample.eyes[1]);
+    attach_eye(packet, 92, sample.eyes[0]);
+    attach_eye(packet, 164, sample.eyes[1]);
     const CombinedRay both = combined(sample.eyes);
     if (both.origin_m) {
         put_u32(packet, 236, 1);

@@ -16,7 +16,7 @@ namespace gazeloop::sim {
 namespace {
 
 std::unexpected<Error> no_device(const std::string& message) {
-    return std::unexpected(Error{ExitCode::NoDevice, message});
+    return std::unexpected(Error{ErrorKind::NoDevice, message});
 }
 
 bool write_event(int fd, const uhid_event& event) {

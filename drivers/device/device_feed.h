@@ -33,7 +33,7 @@ class DeviceFeed {
     /// There is no gaze from here on, at this time: a sample in which neither eye is valid, so that
     /// the loop's policy for lost gaze takes over with its next frame, in a replay too. Once: until
     /// the next sample there is nothing more to lose, nor before the first one.
-    void push_loss(latency::Stamp at) {
+    void push_loss(time::Stamp at) {
         if (lost_) {
             return;
         }
@@ -48,10 +48,10 @@ class DeviceFeed {
     /// The number of the last sample: another one, and something was pushed.
     [[nodiscard]] std::uint64_t last_sequence() const { return sequence_; }
 
-    void tell(latency::Stamp time, std::string text) {
+    void tell(time::Stamp time, std::string text) {
         const std::lock_guard lock(mutex_);
         events_.push_back({time, std::move(text)});
-        told_.store(true, std::memory_order_release);
+        reported_.store(true, std::memory_order_release);
     }
 
     // ---- the loop
@@ -64,11 +64,11 @@ class DeviceFeed {
     }
 
     [[nodiscard]] std::vector<SourceEvent> take_events() {
-        if (!told_.load(std::memory_order_acquire)) {
+        if (!reported_.load(std::memory_order_acquire)) {
             return {};
         }
         const std::lock_guard lock(mutex_);
-        told_.store(false, std::memory_order_relaxed);
+        reported_.store(false, std::memory_order_relaxed);
         return std::exchange(events_, {});
     }
 
@@ -81,7 +81,7 @@ class DeviceFeed {
 
     SpscQueue<gaze::GazeSample> samples_{kQueueSamples};
     std::atomic<std::uint64_t> dropped_{0};
-    std::atomic<bool> told_{false};
+    std::atomic<bool> reported_{false};
     std::mutex mutex_;
     std::vector<SourceEvent> events_;
     std::uint64_t sequence_ = 0;

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "drivers/device/udev.h"
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -59,7 +59,7 @@ class DeviceSource::Reader {
                 look(told);
             } catch (const std::exception& error) {
                 // The loop and its recording go on without this tracker.
-                feed_.push_loss(latency::measured_now());
+                feed_.push_loss(time::measured_now());
                 tell_once(told, fmt::format("reading the tracker failed: {}", error.what()));
                 let_settle();
             }
@@ -104,7 +104,7 @@ class DeviceSource::Reader {
     void tell_once(std::string& told, const std::string& text) {
         if (told != text) {
             told = text;
-            feed_.tell(latency::measured_now(), text);
+            feed_.tell(time::measured_now(), text);
         }
     }
 
@@ -113,17 +113,17 @@ class DeviceSource::Reader {
     bool read(TrackerDevice& tracker) {
         const std::uint64_t before = feed_.last_sequence();
         const auto gave = [&] { return feed_.last_sequence() != before; };
-        const std::int64_t begin_ns = latency::measured_now().ns;
+        const std::int64_t begin_ns = time::measured_now().ns;
         const auto stays = [&] {
-            return latency::measured_now().ns - begin_ns >
+            return time::measured_now().ns - begin_ns >
                    std::chrono::nanoseconds(kLookAgainAfter).count();
         };
         bool greeted = false;
         const auto greet = [&] {
             greeted = true;
-            feed_.tell(latency::measured_now(), "plugged in: " + tracker.text());
+            feed_.tell(time::measured_now(), "plugged in: " + tracker.text());
             for (const std::string& remark : tracker.remarks()) {
-                feed_.tell(latency::measured_now(), remark);
+                feed_.tell(time::measured_now(), remark);
             }
         };
         if (failures_ == 0) {
@@ -135,7 +135,7 @@ class DeviceSource::Reader {
                 greet();
             }
             if (!read) {
-                const latency::Stamp now = latency::measured_now();
+                const time::Stamp now = time::measured_now();
                 const bool any = gave();
                 if (greeted) {
                     feed_.push_loss(now);
@@ -174,7 +174,7 @@ void DeviceSource::poll(std::int64_t /*now_ns*/, std::vector<gaze::GazeSample>& 
 std::vector<SourceEvent> DeviceSource::take_events() {
     std::vector<SourceEvent> events = reader_->feed().take_events();
     if (const std::uint64_t dropped = this->dropped(); dropped != dropped_told_) {
-        events.push_back({latency::measured_now(),
+        events.push_back({time::measured_now(),
                           fmt::format("{} samples dropped: the loop did not ask for seconds",
                                       dropped - std::exchange(dropped_told_, dropped))});
     }

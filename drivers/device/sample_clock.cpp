@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "runtime/latency/span.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
 namespace {
 
-using latency::ClockVerdict;
-using latency::StampKind;
+using time::ClockVerdict;
+using time::StampKind;
 
 /// Of the 63 reports that hidraw keeps, nearly all: a reader that late has lost what came after.
 constexpr std::uint64_t kBacklog = 48;
@@ -24,7 +24,7 @@ void SampleClock::stamp(std::uint64_t ticks, std::int64_t arrived_ns, gaze::Gaze
     sample.ready = {};
     sample.uncertainty_ns.reset();
 
-    const latency::ClockReading reading = fit_.add(sample.device_ns, arrived_ns);
+    const time::ClockReading reading = fit_.add(sample.device_ns, arrived_ns);
     unusable_in_a_row_ = reading.verdict == ClockVerdict::Unusable ? unusable_in_a_row_ + 1 : 0;
     if (reading.verdict != ClockVerdict::Unusable) {
         sample.ready = {reading.host_ns, StampKind::Measured};
@@ -36,7 +36,7 @@ void SampleClock::stamp(std::uint64_t ticks, std::int64_t arrived_ns, gaze::Gaze
     const std::int64_t period_ns = fit_.period_ns();
     if (last_device_ns_ && period_ns > 0) {
         const auto step =
-            latency::saturated(static_cast<__int128>(sample.device_ns) - *last_device_ns_);
+            time::saturated(static_cast<__int128>(sample.device_ns) - *last_device_ns_);
         // A clock that was set leaves the sample's time unknown, and is no loss.
         if (backlog_ >= kBacklog && sample.ready.known() && step > period_ns + period_ns / 2) {
             const bool up = step % period_ns >= period_ns - period_ns / 2;
@@ -64,8 +64,7 @@ std::optional<std::string> SampleClock::take_change() {
     if (calm && (!lasts || told_verdict_ == ClockVerdict::Unusable)) {
         return std::nullopt;
     }
-    const bool set =
-        fit_.steps() != told_steps_ && fit_.trouble() != latency::ClockTrouble::Restless;
+    const bool set = fit_.steps() != told_steps_ && fit_.trouble() != time::ClockTrouble::Restless;
     told_steps_ = fit_.steps();
     std::optional<std::string> text;
     if (set && !lasts) {
@@ -80,16 +79,15 @@ std::optional<std::string> SampleClock::take_change() {
     return text;
 }
 
-std::string describe(const latency::ClockFit& fit) {
-    const latency::ClockReading& reading = fit.last();
-    const auto verdict = latency::kClockVerdictNames[static_cast<std::size_t>(reading.verdict)];
-    const auto trouble = latency::kClockTroubleNames[static_cast<std::size_t>(fit.trouble())];
+std::string describe(const time::ClockFit& fit) {
+    const time::ClockReading& reading = fit.last();
+    const auto verdict = time::kClockVerdictNames[static_cast<std::size_t>(reading.verdict)];
+    const auto trouble = time::kClockTroubleNames[static_cast<std::size_t>(fit.trouble())];
     if (reading.verdict == ClockVerdict::Unusable) {
         return fmt::format("clock: unusable ({}), so the age of the gaze is unknown", trouble);
     }
-    const std::string why = fit.trouble() == latency::ClockTrouble::None
-                                ? std::string()
-                                : fmt::format(" ({})", trouble);
+    const std::string why =
+        fit.trouble() == time::ClockTrouble::None ? std::string() : fmt::format(" ({})", trouble);
     return fmt::format("clock: {}{}, within {:.2f} ms, skew {:+.0f} ppm", verdict, why,
                        static_cast<double>(reading.uncertainty_ns) * 1e-6, fit.skew_ppm());
 }

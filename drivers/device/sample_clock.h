@@ -5,8 +5,8 @@
 #include <string>
 
 #include "runtime/gaze/gaze_sample.h"
-#include "runtime/latency/clock_fit.h"
-#include "runtime/latency/tick_counter.h"
+#include "runtime/time/clock_fit.h"
+#include "runtime/time/tick_counter.h"
 
 namespace gazeloop::drivers {
 
@@ -21,7 +21,7 @@ struct TrackerDelay {
 };
 
 /// "clock: good, within 0.12 ms, skew +48 ppm".
-[[nodiscard]] std::string describe(const latency::ClockFit& fit);
+[[nodiscard]] std::string describe(const time::ClockFit& fit);
 
 /// Gives the samples of one tracker their times.
 class SampleClock {
@@ -44,7 +44,7 @@ class SampleClock {
     /// sends nothing while it sees no eyes.
     [[nodiscard]] std::uint64_t lost_before_last() const { return lost_; }
 
-    [[nodiscard]] const latency::ClockFit& fit() const { return fit_; }
+    [[nodiscard]] const time::ClockFit& fit() const { return fit_; }
 
     /// One line where the verdict is another than the one told last, or the clock was set: of the
     /// steps of a restless clock its verdict says enough. Why the age is unknown is told once it
@@ -58,9 +58,9 @@ class SampleClock {
   private:
     void count_backlog(std::int64_t arrived_ns);
 
-    latency::TickCounter counter_;
+    time::TickCounter counter_;
     TrackerDelay delay_;
-    latency::ClockFit fit_;
+    time::ClockFit fit_;
     std::optional<std::int64_t> last_device_ns_;
     std::int64_t last_arrived_ns_ = 0;
     std::uint64_t queued_in_a_row_ = 0;
@@ -68,7 +68,7 @@ class SampleClock {
     std::uint64_t lost_ = 0;
     std::uint64_t unusable_in_a_row_ = 0;
     std::optional<std::int64_t> told_ns_;
-    std::optional<latency::ClockVerdict> told_verdict_;
+    std::optional<time::ClockVerdict> told_verdict_;
     std::uint64_t told_steps_ = 0;
 };
 

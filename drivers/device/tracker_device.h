@@ -11,7 +11,7 @@
 #include "drivers/device/device_feed.h"
 #include "runtime/error.h"
 #include "runtime/gaze/eye.h"
-#include "runtime/latency/clock_fit.h"
+#include "runtime/time/clock_fit.h"
 
 namespace gazeloop::drivers {
 
@@ -64,7 +64,7 @@ class TrackerDevice {
     /// As it was last seen.
     [[nodiscard]] virtual PupilsMm pupils_mm() const { return {}; }
     /// Of the samples' timestamps; null before, and for a tracker without them.
-    [[nodiscard]] virtual const latency::ClockFit* clock() const = 0;
+    [[nodiscard]] virtual const time::ClockFit* clock() const = 0;
 
   protected:
     TrackerDevice() = default;

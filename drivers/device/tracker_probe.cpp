@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::drivers {
 
@@ -24,10 +24,10 @@ TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& dev
     std::vector<gaze::GazeSample> samples;
     std::optional<std::int64_t> first_ns;
     std::int64_t last_ns = 0;
-    const std::int64_t begin_ns = latency::monotonic_ns();
+    const std::int64_t begin_ns = time::monotonic_ns();
     const std::int64_t end_ns =
         begin_ns + std::chrono::duration_cast<std::chrono::nanoseconds>(listen).count();
-    while (latency::monotonic_ns() < end_ns && !stop() && !probe.problem) {
+    while (time::monotonic_ns() < end_ns && !stop() && !probe.problem) {
         if (const auto read = (*tracker)->read(kLongestRead, feed); !read) {
             probe.problem = read.error().message;
         }
@@ -44,14 +44,14 @@ TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& dev
             }
         }
     }
-    probe.seconds = static_cast<double>(latency::monotonic_ns() - begin_ns) * 1e-9;
+    probe.seconds = static_cast<double>(time::monotonic_ns() - begin_ns) * 1e-9;
     probe.counts = (*tracker)->counts();
     probe.pupils_mm = (*tracker)->pupils_mm();
     if (probe.counts.samples > 1 && last_ns > *first_ns) {
         probe.rate_hz = static_cast<double>(probe.counts.samples - 1) * 1e9 /
                         static_cast<double>(last_ns - *first_ns);
     }
-    if (const latency::ClockFit* const clock = (*tracker)->clock()) {
+    if (const time::ClockFit* const clock = (*tracker)->clock()) {
         probe.clock = *clock;
     }
     return probe;

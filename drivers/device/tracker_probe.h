@@ -26,10 +26,10 @@ struct TrackerProbe {
     std::vector<std::string> remarks;  ///< of the device, when it was opened and later
     double seconds = 0.0;
     TrackerCounts counts;
-    std::uint64_t with_gaze = 0;             ///< samples in which at least one eye is valid
-    std::optional<double> rate_hz;           ///< samples a second, between the first and the last
-    PupilsMm pupils_mm;                      ///< as they were last seen
-    std::optional<latency::ClockFit> clock;  ///< of its timestamps, where it sends any
+    std::uint64_t with_gaze = 0;          ///< samples in which at least one eye is valid
+    std::optional<double> rate_hz;        ///< samples a second, between the first and the last
+    PupilsMm pupils_mm;                   ///< as they were last seen
+    std::optional<time::ClockFit> clock;  ///< of its timestamps, where it sends any
 };
 
 /// Opens a tracker, listens for so long or until `stop` says so, and stops it again.

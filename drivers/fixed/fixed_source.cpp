@@ -30,7 +30,7 @@ Expected<FixedGaze> parse_fixed_gaze(std::string_view text) {
         }
     }
     return std::unexpected(
-        Error{ExitCode::Usage,
+        Error{ErrorKind::Usage,
               fmt::format("gaze '{}': give azimuth (-180 to 180) and elevation (-90 to 90) in "
                           "degrees, e.g. -5,2.5",
                           text)});
@@ -49,7 +49,7 @@ void FixedSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& sampl
     gaze::GazeSample sample;
     sample.sequence = sequence_++;
     sample.device_ns = now_ns;
-    sample.sampled = {now_ns, latency::StampKind::Modelled};
+    sample.sampled = {now_ns, time::StampKind::Modelled};
     sample.arrived = sample.sampled;
     for (gaze::EyeRay& ray : sample.eyes) {
         ray.direction = gaze_.direction();

@@ -230,7 +230,7 @@ bool describes_eye_tracker(const ReportDescriptor& descriptor) {
 Expected<EyeTrackerLayout> find_eye_tracker(const ReportDescriptor& descriptor) {
     if (!describes_eye_tracker(descriptor)) {
         return std::unexpected(
-            Error{ExitCode::BadInput,
+            Error{ErrorKind::BadInput,
                   "the HID device has no eye tracker (usage page 0x12, usage 1) in its report "
                   "descriptor"});
     }
@@ -238,7 +238,7 @@ Expected<EyeTrackerLayout> find_eye_tracker(const ReportDescriptor& descriptor) 
     const bool any_gaze = std::ranges::any_of(layout.tracking, &TrackingLayout::has_gaze);
     if (!any_gaze) {
         return std::unexpected(
-            Error{ExitCode::BadInput,
+            Error{ErrorKind::BadInput,
                   "the eye tracker's report descriptor has no input report with a gaze point "
                   "(usages 0x24 with 0x21 and 0x22)"});
     }

@@ -41,7 +41,7 @@ HidrawDevice::Node::~Node() {
 void HidrawDevice::Close::operator()(hid_device_* device) const { hid_close(device); }
 
 std::unexpected<Error> HidrawDevice::error(const std::string& what) const {
-    return std::unexpected(Error{ExitCode::NoDevice, fmt::format("{}: {}", path_, what)});
+    return std::unexpected(Error{ErrorKind::NoDevice, fmt::format("{}: {}", path_, what)});
 }
 
 Expected<HidrawDevice> HidrawDevice::open(const std::string& path) {

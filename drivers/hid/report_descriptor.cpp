@@ -135,7 +135,7 @@ class Parser {
   private:
     [[nodiscard]] std::unexpected<Error> error(std::string_view problem) const {
         return std::unexpected(
-            Error{ExitCode::BadInput,
+            Error{ErrorKind::BadInput,
                   fmt::format("HID report descriptor, byte {}: {}", item_at_, problem)});
     }
 

@@ -71,7 +71,7 @@ std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_
     }
     gaze::GazeSample sample;
     sample.eyes = eye_rays(gaze, geometry_);
-    sample.arrived = {arrived_ns, latency::StampKind::Measured};
+    sample.arrived = {arrived_ns, time::StampKind::Measured};
 
     const auto index = static_cast<std::size_t>(std::distance(layout_.tracking.begin(), layout));
     pass_clocks(arrived_ns, index);
@@ -101,7 +101,7 @@ std::optional<std::string> TrackerSamples::take_change() {
     return last_clock_ ? clocks_[*last_clock_]->take_change() : std::nullopt;
 }
 
-const latency::ClockFit* TrackerSamples::clock() const {
+const time::ClockFit* TrackerSamples::clock() const {
     return last_clock_ ? &clocks_[*last_clock_]->fit() : nullptr;
 }
 

@@ -43,7 +43,7 @@ class TrackerSamples {
     /// Reports that were cut short are damaged, and samples nevertheless.
     [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
     /// Of the report with a timestamp that came last; null before, and for a tracker without any.
-    [[nodiscard]] const latency::ClockFit* clock() const;
+    [[nodiscard]] const time::ClockFit* clock() const;
 
   private:
     void note(std::optional<TrackerStatus> status);

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::drivers::hid {
 namespace {
@@ -76,12 +76,12 @@ TrackerSession::TrackerSession(std::string text, HidrawDevice device,
       stopped_(std::move(stopped)),
       reports_(std::move(reports)),
       features_(decode_features(layout_, reports_)),
-      said_(describe(layout_, features_, geometry())),
+      reported_(describe(layout_, features_, geometry())),
       samples_(layout_, geometry(), options.delay, features_.status.status) {
     if (features_.status.status) {
         remarks_.push_back(fmt::format("status: {}", text_of(*features_.status.status)));
     }
-    remarks_.insert(remarks_.end(), said_.begin(), said_.end());
+    remarks_.insert(remarks_.end(), reported_.begin(), reported_.end());
     if (auto start = encode_mode_request(layout_, kModeGaze | kModeEyePosition)) {
         start_ = std::move(*start);
         stop_ = encode_mode_request(layout_, kModeStop).value();
@@ -116,11 +116,11 @@ Expected<TrackerSession> TrackerSession::open(const FoundTracker& tracker,
                                               const StopRequested& stop) {
     if (!tracker.layout) {
         return std::unexpected(
-            Error{tracker.layout.error().code,
+            Error{tracker.layout.error().kind,
                   fmt::format("{}: {}", tracker.device.text(), tracker.layout.error().message)});
     }
     if (tracker.device.access_problem) {
-        return std::unexpected(Error{ExitCode::NoDevice, *tracker.device.access_problem});
+        return std::unexpected(Error{ErrorKind::NoDevice, *tracker.device.access_problem});
     }
     auto device = HidrawDevice::open(tracker.device.path);
     if (!device) {
@@ -129,7 +129,7 @@ Expected<TrackerSession> TrackerSession::open(const FoundTracker& tracker,
     std::vector<FeatureReport> reports;
     if (!read_features(*device, *tracker.layout, stop, reports)) {
         return std::unexpected(
-            Error{ExitCode::Interrupted,
+            Error{ErrorKind::Interrupted,
                   fmt::format("{}: interrupted while it was opened", tracker.device.text())});
     }
     HidOptions of_this = options;
@@ -175,12 +175,12 @@ void TrackerSession::ask_again(std::int64_t now_ns, DeviceFeed& feed) {
     const bool taken = start_.empty() || device_.send_feature(start_).has_value();
     const bool only_now = taken && std::exchange(refused_, false);
     if (only_now) {
-        feed.tell(latency::measured_now(), "takes the request to start now");
+        feed.tell(time::measured_now(), "takes the request to start now");
     }
     if (std::exchange(ready_, false) || only_now) {
         read_features_again(feed);
     }
-    asked_ns_ = latency::monotonic_ns();  // a device may take seconds for a request
+    asked_ns_ = time::monotonic_ns();  // a device may take seconds for a request
 }
 
 void TrackerSession::read_features_again(DeviceFeed& feed) {
@@ -190,10 +190,10 @@ void TrackerSession::read_features_again(DeviceFeed& feed) {
     features_ = decode_features(layout_, reports_);
     samples_.learn(geometry(), features_.status.status);
     const std::vector<std::string> before =
-        std::exchange(said_, describe(layout_, features_, geometry()));
-    for (const std::string& line : said_) {
+        std::exchange(reported_, describe(layout_, features_, geometry()));
+    for (const std::string& line : reported_) {
         if (std::ranges::find(before, line) == before.end()) {
-            feed.tell(latency::measured_now(), line);
+            feed.tell(time::measured_now(), line);
         }
     }
 }
@@ -201,7 +201,7 @@ void TrackerSession::read_features_again(DeviceFeed& feed) {
 Expected<void> TrackerSession::read(std::chrono::milliseconds longest, DeviceFeed& feed) {
     std::array<std::uint8_t, kLongestReport + 1> report;
     const Expected<std::size_t> bytes = device_.read(report, longest);
-    const std::int64_t arrived_ns = latency::monotonic_ns();
+    const std::int64_t arrived_ns = time::monotonic_ns();
     if (!bytes) {
         return std::unexpected(bytes.error());
     }
@@ -218,7 +218,7 @@ Expected<void> TrackerSession::read(std::chrono::milliseconds longest, DeviceFee
     }
     ask_again(arrived_ns, feed);  // the status comes from one that was stopped, too
     if (auto change = samples_.take_change()) {
-        feed.tell({arrived_ns, latency::StampKind::Measured}, std::move(*change));
+        feed.tell({arrived_ns, time::StampKind::Measured}, std::move(*change));
     }
     return {};
 }
@@ -244,8 +244,9 @@ Expected<std::unique_ptr<TrackerDevice>> open_tracker(const HidOptions& options,
     const std::string node =
         options.path.empty() ? "" : std::filesystem::canonical(options.path, why).string();
     if (why) {
-        return std::unexpected(Error{ExitCode::NoDevice, fmt::format("{}: {}: waiting for it",
-                                                                     options.path, why.message())});
+        return std::unexpected(
+            Error{ErrorKind::NoDevice,
+                  fmt::format("{}: {}: waiting for it", options.path, why.message())});
     }
     // The first that can be used; if none can, why the first cannot.
     std::optional<Error> first_error;

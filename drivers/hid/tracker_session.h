@@ -11,7 +11,7 @@
 #include "drivers/hid/find_trackers.h"
 #include "drivers/hid/hidraw_device.h"
 #include "drivers/hid/tracker_samples.h"
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::drivers::hid {
 
@@ -47,7 +47,7 @@ class TrackerSession final : public TrackerDevice {
     [[nodiscard]] TrackerFacts facts() const override;
     [[nodiscard]] Expected<void> read(std::chrono::milliseconds longest, DeviceFeed& feed) override;
     [[nodiscard]] TrackerCounts counts() const override { return samples_.counts(); }
-    [[nodiscard]] const latency::ClockFit* clock() const override { return samples_.clock(); }
+    [[nodiscard]] const time::ClockFit* clock() const override { return samples_.clock(); }
 
   private:
     TrackerSession(std::string text, HidrawDevice device, std::vector<FeatureReport> reports,
@@ -64,7 +64,7 @@ class TrackerSession final : public TrackerDevice {
     StopRequested stopped_;
     std::vector<FeatureReport> reports_;  ///< as they could be read last
     TrackerFeatures features_;            ///< in them
-    std::vector<std::string> said_;       ///< of the features
+    std::vector<std::string> reported_;   ///< of the features
     std::vector<std::string> remarks_;
     /// The reports that start and stop it; empty where it has no control.
     std::vector<std::uint8_t> start_;
@@ -72,7 +72,7 @@ class TrackerSession final : public TrackerDevice {
     bool refused_ = false;  ///< it has not taken a request to start yet
     bool ready_ = false;    ///< it has become so since its features were read
     // When it was last asked to send, sent tracking data, and sent valid gaze.
-    std::int64_t asked_ns_ = latency::monotonic_ns();
+    std::int64_t asked_ns_ = time::monotonic_ns();
     std::int64_t tracked_ns_ = asked_ns_;
     std::int64_t gaze_ns_ = asked_ns_;
     TrackerSamples samples_;

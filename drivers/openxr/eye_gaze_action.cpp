@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -19,7 +19,7 @@ XrPath path_of(XrInstance instance, const char* text) {
 }  // namespace
 
 bool check_instance_gates(XrInstance instance, XrSystemId system, bool listed, GazeGates& gates) {
-    const std::int64_t now_ns = latency::monotonic_ns();
+    const std::int64_t now_ns = time::monotonic_ns();
     gates.set(GazeGate::Extension,
               {listed, listed ? "XR_EXT_eye_gaze_interaction"
                               : "XR_EXT_eye_gaze_interaction is not offered"},

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "runtime/latency/span.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -47,7 +47,7 @@ void GazeGates::set(GazeGate gate, const GateState& state, std::int64_t now_ns) 
     if (of.told == of.now) {
         return;
     }
-    const auto passed_ns = latency::saturated(static_cast<__int128>(now_ns) - of.window_begin_ns);
+    const auto passed_ns = time::saturated(static_cast<__int128>(now_ns) - of.window_begin_ns);
     if (!of.told || passed_ns >= kWindow_ns) {
         of.window_begin_ns = now_ns;
         of.told_in_window = 0;
@@ -57,7 +57,7 @@ void GazeGates::set(GazeGate gate, const GateState& state, std::int64_t now_ns) 
     }
     ++of.told_in_window;
     of.told = of.now;
-    events_.push_back({{now_ns, latency::StampKind::Measured},
+    events_.push_back({{now_ns, time::StampKind::Measured},
                        fmt::format("eye gaze: {}: {} ({})", describe(gate),
                                    state.open ? "yes" : "no", state.found)});
 }

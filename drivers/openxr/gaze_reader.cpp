@@ -2,7 +2,7 @@
 
 #include "runtime/gaze/direction.h"
 #include "runtime/gaze/fixation.h"
-#include "runtime/latency/span.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
 
@@ -50,7 +50,7 @@ std::optional<gaze::GazeSample> GazeReader::take(const GazeAnswer& answer, GazeG
     const bool timeless =
         time.trouble == SampleTimeTrouble::NotGiven || time.trouble == SampleTimeTrouble::Absurd;
     const auto since = [&](std::int64_t then_ns) {
-        return latency::saturated(static_cast<__int128>(now_ns) - then_ns);
+        return time::saturated(static_cast<__int128>(now_ns) - then_ns);
     };
     if (newer) {
         advanced_ns_ = now_ns;
@@ -137,7 +137,7 @@ gaze::GazeSample GazeReader::next(std::int64_t now_ns) {
     gaze::GazeSample sample;
     sample.sequence = ++sequence_;
     sample.device_ns = device_ns_;
-    sample.arrived = {now_ns, latency::StampKind::Measured};
+    sample.arrived = {now_ns, time::StampKind::Measured};
     return sample;
 }
 

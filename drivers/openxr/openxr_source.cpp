@@ -5,7 +5,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "runtime/error.h"
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::drivers {
 
@@ -19,7 +19,7 @@ OpenXrSource::OpenXrSource(const openxr::Session& session, const OpenXrGazeOptio
     action_.emplace(instance.handle());
     if (XR_FAILED(action_->suggested())) {
         gates_.set(GazeGate::Binding, {false, openxr::xr_name(action_->suggested())},
-                   latency::monotonic_ns());
+                   time::monotonic_ns());
         refuse();
     }
     space_.emplace(session, *action_);
@@ -28,7 +28,7 @@ OpenXrSource::OpenXrSource(const openxr::Session& session, const OpenXrGazeOptio
 void OpenXrSource::refuse() const {
     const GazeGate gate = *gates_.first_shut();
     throw SetupError(
-        ExitCode::NoDevice,
+        ErrorKind::NoDevice,
         fmt::format("--gaze openxr: {}: {}: no ({}): {}", session_.instance().runtime_name(),
                     describe(gate), gates_.state(gate)->found, remedy(gate)));
 }
@@ -51,7 +51,7 @@ void OpenXrSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samp
     samples.push_back(*sample);
 }
 
-void OpenXrSource::see(const gaze::SeenDepth& seen) {
+void OpenXrSource::take_seen_depth(const gaze::SeenDepth& seen) {
     if (options_.from_depth) {
         seen_ = seen;
     }

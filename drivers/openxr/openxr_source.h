@@ -11,7 +11,8 @@ inline constexpr const char* kEyeGazeExtension = XR_EXT_EYE_GAZE_INTERACTION_EXT
 
 struct OpenXrGazeOptions {
     double distance_m = 1.5;  ///< where the eyes' rays meet, see gaze::eye_rays
-    /// But where the depth that see() is told says where: find_fixation of gaze/fixation.h.
+    /// But where the depth that take_seen_depth() is told says where: find_fixation of
+    /// gaze/fixation.h.
     bool from_depth = false;
 };
 
@@ -25,7 +26,7 @@ class OpenXrSource final : public GazeSource {
 
     /// Throws SetupError (SessionLost) when the runtime is gone.
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;
-    void see(const gaze::SeenDepth& seen) override;
+    void take_seen_depth(const gaze::SeenDepth& seen) override;
     [[nodiscard]] std::vector<SourceEvent> take_events() override { return gates_.take_events(); }
     [[nodiscard]] std::string description() const override;
 

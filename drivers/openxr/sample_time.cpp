@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "runtime/latency/span.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
 
@@ -27,7 +27,7 @@ SampleTime sample_time(const GivenTime& time) {
         return kAbsurd;
     }
     const std::int64_t ahead_ns =
-        latency::saturated(static_cast<__int128>(*time.host_ns) - time.now_ns);
+        time::saturated(static_cast<__int128>(*time.host_ns) - time.now_ns);
     if (ahead_ns > kFarthestSample_ns || ahead_ns < -kFarthestSample_ns) {
         return kAbsurd;
     }
@@ -37,7 +37,7 @@ SampleTime sample_time(const GivenTime& time) {
     } else if (ahead_ns > kClockNoise_ns) {
         sample.trouble = SampleTimeTrouble::Ahead;
     } else {
-        sample.sampled = {*time.host_ns, latency::StampKind::Measured};
+        sample.sampled = {*time.host_ns, time::StampKind::Measured};
     }
     return sample;
 }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "runtime/latency/stamp.h"
+#include "runtime/time/stamp.h"
 
 namespace gazeloop::drivers {
 
@@ -29,7 +29,7 @@ enum class SampleTimeTrouble {
 [[nodiscard]] std::string_view text_of(SampleTimeTrouble trouble);
 
 struct SampleTime {
-    latency::Stamp sampled;  ///< when the eye was seen; Measured, or unknown with any trouble
+    time::Stamp sampled;  ///< when the eye was seen; Measured, or unknown with any trouble
     /// The time that the pose is for, known also for one that was extrapolated.
     std::optional<std::int64_t> pose_ns;
     SampleTimeTrouble trouble = SampleTimeTrouble::None;

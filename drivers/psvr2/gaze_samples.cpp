@@ -16,8 +16,8 @@ std::optional<gaze::GazeSample> GazeSamples::take(std::span<const std::uint8_t> 
         return std::nullopt;
     }
     if (counts_.samples == 0) {
-        news_.push_back(fmt::format("packets of version {}, user calibration {}", packet->version,
-                                    packet->calibration_id));
+        notices_.push_back(fmt::format("packets of version {}, user calibration {}",
+                                       packet->version, packet->calibration_id));
     }
     const AxesVerdict before = axes_.verdict();
     const bool agrees = axes_.agrees(*packet);
@@ -66,8 +66,8 @@ void GazeSamples::refuse(PacketFault fault, std::size_t bytes) {
     ++counts_.damaged;
     if (!std::exchange(told_damaged_, true)) {
         constexpr std::string_view kWhat[]{"of that length", "that begin so", "of the size stated"};
-        news_.push_back(fmt::format("{} bytes came that are no gaze packet: there are none {}",
-                                    bytes, kWhat[static_cast<std::size_t>(fault)]));
+        notices_.push_back(fmt::format("{} bytes came that are no gaze packet: there are none {}",
+                                       bytes, kWhat[static_cast<std::size_t>(fault)]));
     }
 }
 
@@ -79,18 +79,18 @@ void GazeSamples::tell_axes(AxesVerdict before) {
         case AxesVerdict::Unchecked:
             break;
         case AxesVerdict::AsPublished:
-            news_.emplace_back("axes: as published (left eye left, gaze forward)");
+            notices_.emplace_back("axes: as published (left eye left, gaze forward)");
             break;
         case AxesVerdict::Unconfirmed:
-            news_.emplace_back(
+            notices_.emplace_back(
                 "axes: taken as published; the eyes' places, which could confirm it, do not come");
             break;
         case AxesVerdict::FromData:
-            news_.emplace_back(
+            notices_.emplace_back(
                 "axes: NOT as published; taken from where the eyes are and look. Please report it");
             break;
         case AxesVerdict::Contradictory:
-            news_.emplace_back(
+            notices_.emplace_back(
                 "axes: the eyes' places contradict each other: no gaze is used until they agree. "
                 "Please report it");
             break;
@@ -98,9 +98,9 @@ void GazeSamples::tell_axes(AxesVerdict before) {
 }
 
 std::optional<std::string> GazeSamples::take_change() {
-    if (!news_.empty()) {
-        std::string line = std::move(news_.front());
-        news_.pop_front();
+    if (!notices_.empty()) {
+        std::string line = std::move(notices_.front());
+        notices_.pop_front();
         return line;
     }
     return clock_.take_change();

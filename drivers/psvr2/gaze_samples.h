@@ -40,7 +40,7 @@ class GazeSamples {
     /// The diameter of each pupil, as the headset last vouched for it.
     [[nodiscard]] const PupilsMm& pupils_mm() const { return pupils_mm_; }
     /// Null before the first sample.
-    [[nodiscard]] const latency::ClockFit* clock() const {
+    [[nodiscard]] const time::ClockFit* clock() const {
         return counts_.samples > 0 ? &clock_.fit() : nullptr;
     }
 
@@ -60,7 +60,7 @@ class GazeSamples {
     std::uint32_t last_frame_ = 0;
     std::int64_t last_arrived_ns_ = 0;
     bool told_damaged_ = false;
-    std::deque<std::string> news_;
+    std::deque<std::string> notices_;
 };
 
 }  // namespace gazeloop::drivers::psvr2

@@ -39,7 +39,7 @@ std::vector<FoundDevice> find_headsets() {
 Expected<std::unique_ptr<TrackerDevice>> open_headset(const FoundDevice& found,
                                                       const Psvr2Options& options) {
     if (found.access_problem) {
-        return std::unexpected(Error{ExitCode::NoDevice, *found.access_problem});
+        return std::unexpected(Error{ErrorKind::NoDevice, *found.access_problem});
     }
     auto context = UsbContext::create();
     if (!context) {

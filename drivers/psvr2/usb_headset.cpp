@@ -13,7 +13,7 @@
 #include <thread>
 #include <utility>
 
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::drivers::psvr2 {
 namespace {
@@ -31,7 +31,7 @@ constexpr std::int64_t kMayStillGo_ns = 500'000'000;
 constexpr std::int64_t kLongestEnd_ns = 2'000'000'000;
 
 std::unexpected<Error> no_device(const FoundDevice& found, const std::string& what) {
-    return std::unexpected(Error{ExitCode::NoDevice, fmt::format("{}: {}", found.text(), what)});
+    return std::unexpected(Error{ErrorKind::NoDevice, fmt::format("{}: {}", found.text(), what)});
 }
 
 /// The bus and the address in /dev/bus/usb/BBB/DDD.
@@ -85,8 +85,8 @@ Expected<UsbContext> UsbContext::create() {
     libusb_context* context = nullptr;
     if (const int result = libusb_init(&context); result != 0) {
         return std::unexpected(Error{
-            ExitCode::NoDevice, fmt::format("USB cannot be used: {}",
-                                            libusb_strerror(static_cast<libusb_error>(result)))});
+            ErrorKind::NoDevice, fmt::format("USB cannot be used: {}",
+                                             libusb_strerror(static_cast<libusb_error>(result)))});
     }
     return UsbContext(context);
 }
@@ -150,7 +150,7 @@ UsbHeadset::UsbHeadset(UsbContext context, UsbHandle handle, const FoundDevice& 
       context_(std::move(context)),
       handle_(std::move(handle)),
       samples_(options.delay),
-      keeper_(latency::monotonic_ns()) {
+      keeper_(time::monotonic_ns()) {
     for (std::unique_ptr<Transfer>& transfer : data_) {
         transfer = new_transfer();
         libusb_fill_bulk_transfer(transfer->transfer.get(), handle_.get(), handle_.endpoint(),
@@ -173,11 +173,11 @@ std::unique_ptr<UsbHeadset::Transfer> UsbHeadset::new_transfer() {
 
 UsbHeadset::~UsbHeadset() {
     feed_ = nullptr;
-    const std::int64_t until_ns = latency::monotonic_ns() + kLongestEnd_ns;
+    const std::int64_t until_ns = time::monotonic_ns() + kLongestEnd_ns;
     cancel_all();
     bool ended = end_all(until_ns);
     if (ended && !gone_) {
-        ask(Asking::Stop, latency::monotonic_ns());
+        ask(Asking::Stop, time::monotonic_ns());
         ended = end_all(until_ns);
     }
     if (!ended) {
@@ -187,7 +187,7 @@ UsbHeadset::~UsbHeadset() {
 
 bool UsbHeadset::end_all(std::int64_t until_ns) {
     while (any_under_way() || request_->under_way) {
-        if (latency::monotonic_ns() >= until_ns || !wait(kLongestRead)) {
+        if (time::monotonic_ns() >= until_ns || !wait(kLongestRead)) {
             return false;
         }
     }
@@ -215,7 +215,7 @@ void UsbHeadset::leave_what_is_under_way() {
 
 Expected<void> UsbHeadset::read(std::chrono::milliseconds longest, DeviceFeed& feed) {
     feed_ = &feed;
-    std::int64_t now_ns = latency::monotonic_ns();
+    std::int64_t now_ns = time::monotonic_ns();
     if (failure_.empty()) {
         keep_alive(now_ns);
     }
@@ -235,8 +235,8 @@ Expected<void> UsbHeadset::read(std::chrono::milliseconds longest, DeviceFeed& f
         recover();
     }
     feed_ = nullptr;
-    if (const auto why = why_over(latency::monotonic_ns())) {
-        return std::unexpected(Error{ExitCode::NoDevice, fmt::format("{}: {}", path_, *why)});
+    if (const auto why = why_over(time::monotonic_ns())) {
+        return std::unexpected(Error{ErrorKind::NoDevice, fmt::format("{}: {}", path_, *why)});
     }
     return {};
 }
@@ -245,7 +245,7 @@ Expected<void> UsbHeadset::read(std::chrono::milliseconds longest, DeviceFeed& f
 /// hears of it before an endpoint is cleared, which may take a while.
 void UsbHeadset::tell_loss() {
     if (halted_ || gone_ || !failure_.empty()) {
-        feed_->push_loss(latency::measured_now());
+        feed_->push_loss(time::measured_now());
     }
 }
 
@@ -274,7 +274,7 @@ bool UsbHeadset::wait(std::chrono::microseconds longest) {
 }
 
 void UsbHeadset::on_data(libusb_transfer* transfer) {
-    const std::int64_t arrived_ns = latency::monotonic_ns();
+    const std::int64_t arrived_ns = time::monotonic_ns();
     Transfer& ours = *static_cast<Transfer*>(transfer->user_data);
     ours.under_way = false;
     ours.owner->take(ours, arrived_ns);
@@ -304,13 +304,13 @@ void UsbHeadset::take(Transfer& transfer, std::int64_t arrived_ns) {
     keeper_.heard(arrived_ns);
     failures_in_a_row_ = 0;
     if (std::exchange(told_silent_, false)) {
-        feed_->tell({arrived_ns, latency::StampKind::Measured}, "sends again");
+        feed_->tell({arrived_ns, time::StampKind::Measured}, "sends again");
     }
     if (auto sample = samples_.take({transfer.bytes.data(), length}, arrived_ns)) {
         feed_->push(*sample, samples_.lost_before_last());
     }
     while (auto change = samples_.take_change()) {
-        feed_->tell({arrived_ns, latency::StampKind::Measured}, std::move(*change));
+        feed_->tell({arrived_ns, time::StampKind::Measured}, std::move(*change));
     }
     submit(transfer);
 }
@@ -383,7 +383,7 @@ void UsbHeadset::on_asked(libusb_transfer* transfer) {
         headset.gone_ = true;
     } else if (transfer->status != LIBUSB_TRANSFER_COMPLETED && headset.feed_ != nullptr &&
                !std::exchange(headset.told_refused_, true)) {
-        headset.feed_->tell(latency::measured_now(),
+        headset.feed_->tell(time::measured_now(),
                             "does not take the request for gaze; listening nevertheless");
     }
 }
@@ -393,7 +393,7 @@ void UsbHeadset::keep_alive(std::int64_t now_ns) {
         return;
     }
     if (keeper_.silent(now_ns) && !std::exchange(told_silent_, true)) {
-        feed_->tell({now_ns, latency::StampKind::Measured},
+        feed_->tell({now_ns, time::StampKind::Measured},
                     "silent for half a second: asking for gaze until it comes");
     }
     ask(Asking::Start, now_ns);
@@ -412,7 +412,7 @@ void UsbHeadset::recover() {
     if (gone_ || !failure_.empty()) {
         return;
     }
-    const latency::Stamp now = latency::measured_now();
+    const time::Stamp now = time::measured_now();
     if (failures_in_a_row_ == 1) {
         feed_->tell(now, "its gaze endpoint was halted: cleared, and asked for gaze again");
     }

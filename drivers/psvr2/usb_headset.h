@@ -68,7 +68,7 @@ class UsbHeadset final : public TrackerDevice {
     [[nodiscard]] Expected<void> read(std::chrono::milliseconds longest, DeviceFeed& feed) override;
     [[nodiscard]] TrackerCounts counts() const override { return samples_.counts(); }
     [[nodiscard]] PupilsMm pupils_mm() const override { return samples_.pupils_mm(); }
-    [[nodiscard]] const latency::ClockFit* clock() const override { return samples_.clock(); }
+    [[nodiscard]] const time::ClockFit* clock() const override { return samples_.clock(); }
 
   private:
     static constexpr std::size_t kTransfers = 4;

@@ -202,7 +202,7 @@ void CsvTable::split() {
 
 std::unexpected<Error> CsvTable::error_here(std::string_view message) const {
     return std::unexpected(
-        Error{ExitCode::BadInput, fmt::format("{}:{}: {}", name_, line_, message)});
+        Error{ErrorKind::BadInput, fmt::format("{}:{}: {}", name_, line_, message)});
 }
 
 }  // namespace gazeloop::drivers

@@ -104,7 +104,7 @@ std::optional<std::array<std::size_t, 6>> helmet_columns(const CsvTable& table) 
     return columns;
 }
 
-Expected<Trace> read(CsvTable& table) {
+Expected<gaze::GazeTrace> read(CsvTable& table) {
     const gaze::PerEye<EyeColumns> eyes{eye_columns(table, "L"), eye_columns(table, "R")};
     const auto helmet = helmet_columns(table);
     RowClock clock(table.column(kTime), 100);
@@ -122,7 +122,7 @@ Expected<Trace> read(CsvTable& table) {
         gaze::GazeSample sample;
         sample.sequence = row++;
         sample.device_ns = clock.since_first_ns(table);
-        sample.sampled = {sample.device_ns, latency::StampKind::Modelled};
+        sample.sampled = {sample.device_ns, time::StampKind::Modelled};
         for (const gaze::Eye eye : gaze::kEyes) {
             sample.eyes[gaze::index(eye)] = read_eye(table, eyes[gaze::index(eye)]);
         }

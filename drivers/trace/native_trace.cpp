@@ -122,7 +122,7 @@ void align_arrivals(std::vector<gaze::GazeSample>& samples) {
     }
 }
 
-Expected<Trace> read(CsvTable& table) {
+Expected<gaze::GazeTrace> read(CsvTable& table) {
     Columns columns{};
     for (std::size_t i = 0; i < columns.size(); ++i) {
         columns[i] = table.column(kColumns[i]);
@@ -142,9 +142,9 @@ Expected<Trace> read(CsvTable& table) {
         gaze::GazeSample sample;
         sample.sequence = table.count(columns[0]);
         sample.device_ns = table.integer(columns[1]);
-        sample.sampled = {device_clock.since_first_ns(table), latency::StampKind::Modelled};
+        sample.sampled = {device_clock.since_first_ns(table), time::StampKind::Modelled};
         if (!table.blank(columns[2])) {
-            sample.arrived = {host_clock.since_first_ns(table), latency::StampKind::Modelled};
+            sample.arrived = {host_clock.since_first_ns(table), time::StampKind::Modelled};
         }
         for (const gaze::Eye eye : gaze::kEyes) {
             sample.eyes[gaze::index(eye)] =
@@ -154,7 +154,7 @@ Expected<Trace> read(CsvTable& table) {
         builder.add(sample);
     }
 
-    Expected<Trace> trace = builder.finish();
+    Expected<gaze::GazeTrace> trace = builder.finish();
     if (trace) {
         align_arrivals(trace->samples);
     }
@@ -168,7 +168,7 @@ class LineWriter {
     void add(Number value) {
         std::array<char, 32> digits{};  // the longest double has 24
         const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-        line_.append(digits.data(), written.ptr);
+        line_ += std::string_view(digits.data(), written.ptr);
         line_ += ',';
     }
     void add_blank() { line_ += ','; }
@@ -198,11 +198,11 @@ class LineWriter {
 std::string sidecar_file(const std::string& trace_file) { return trace_file + ".json"; }
 
 std::unexpected<Error> bad_input(std::string message) {
-    return std::unexpected(Error{ExitCode::BadInput, std::move(message)});
+    return std::unexpected(Error{ErrorKind::BadInput, std::move(message)});
 }
 
 /// Samples per second by the median interval; 0 for a single sample.
-double rate_hz(const Trace& trace) {
+double rate_hz(const gaze::GazeTrace& trace) {
     std::vector<std::int64_t> intervals_ns;
     for (std::size_t i = 1; i < trace.samples.size(); ++i) {
         intervals_ns.push_back(trace.samples[i].sampled.ns - trace.samples[i - 1].sampled.ns);
@@ -257,7 +257,7 @@ Expected<std::string> read_native_sidecar(const std::string& trace_file) {
     return device->get<std::string>();
 }
 
-void write_native_trace(const Trace& trace, std::ostream& out) {
+void write_native_trace(const gaze::GazeTrace& trace, std::ostream& out) {
     out << fmt::format("{}\n", fmt::join(kColumns, ","));
     LineWriter line;
     for (const gaze::GazeSample& sample : trace.samples) {
@@ -298,7 +298,7 @@ std::unexpected<Error> cannot_be_written(const std::string& file) {
 
 }  // namespace
 
-Expected<void> write_native_trace(const Trace& trace, const std::string& file) {
+Expected<void> write_native_trace(const gaze::GazeTrace& trace, const std::string& file) {
     errno = 0;
     std::ofstream csv(file, std::ios::binary | std::ios::trunc);
     write_native_trace(trace, csv);

@@ -36,9 +36,10 @@ namespace gazeloop::drivers {
 
 /// Writes the CSV. Numbers have as many digits as it takes to read them back exactly. Times and
 /// numbers that are unknown or not finite are left blank.
-void write_native_trace(const Trace& trace, std::ostream& out);
+void write_native_trace(const gaze::GazeTrace& trace, std::ostream& out);
 
 /// Writes the CSV and its sidecar. Errors (BadInput): a file that cannot be written.
-[[nodiscard]] Expected<void> write_native_trace(const Trace& trace, const std::string& file);
+[[nodiscard]] Expected<void> write_native_trace(const gaze::GazeTrace& trace,
+                                                const std::string& file);
 
 }  // namespace gazeloop::drivers

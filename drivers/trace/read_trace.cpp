@@ -60,19 +60,20 @@ Error unknown_header(const CsvTable& table, const std::vector<const TraceFormat*
         message += fmt::format("; for {} it lacks {}", nearest->name,
                                listed(table.missing(nearest->columns)));
     }
-    return {ExitCode::BadInput, message};
+    return {ErrorKind::BadInput, message};
 }
 
 }  // namespace
 
-Expected<Trace> read_trace(std::istream& in, const std::string& name, std::string_view format) {
+Expected<gaze::GazeTrace> read_trace(std::istream& in, const std::string& name,
+                                     std::string_view format) {
     std::vector<const TraceFormat*> candidates = formats();
     if (format != kAuto) {
         std::erase_if(candidates, [&](const TraceFormat* f) { return f->name != format; });
         if (candidates.empty()) {
             return std::unexpected(
-                Error{ExitCode::Usage, fmt::format("unknown trace format '{}'; known: {}, {}",
-                                                   format, kAuto, known_names())});
+                Error{ErrorKind::Usage, fmt::format("unknown trace format '{}'; known: {}, {}",
+                                                    format, kAuto, known_names())});
         }
     }
     Expected<CsvTable> table = CsvTable::open(in, name);
@@ -88,20 +89,20 @@ Expected<Trace> read_trace(std::istream& in, const std::string& name, std::strin
     return (*fitting)->read(*table);
 }
 
-Expected<Trace> read_trace(const std::string& file, std::string_view format) {
+Expected<gaze::GazeTrace> read_trace(const std::string& file, std::string_view format) {
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) {
         return std::unexpected(
-            Error{ExitCode::BadInput, fmt::format("{}: a directory, not a trace", file)});
+            Error{ErrorKind::BadInput, fmt::format("{}: a directory, not a trace", file)});
     }
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     if (!in) {
         return std::unexpected(Error{
-            ExitCode::BadInput,
+            ErrorKind::BadInput,
             fmt::format("{}: cannot be opened: {}", file, std::generic_category().message(errno))});
     }
-    Expected<Trace> trace = read_trace(in, file, format);
+    Expected<gaze::GazeTrace> trace = read_trace(in, file, format);
     if (trace && trace->format == native_trace().name) {
         Expected<std::string> device = read_native_sidecar(file);
         if (!device) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "drivers/trace/trace.h"
 #include "runtime/error.h"
+#include "runtime/gaze/gaze_trace.h"
 
 namespace gazeloop::drivers {
 
@@ -16,10 +16,11 @@ namespace gazeloop::drivers {
 /// the line, for a file that is missing, a directory, empty or not text; a header that no format
 /// knows; a row of the wrong width; a cell that is not what the format allows; no row; no row with
 /// a valid eye. Rows whose time does not advance are no error: Trace counts them.
-[[nodiscard]] Expected<Trace> read_trace(const std::string& file, std::string_view format = "auto");
+[[nodiscard]] Expected<gaze::GazeTrace> read_trace(const std::string& file,
+                                                   std::string_view format = "auto");
 
 /// The same from a stream; `name` is the file's name in messages and in the trace. No sidecar.
-[[nodiscard]] Expected<Trace> read_trace(std::istream& in, const std::string& name,
-                                         std::string_view format = "auto");
+[[nodiscard]] Expected<gaze::GazeTrace> read_trace(std::istream& in, const std::string& name,
+                                                   std::string_view format = "auto");
 
 }  // namespace gazeloop::drivers

@@ -26,14 +26,14 @@ void TraceBuilder::add(const gaze::GazeSample& sample) {
     any_valid_ = any_valid_ || sample.eyes[0].valid || sample.eyes[1].valid;
 }
 
-Expected<Trace> TraceBuilder::finish() {
+Expected<gaze::GazeTrace> TraceBuilder::finish() {
     if (trace_.samples.empty()) {
         return std::unexpected(
-            Error{ExitCode::BadInput, fmt::format("{}: no rows after the header", trace_.file)});
+            Error{ErrorKind::BadInput, fmt::format("{}: no rows after the header", trace_.file)});
     }
     if (!any_valid_) {
         return std::unexpected(
-            Error{ExitCode::BadInput, fmt::format("no valid gaze in {}", trace_.file)});
+            Error{ErrorKind::BadInput, fmt::format("no valid gaze in {}", trace_.file)});
     }
     return std::move(trace_);
 }

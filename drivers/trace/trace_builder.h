@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "drivers/trace/trace.h"
 #include "runtime/error.h"
+#include "runtime/gaze/gaze_trace.h"
 
 namespace gazeloop::drivers {
 
@@ -20,10 +20,10 @@ class TraceBuilder {
     void add(const gaze::GazeSample& sample);
 
     /// The trace. Errors (BadInput): no sample was added; none of them has a valid eye.
-    [[nodiscard]] Expected<Trace> finish();
+    [[nodiscard]] Expected<gaze::GazeTrace> finish();
 
   private:
-    Trace trace_;
+    gaze::GazeTrace trace_;
     std::optional<std::uint64_t> sequence_;  ///< of the row before, dropped or not
     bool any_valid_ = false;
 };

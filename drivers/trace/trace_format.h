@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "drivers/trace/csv_table.h"
-#include "drivers/trace/trace.h"
 #include "runtime/error.h"
+#include "runtime/gaze/gaze_trace.h"
 
 namespace gazeloop::drivers {
 
@@ -14,7 +14,7 @@ struct TraceFormat {
     std::string_view name;                      ///< as --format and Trace::format have it
     std::span<const std::string_view> columns;  ///< the header has all of these, in any order
     /// Reads the rows of a table that has the columns.
-    Expected<Trace> (*read)(CsvTable& table);
+    Expected<gaze::GazeTrace> (*read)(CsvTable& table);
 };
 
 }  // namespace gazeloop::drivers

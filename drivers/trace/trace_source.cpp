@@ -26,7 +26,7 @@ gaze::Pose recentring(const gaze::Pose& first) {
 
 }  // namespace
 
-TraceSource::TraceSource(Trace trace, std::int64_t start_ns, std::int64_t delay_ns)
+TraceSource::TraceSource(gaze::GazeTrace trace, std::int64_t start_ns, std::int64_t delay_ns)
     : trace_(std::move(trace)) {
     const auto first_head =
         std::find_if(trace_.samples.begin(), trace_.samples.end(),
@@ -38,13 +38,13 @@ TraceSource::TraceSource(Trace trace, std::int64_t start_ns, std::int64_t delay_
     for (gaze::GazeSample& sample : trace_.samples) {
         const std::int64_t reported_ns =
             sample.arrived.known() ? sample.arrived.ns : sample.sampled.ns;
-        for (latency::Stamp* const stamp : {&sample.sampled, &sample.ready}) {
+        for (time::Stamp* const stamp : {&sample.sampled, &sample.ready}) {
             if (stamp->known()) {
-                *stamp = {start_ns + stamp->ns, latency::StampKind::Modelled};
+                *stamp = {start_ns + stamp->ns, time::StampKind::Modelled};
             }
         }
         arrived_before_ns = std::max(arrived_before_ns, start_ns + reported_ns + delay_ns);
-        sample.arrived = {arrived_before_ns, latency::StampKind::Modelled};
+        sample.arrived = {arrived_before_ns, time::StampKind::Modelled};
         if (sample.head) {
             sample.head = gaze::compose(recentre, *sample.head);
             const std::int64_t head_ns =

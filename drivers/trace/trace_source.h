@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "drivers/gaze_source.h"
-#include "drivers/trace/trace.h"
+#include "runtime/gaze/gaze_trace.h"
 #include "runtime/gaze/head_track.h"
 
 namespace gazeloop::drivers {
@@ -20,7 +20,7 @@ class TraceSource final : public GazeSource {
     /// The trace's time 0 is `start_ns` (host time). Each arrives `delay_ns` (>= 0, the
     /// tracker's modelled delay) after it was taken, later by as much as the trace recorded, and
     /// not before the one ahead of it. Head poses whose time goes back are left out of the track.
-    TraceSource(Trace trace, std::int64_t start_ns, std::int64_t delay_ns);
+    TraceSource(gaze::GazeTrace trace, std::int64_t start_ns, std::int64_t delay_ns);
 
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;
     /// The head poses at the samples' times; null if the trace has none.
@@ -29,7 +29,7 @@ class TraceSource final : public GazeSource {
     [[nodiscard]] std::string description() const override;
 
   private:
-    Trace trace_;  // its times are host times here
+    gaze::GazeTrace trace_;  // its times are host times here
     gaze::HeadTrack head_track_;
     std::size_t next_ = 0;
 };

@@ -13,15 +13,15 @@
 #include "drivers/hid/hid_source.h"
 #include "drivers/psvr2/psvr2_source.h"
 #include "runtime/cli/commands.h"
-#include "runtime/cli/device_report.h"
-#include "runtime/cli/gaze_sources.h"
-#include "runtime/cli/interrupt.h"
-#include "runtime/cli/openxr_gaze_report.h"
-#include "runtime/cli/output_file.h"
-#include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/doctor/checks.h"
-#include "runtime/latency/clock.h"
+#include "runtime/doctor/device_report.h"
+#include "runtime/doctor/openxr_gaze_report.h"
+#include "runtime/report/output_file.h"
+#include "runtime/run/gaze_sources.h"
+#include "runtime/run/interrupt.h"
+#include "runtime/settings/profiles_in_force.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -65,14 +65,14 @@ ExitCode watch(const std::vector<drivers::GazeSource*>& sources, const DevicesCo
     std::vector<gaze::GazeSample> samples;
     bool any = false;
     std::int64_t last_heard = 0;
-    const std::int64_t begin_ns = latency::monotonic_ns();
+    const std::int64_t begin_ns = time::monotonic_ns();
     fmt::print("degrees right, up: left eye, right eye; samples; age\n");
-    for (std::int64_t i = 1; !interrupted(); ++i) {
+    for (std::int64_t i = 1; !run::interrupted(); ++i) {
         const std::int64_t now_ns = begin_ns + i * kEvery_ns;
         if (static_cast<double>(now_ns - begin_ns) * 1e-9 > command.seconds) {
             break;
         }
-        latency::sleep_until_ns(now_ns);
+        time::sleep_until_ns(now_ns);
         samples.clear();
         for (drivers::GazeSource* const source : sources) {
             source->poll(now_ns, samples);
@@ -100,52 +100,52 @@ ExitCode watch(const std::vector<drivers::GazeSource*>& sources, const DevicesCo
     return any ? ExitCode::Ok : ExitCode::NoDevice;
 }
 
-doctor::Findings listen_to_openxr(const Settings& settings, double seconds) {
+doctor::Findings listen_to_openxr(const settings::Settings& settings, double seconds) {
     constexpr std::chrono::seconds kPatience{20};
     const auto listening = std::chrono::milliseconds(std::llround(seconds * 1e3));
     return doctor::check_eye_gaze(
-        {.display = value_or_throw(display_in_force(settings)), .is_target = false}, seconds,
-        {.patience = kPatience + listening, .stop = [] { return interrupted(); }});
+        {.display = value_or_throw(settings::display_in_force(settings)), .is_target = false},
+        seconds, {.patience = kPatience + listening, .stop = [] { return run::interrupted(); }});
 }
 
 ExitCode devices(const DevicesCommand& command) {
-    Settings settings;
+    settings::Settings settings;
     RunOptions configured;
     configured.config_files = command.config_files;
     configured.assignments = command.assignments;
     value_or_throw(configured.apply_to(settings, true));
-    const TrackerProfile profile = value_or_throw(tracker_in_force(settings));
-    const drivers::hid::HidOptions hid = hid_options(profile, settings.values());
-    value_or_throw(default_tracker("psvr2", settings));
+    const settings::TrackerProfile profile = value_or_throw(settings::tracker_in_force(settings));
+    const drivers::hid::HidOptions hid = run::hid_options(profile, settings.values());
+    value_or_throw(run::default_tracker("psvr2", settings));
     const drivers::psvr2::Psvr2Options psvr2 =
-        psvr2_options(value_or_throw(tracker_in_force(settings)));
+        run::psvr2_options(value_or_throw(settings::tracker_in_force(settings)));
     if (command.watch) {
         drivers::hid::HidSource hid_source(hid);
         drivers::psvr2::Psvr2Source psvr2_source(psvr2);
         return watch({&hid_source, &psvr2_source}, command);
     }
     if (!command.json.empty()) {
-        value_or_throw(check_output(command.json));
+        value_or_throw(report::check_output(command.json));
     }
     const doctor::Findings openxr = listen_to_openxr(settings, command.seconds);
     const std::chrono::milliseconds listen(std::llround(command.seconds * 1e3));
-    const auto stop = [] { return interrupted(); };
+    const auto stop = [] { return run::interrupted(); };
     std::vector<drivers::TrackerProbe> probes = drivers::hid::probe_trackers(hid, listen, stop);
     std::ranges::move(drivers::psvr2::probe_headsets(psvr2, listen, stop),
                       std::back_inserter(probes));
-    if (interrupted()) {
+    if (run::interrupted()) {
         fmt::print(stderr, "interrupted before every tracker was listened to\n");
         return ExitCode::Interrupted;
     }
     if (!command.json.empty()) {
-        nlohmann::ordered_json list = devices_json(probes);
-        list.push_back(openxr_gaze_json(openxr));
-        value_or_throw(write_text(command.json, list.dump(2) + "\n"));
+        nlohmann::ordered_json list = doctor::devices_json(probes);
+        list.push_back(doctor::openxr_gaze_json(openxr));
+        value_or_throw(report::write_text(command.json, list.dump(2) + "\n"));
     }
     if (command.json != "-") {
-        fmt::print("{}{}", devices_text(probes), openxr_gaze_text(openxr));
+        fmt::print("{}{}", doctor::devices_text(probes), doctor::openxr_gaze_text(openxr));
     }
-    return any_gaze(probes) || any_gaze(openxr) ? ExitCode::Ok : ExitCode::NoDevice;
+    return doctor::any_gaze(probes) || doctor::any_gaze(openxr) ? ExitCode::Ok : ExitCode::NoDevice;
 }
 
 }  // namespace

@@ -6,14 +6,14 @@
 #include <memory>
 
 #include "runtime/cli/commands.h"
-#include "runtime/cli/interrupt.h"
-#include "runtime/cli/kfr_settings.h"
-#include "runtime/cli/output_file.h"
-#include "runtime/cli/profiles_in_force.h"
-#include "runtime/cli/run_checks.h"
 #include "runtime/cli/run_options.h"
-#include "runtime/cli/version.h"
 #include "runtime/doctor/checks.h"
+#include "runtime/methods/kfr_settings.h"
+#include "runtime/report/output_file.h"
+#include "runtime/run/interrupt.h"
+#include "runtime/run/run_checks.h"
+#include "runtime/settings/profiles_in_force.h"
+#include "runtime/version.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -26,7 +26,7 @@ struct DoctorCommand {
     std::string json;
 };
 
-doctor::Finding load_layer(Settings& settings, const std::string& check,
+doctor::Finding load_layer(settings::Settings& settings, const std::string& check,
                            const std::filesystem::path& file) {
     doctor::Finding finding{.check = check, .facts = {{"file", file.string()}}};
     if (const auto loaded = settings.load(file)) {
@@ -41,9 +41,9 @@ doctor::Finding load_layer(Settings& settings, const std::string& check,
 }
 
 /// A file that may be missing.
-doctor::Finding load_standard_layer(Settings& settings, const std::string& check,
+doctor::Finding load_standard_layer(settings::Settings& settings, const std::string& check,
                                     const std::filesystem::path& file) {
-    if (Settings::is_there(file)) {
+    if (settings::Settings::is_there(file)) {
         return load_layer(settings, check, file);
     }
     return {.check = check,
@@ -53,9 +53,9 @@ doctor::Finding load_standard_layer(Settings& settings, const std::string& check
 }
 
 /// Loads every layer that is there and can be loaded, in order.
-doctor::Findings check_configuration(const DoctorCommand& command, Settings& settings) {
+doctor::Findings check_configuration(const DoctorCommand& command, settings::Settings& settings) {
     doctor::Findings findings;
-    const auto files = Settings::standard_files();
+    const auto files = settings::Settings::standard_files();
     findings.push_back(load_standard_layer(settings, "configuration.system", files.front()));
     if (files.size() > 1) {
         findings.push_back(load_standard_layer(settings, "configuration.user", files.back()));
@@ -68,17 +68,17 @@ doctor::Findings check_configuration(const DoctorCommand& command, Settings& set
 }
 
 /// Whether `run` would take the settings, all of them together.
-doctor::Finding check_settings(Settings& settings) {
+doctor::Finding check_settings(settings::Settings& settings) {
     doctor::Finding finding{.check = "configuration.settings",
                             .found = "no setting is at odds with another"};
     try {
-        value_or_throw(take_kernel_table(settings));
+        value_or_throw(methods::take_kernel_table(settings));
         value_or_throw(settings.check());
-        (void)value_or_throw(simulate_tracker_in_force(settings));
-        (void)value_or_throw(display_in_force(settings));
-        FrameRunRequest request;
+        (void)value_or_throw(settings::simulate_tracker_in_force(settings));
+        (void)value_or_throw(settings::display_in_force(settings));
+        run::FrameRunRequest request;
         request.settings = &settings;
-        check_request(request);
+        run::check_request(request);
     } catch (const SetupError& error) {
         finding.verdict = doctor::Verdict::Failure;
         finding.found = error.what();
@@ -89,31 +89,31 @@ doctor::Finding check_settings(Settings& settings) {
 }
 
 /// The display's profile, or the one that is built in where that is none.
-present::DisplayProfile display_or_default(const Settings& settings) {
-    const auto display = display_in_force(settings);
-    return display ? *display : value_or_throw(display_in_force(Settings()));
+display::DisplayProfile display_or_default(const settings::Settings& settings) {
+    const auto display = settings::display_in_force(settings);
+    return display ? *display : value_or_throw(settings::display_in_force(settings::Settings()));
 }
 
 ExitCode run_doctor(const DoctorCommand& command) {
-    Settings settings;
+    settings::Settings settings;
     doctor::Findings findings = check_configuration(command, settings);
     // The files are loaded already, as far as they can be.
     RunOptions rest = command.options;
     rest.config_files.clear();
     value_or_throw(rest.set_in(settings, false));
-    const SettingValues& values = settings.values();
+    const settings::SettingValues& values = settings.values();
     findings.push_back(check_settings(settings));
-    const present::DisplayProfile display = display_or_default(settings);
+    const display::DisplayProfile display = display_or_default(settings);
 
     if (!command.json.empty()) {
-        value_or_throw(check_output(command.json));
+        value_or_throw(report::check_output(command.json));
     }
     const auto add = [&](doctor::Findings more) {
         std::ranges::move(more, std::back_inserter(findings));
     };
     const doctor::ProbeLimits limits{
         .patience = std::chrono::milliseconds(std::llround(command.patience_s * 1e3)),
-        .stop = interrupted};
+        .stop = run::interrupted};
     add(doctor::check_vulkan({.device = values.vulkan.device,
                               .device_origin = settings.origin("vulkan.device"),
                               .validation = values.vulkan.validation},
@@ -132,14 +132,14 @@ ExitCode run_doctor(const DoctorCommand& command) {
     add(doctor::check_clocks(command.root));
     add(doctor::check_scheduling(command.root));
     add(doctor::check_recording_folder(command.folder));
-    if (interrupted()) {
+    if (run::interrupted()) {
         return ExitCode::Interrupted;
     }
     if (!command.json.empty()) {
         nlohmann::json report = doctor::findings_json(findings);
         report["program"] = fmt::format("gazeloop {}", kVersion);
         report["target"] = values.target.name;
-        value_or_throw(write_text(
+        value_or_throw(report::write_text(
             command.json,
             report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"));
     }

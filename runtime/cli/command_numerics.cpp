@@ -4,11 +4,11 @@
 #include <string>
 
 #include "runtime/cli/commands.h"
-#include "runtime/cli/output_file.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/numerics/envelope_html.h"
 #include "runtime/numerics/envelope_json.h"
 #include "runtime/numerics/envelope_text.h"
+#include "runtime/report/output_file.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -24,19 +24,20 @@ struct NumericsCommand {
 ExitCode measure(const NumericsCommand& command) {
     for (const std::string& file : {command.json, command.html}) {
         if (!file.empty()) {
-            value_or_throw(check_output(file));
+            value_or_throw(report::check_output(file));
         }
     }
-    const render::VulkanContext context({.validation = false, .device = command.device}, nullptr);
+    const vulkan::Context context({.validation = false, .device = command.device}, nullptr);
     const numerics::Envelope envelope = numerics::measure_envelope(context, command.options);
     if (command.json != "-" && command.html != "-" && !command.log.quiet) {
         fmt::print("{}", numerics::envelope_text(envelope));
     }
     if (!command.json.empty()) {
-        value_or_throw(write_text(command.json, numerics::envelope_json(envelope).dump(2) + "\n"));
+        value_or_throw(
+            report::write_text(command.json, numerics::envelope_json(envelope).dump(2) + "\n"));
     }
     if (!command.html.empty()) {
-        value_or_throw(write_text(command.html, numerics::envelope_html(envelope)));
+        value_or_throw(report::write_text(command.html, numerics::envelope_html(envelope)));
     }
     return envelope.met() ? ExitCode::Ok : ExitCode::GateFailed;
 }

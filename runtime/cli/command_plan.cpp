@@ -13,18 +13,18 @@
 
 #include "drivers/fixed/fixed_source.h"
 #include "runtime/cli/commands.h"
-#include "runtime/cli/layer_figures.h"
-#include "runtime/cli/nearest_name.h"
-#include "runtime/cli/output_file.h"
-#include "runtime/cli/plan_report.h"
-#include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_options.h"
-#include "runtime/cli/tracker_widening.h"
-#include "runtime/foveation/fovea_widening.h"
-#include "runtime/foveation/geisler_perry_acuity.h"
-#include "runtime/foveation/guenter_acuity.h"
-#include "runtime/foveation/stela_acuity.h"
+#include "runtime/foveation/eye/fovea_widening.h"
+#include "runtime/foveation/eye/geisler_perry_acuity.h"
+#include "runtime/foveation/eye/guenter_acuity.h"
+#include "runtime/foveation/eye/stela_acuity.h"
 #include "runtime/gaze/direction.h"
+#include "runtime/report/output_file.h"
+#include "runtime/settings/nearest_name.h"
+#include "runtime/settings/profiles_in_force.h"
+#include "runtime/trade/layer_figures.h"
+#include "runtime/trade/plan_report.h"
+#include "runtime/trade/tracker_widening.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -42,7 +42,7 @@ struct PlanCommand {
 
 using Models = std::vector<std::unique_ptr<foveation::AcuityModel>>;
 
-Models acuity_models(const SettingValues& settings) {
+Models acuity_models(const settings::SettingValues& settings) {
     const auto& set = settings.acuity;
     Models models;
     models.push_back(value_or_throw(foveation::GuenterAcuity::create({.slope = set.mar})));
@@ -61,8 +61,9 @@ class Selection {
         : asked_(std::move(asked)) {
         names.emplace_back("all");
         if (std::ranges::find(names, asked_) == names.end()) {
-            throw SetupError(ExitCode::Usage,
-                             fmt::format("--{}: {}", what, unknown_name(what, asked_, names)));
+            throw SetupError(
+                ErrorKind::Usage,
+                fmt::format("--{}: {}", what, settings::unknown_name(what, asked_, names)));
         }
     }
 
@@ -76,18 +77,19 @@ class Selection {
 
 constexpr const char* kByTracker = "tracker";
 
-TrackerWidening widening(const std::string& text, const Settings& settings,
-                         const present::DisplayProfile& display, const drivers::FixedGaze& at) {
+trade::TrackerWidening widening(const std::string& text, const settings::Settings& settings,
+                                const display::DisplayProfile& display,
+                                const drivers::FixedGaze& at) {
     if (text == kByTracker) {
         const double off_axis_deg = glm::degrees(
             std::acos(std::clamp(glm::dot(at.direction(), gaze::kStraightAhead), -1.0, 1.0)));
-        return value_or_throw(tracker_widening(settings, display, off_axis_deg));
+        return value_or_throw(trade::tracker_widening(settings, display, off_axis_deg));
     }
     double deg = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), deg);
     if (error != std::errc{} || end != text.data() + text.size() ||
         !(deg >= 0.0 && deg <= foveation::kMaxWideningDeg)) {
-        throw SetupError(ExitCode::Usage,
+        throw SetupError(ErrorKind::Usage,
                          fmt::format("--widen: '{}' must be degrees in [0, {}], or '{}'", text,
                                      foveation::kMaxWideningDeg, kByTracker));
     }
@@ -95,10 +97,10 @@ TrackerWidening widening(const std::string& text, const Settings& settings,
 }
 
 ExitCode plan(const PlanCommand& command) {
-    Settings settings;
+    settings::Settings settings;
     value_or_throw(command.options.apply_to(settings, true));
     if (command.widening == kByTracker) {
-        value_or_throw(simulate_tracker_in_force(settings));
+        value_or_throw(settings::simulate_tracker_in_force(settings));
     }
     if (command.options.print_config) {
         fmt::print("{}", settings.describe());
@@ -106,34 +108,34 @@ ExitCode plan(const PlanCommand& command) {
     }
     value_or_throw(settings.check());
     if (!command.options.json.empty()) {
-        value_or_throw(check_output(command.options.json));
+        value_or_throw(report::check_output(command.options.json));
     }
     const bool show_text = command.options.json != "-" && !command.options.log.quiet;
     if (!command.figures.empty()) {
-        const std::string claims = value_or_throw(write_layer_figures(command.figures));
+        const std::string claims = value_or_throw(trade::write_layer_figures(command.figures));
         if (show_text) {
             fmt::print("{}", claims);
         }
         return ExitCode::Ok;
     }
-    const SettingValues& values = settings.values();
-    const present::DisplayProfile display = value_or_throw(display_in_force(settings));
+    const settings::SettingValues& values = settings.values();
+    const display::DisplayProfile display = value_or_throw(settings::display_in_force(settings));
     const drivers::FixedGaze gaze = value_or_throw(drivers::parse_fixed_gaze(command.gaze));
     const gaze::Eye eye = command.eye == "left" ? gaze::Eye::Left : gaze::Eye::Right;
     const gaze::EyeView view =
-        present::profile_view(display, eye, display.width_px, display.height_px);
+        display::profile_view(display, eye, display.width_px, display.height_px);
     const foveation::GazeField field = value_or_throw(foveation::GazeField::create(
         view, glm::conjugate(view.pose.orientation) * gaze.direction()));
 
-    const TrackerWidening widened_by = widening(command.widening, settings, display, gaze);
-    PlanQuestion question{.display = display.name,
-                          .eye = eye,
-                          .azimuth_deg = gaze.azimuth_deg,
-                          .elevation_deg = gaze.elevation_deg,
-                          .widening_deg = widened_by.deg,
-                          .widening_terms = widened_by.terms,
-                          .field = &field,
-                          .models = {}};
+    const trade::TrackerWidening widened_by = widening(command.widening, settings, display, gaze);
+    trade::PlanQuestion question{.display = display.name,
+                                 .eye = eye,
+                                 .azimuth_deg = gaze.azimuth_deg,
+                                 .elevation_deg = gaze.elevation_deg,
+                                 .widening_deg = widened_by.deg,
+                                 .widening_terms = widened_by.terms,
+                                 .field = &field,
+                                 .models = {}};
     const Models models = acuity_models(values);
     std::vector<std::string> model_names;
     for (const auto& model : models) {
@@ -149,37 +151,39 @@ ExitCode plan(const PlanCommand& command) {
     }
 
     std::vector<std::string> method_names;
-    for (const PlanMethod& method : plan_methods()) {
+    for (const methods::PlanMethod& method : methods::plan_methods()) {
         method_names.emplace_back(method.name);
     }
     const Selection methods_asked("method", command.method, method_names);
-    const PlanSubject subject{
+    const methods::PlanSubject subject{
         .settings = settings, .field = field, .line = {.slope = values.acuity.mar}};
     const auto plan_of = [&](const auto& wanted) {
-        std::vector<PlanRow> rows;
-        for (const PlanMethod& method : plan_methods()) {
+        std::vector<trade::PlanRow> rows;
+        for (const methods::PlanMethod& method : methods::plan_methods()) {
             if (wanted(method.name)) {
                 rows.push_back({.method = std::string(method.name),
                                 .plan = value_or_throw(method.plan(subject)),
                                 .verdicts = {}});
             }
         }
-        return make_plan_report(question, std::move(rows));
+        return trade::make_plan_report(question, std::move(rows));
     };
-    const PlanReport report =
+    const trade::PlanReport report =
         plan_of([&](std::string_view name) { return methods_asked.includes(name); });
     if (show_text) {
-        fmt::print("{}", plan_report_text(report));
+        fmt::print("{}", trade::plan_report_text(report));
     }
     if (!command.options.json.empty()) {
-        value_or_throw(write_text(command.options.json, plan_report_json(report).dump(2) + "\n"));
+        value_or_throw(report::write_text(command.options.json,
+                                          trade::plan_report_json(report).dump(2) + "\n"));
     }
     if (!command.chart.empty()) {
         // One method is to be seen among the others.
-        const LineChart chart = command.method == "all"
-                                    ? density_chart(report)
-                                    : density_chart(plan_of([](std::string_view) { return true; }));
-        value_or_throw(write_chart(chart, command.chart));
+        const report::LineChart chart =
+            command.method == "all"
+                ? trade::density_chart(report)
+                : trade::density_chart(plan_of([](std::string_view) { return true; }));
+        value_or_throw(report::write_chart(chart, command.chart));
     }
     return ExitCode::Ok;
 }

@@ -10,10 +10,10 @@
 #include "drivers/session/session_source.h"
 #include "drivers/trace/read_trace.h"
 #include "runtime/cli/commands.h"
-#include "runtime/cli/gaze_sources.h"
-#include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/run/gaze_sources.h"
 #include "runtime/session/session_file.h"
+#include "runtime/settings/profiles_in_force.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -28,42 +28,41 @@ struct ReplayCommand {
     double speed = 1.0;
 };
 
-ExitCode replay_trace(const ReplayCommand& command, drivers::Trace trace, Settings& settings,
-                      FrameRunRequest& request) {
-    const TrackerProfile tracker = value_or_throw(tracker_in_force(settings));
+ExitCode replay_trace(const ReplayCommand& command, gaze::GazeTrace trace,
+                      settings::Settings& settings, run::FrameRunRequest& request) {
+    const settings::TrackerProfile tracker = value_or_throw(settings::tracker_in_force(settings));
     // A session knows when its samples arrived; other traces get the profile's delay.
     const std::int64_t delay_ns = trace.format == kSessionFormat ? 0 : tracker.delay_ns;
-    request.make_source = trace_player(std::move(trace), delay_ns, command.speed);
-    request.clock = command.clock == "wall" ? RunClock::Wall : RunClock::Virtual;
+    request.make_source = run::trace_player(std::move(trace), delay_ns, command.speed);
+    request.clock = command.clock == "wall" ? run::RunClock::Wall : run::RunClock::Virtual;
     request.loop.end_with_source = true;
-    return frame_run(request);
+    return exit_code(run::frame_run(request));
 }
 
 /// A session's gaze as a trace, in the order in which it arrived, the first of it at 0. What has no
 /// known time keeps none: losses, and what came before the tracker's clock was known.
-drivers::Trace trace_of(const session::SessionFile& session, const std::string& file) {
-    drivers::Trace trace;
+gaze::GazeTrace trace_of(const session::SessionFile& session, const std::string& file) {
+    gaze::GazeTrace trace;
     trace.file = file;
     trace.format = kSessionFormat;
     trace.device = "recorded session";
     if (session.samples.empty()) {
-        throw SetupError(ExitCode::BadInput,
+        throw SetupError(ErrorKind::BadInput,
                          fmt::format("{}: the session holds no gaze to replay", file));
     }
     const gaze::GazeSample& first = session.samples.front().sample;
-    const latency::Stamp start = first.arrived.known() ? first.arrived : first.sampled;
+    const time::Stamp start = first.arrived.known() ? first.arrived : first.sampled;
     for (const session::RecordedSample& recorded : session.samples) {
         gaze::GazeSample sample = recorded.sample;
-        for (latency::Stamp* const stamp : {&sample.sampled, &sample.ready, &sample.arrived}) {
+        for (time::Stamp* const stamp : {&sample.sampled, &sample.ready, &sample.arrived}) {
             // Eleven days; --speed may stretch them a thousandfold.
             constexpr std::int64_t kLongest_ns = 1'000'000'000'000'000;
             std::int64_t since_start_ns = 0;
             if (__builtin_sub_overflow(stamp->ns, start.ns, &since_start_ns) ||
                 since_start_ns < -kLongest_ns || since_start_ns > kLongest_ns) {
-                stamp->kind = latency::StampKind::Unknown;
+                stamp->kind = time::StampKind::Unknown;
             }
-            *stamp =
-                stamp->known() ? latency::Stamp{since_start_ns, stamp->kind} : latency::Stamp{};
+            *stamp = stamp->known() ? time::Stamp{since_start_ns, stamp->kind} : time::Stamp{};
         }
         trace.samples.push_back(sample);
     }
@@ -80,17 +79,17 @@ bool decides_picture(std::string_view key) {
 /// Refuses what the program cannot have recorded.
 void check_frames(const session::SessionFile& session, const std::string& file) {
     const auto damaged = [&](std::size_t frame, std::string_view what) {
-        return SetupError(ExitCode::BadInput, fmt::format("{}: frame {}: {}: the recording is "
-                                                          "damaged; replay its gaze with --clock "
-                                                          "wall instead",
-                                                          file, frame, what));
+        return SetupError(ErrorKind::BadInput, fmt::format("{}: frame {}: {}: the recording is "
+                                                           "damaged; replay its gaze with --clock "
+                                                           "wall instead",
+                                                           file, frame, what));
     };
     if (session.frames.empty()) {
-        throw SetupError(ExitCode::BadInput,
+        throw SetupError(ErrorKind::BadInput,
                          fmt::format("{}: the session holds no frame to replay", file));
     }
     for (std::size_t i = 0; i < session.frames.size(); ++i) {
-        const latency::FrameRecord& frame = session.frames[i].frame;
+        const frame::FrameRecord& frame = session.frames[i].frame;
         if (frame.index != i) {
             throw damaged(i, "missing");
         }
@@ -114,8 +113,8 @@ void check_frames(const session::SessionFile& session, const std::string& file) 
     }
 }
 
-ExitCode replay_session(const ReplayCommand& command, Settings& settings,
-                        FrameRunRequest& request) {
+ExitCode replay_session(const ReplayCommand& command, settings::Settings& settings,
+                        run::FrameRunRequest& request) {
     const session::SessionFile session = value_or_throw(session::read_session(command.file));
     if (!session.closed_cleanly) {
         spdlog::warn("{}: the recording was not closed; what it holds is replayed", command.file);
@@ -124,7 +123,7 @@ ExitCode replay_session(const ReplayCommand& command, Settings& settings,
         // What is recorded about the place it ran at does not bind the replay.
         if (key != "target.name" && key != "vulkan.device" && !key.ends_with(".validation")) {
             if (const auto set = settings.set(key, value, command.file); !set) {
-                throw SetupError(ExitCode::BadInput, set.error().message);
+                throw SetupError(ErrorKind::BadInput, set.error().message);
             }
         }
     }
@@ -139,7 +138,7 @@ ExitCode replay_session(const ReplayCommand& command, Settings& settings,
         return replay_trace(command, trace_of(session, command.file), settings, request);
     }
     if (command.speed != 1.0) {
-        throw SetupError(ExitCode::Usage,
+        throw SetupError(ErrorKind::Usage,
                          "--speed: a session's own time line is replayed as it was; use --clock "
                          "wall to play its gaze faster or slower");
     }
@@ -154,22 +153,22 @@ ExitCode replay_session(const ReplayCommand& command, Settings& settings,
     request.make_source = [samples, file = command.file](std::int64_t) {
         return std::make_unique<drivers::SessionSource>(file, samples);
     };
-    request.clock = RunClock::Recorded;
+    request.clock = run::RunClock::Recorded;
     request.session = &session;
     const auto now = settings.list();
     const auto as_recorded = [&](auto&& concerns) {
-        return std::ranges::all_of(now, [&](const session::NamedValue& setting) {
+        return std::ranges::all_of(now, [&](const NamedValue& setting) {
             return !concerns(setting.name) || session.config(setting.name) == setting.value;
         });
     };
     request.same_gaze = as_recorded(decides_foveae);
     request.same_rendering = as_recorded(decides_picture);
-    return frame_run(request);
+    return exit_code(run::frame_run(request));
 }
 
 ExitCode replay(const ReplayCommand& command, const std::string& command_line) {
-    Settings settings;
-    FrameRunRequest request;
+    settings::Settings settings;
+    run::FrameRunRequest request;
     request.settings = &settings;
     request.command_line = command_line;
     command.options.fill(request);

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "runtime/cli/commands.h"
-#include "runtime/cli/output_file.h"
 #include "runtime/cli/run_options.h"
-#include "runtime/cli/session_summary.h"
-#include "runtime/latency/summary_json.h"
-#include "runtime/latency/summary_text.h"
+#include "runtime/report/output_file.h"
+#include "runtime/report/session_summary.h"
+#include "runtime/report/summary_json.h"
+#include "runtime/report/summary_text.h"
 #include "runtime/session/session_file.h"
 
 namespace gazeloop::cli {
@@ -38,12 +38,12 @@ std::string end_of(const session::SessionFile& session) {
 
 ExitCode report(const ReportCommand& command) {
     if (!command.json.empty()) {
-        value_or_throw(check_output(command.json));
+        value_or_throw(report::check_output(command.json));
     }
     const session::SessionFile session = value_or_throw(session::read_session(command.file));
-    const latency::SummaryReport result = summarize(session);
+    const latency::SummaryReport result = report::summarize(session);
     if (command.json != "-" && !command.log.quiet) {
-        fmt::print("{}", latency::summary_text(result));
+        fmt::print("{}", report::summary_text(result));
         if (!session.closed_cleanly) {
             fmt::print("{}\n", end_of(session));
         }
@@ -58,7 +58,8 @@ ExitCode report(const ReportCommand& command) {
         }
     }
     if (!command.json.empty()) {
-        value_or_throw(write_text(command.json, latency::summary_json(result).dump(2) + "\n"));
+        value_or_throw(
+            report::write_text(command.json, report::summary_json(result).dump(2) + "\n"));
     }
     return ExitCode::Ok;
 }

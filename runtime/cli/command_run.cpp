@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "runtime/cli/commands.h"
-#include "runtime/cli/gaze_sources.h"
-#include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/run/gaze_sources.h"
+#include "runtime/settings/profiles_in_force.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -17,33 +17,34 @@ struct RunCommand {
 };
 
 ExitCode run(const RunCommand& command, const std::string& command_line) {
-    Settings settings;
+    settings::Settings settings;
     value_or_throw(command.options.apply_to(settings, true));
-    value_or_throw(default_tracker(command.gaze, settings));
-    const TrackerProfile tracker = value_or_throw(simulate_tracker_in_force(settings));
+    value_or_throw(run::default_tracker(command.gaze, settings));
+    const settings::TrackerProfile tracker =
+        value_or_throw(settings::simulate_tracker_in_force(settings));
     if (command.options.print_config) {
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;
     }
     value_or_throw(settings.check());
-    FrameRunRequest request;
+    run::FrameRunRequest request;
     request.settings = &settings;
     request.command_line = command_line;
     if (command.gaze == "openxr") {
-        const SettingValues& values = settings.values();
+        const settings::SettingValues& values = settings.values();
         // Full resolution does not depend on where the foveae are: it keeps no depth for them.
         request.openxr_gaze = {
             .distance_m = values.gaze.fixation_distance_m,
             .from_depth = values.gaze.fixation_from_depth && values.render.method != "full"};
     } else {
         request.make_source =
-            value_or_throw(gaze_source_named(command.gaze, tracker, settings.values()));
+            value_or_throw(run::gaze_source_named(command.gaze, tracker, settings.values()));
     }
-    request.from_device = is_device(command.gaze);
-    request.clock = command.clock == "wall" ? RunClock::Wall : RunClock::Virtual;
+    request.from_device = run::is_device(command.gaze);
+    request.clock = command.clock == "wall" ? run::RunClock::Wall : run::RunClock::Virtual;
     command.options.fill(request);
     request.loop.end_with_source = !command.options.frames && !command.options.seconds;
-    return frame_run(request);
+    return exit_code(run::frame_run(request));
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 #include "drivers/trace/native_trace.h"
 #include "runtime/cli/commands.h"
-#include "runtime/cli/profiles_in_force.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/cli/simulate_tracker.h"
+#include "runtime/settings/profiles_in_force.h"
 #include "sim/gaze_generator.h"
 
 namespace gazeloop::cli {
@@ -19,22 +19,22 @@ struct SimulateGazeCommand {
 };
 
 ExitCode simulate_gaze(const SimulateGazeCommand& command) {
-    Settings settings;
+    settings::Settings settings;
     value_or_throw(command.options.apply_to(settings, true));
-    value_or_throw(simulate_tracker_in_force(settings));
+    value_or_throw(settings::simulate_tracker_in_force(settings));
     if (command.options.print_config) {
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;
     }
     if (command.file == "-") {
-        throw SetupError(ExitCode::Usage,
+        throw SetupError(ErrorKind::Usage,
                          "simulate gaze -: a trace is a file with a second one beside it that "
                          "describes it: name the file, or /dev/stdout for the trace alone");
     }
     const sim::GazeSimulation& simulation = settings.values().sim;
-    const drivers::Trace trace = sim::generate_gaze(simulation, command.seconds);
+    const gaze::GazeTrace trace = sim::generate_gaze(simulation, command.seconds);
     if (trace.samples.empty()) {
-        throw SetupError(ExitCode::Usage, "sim.dropout_percent: no sample is left to write");
+        throw SetupError(ErrorKind::Usage, "sim.dropout_percent: no sample is left to write");
     }
     value_or_throw(drivers::write_native_trace(trace, command.file));
     if (!command.options.log.quiet) {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "runtime/error.h"
+#include "runtime/cli/exit_code.h"
 
 namespace gazeloop::cli {
 

@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "runtime/cli/commands.h"
-#include "runtime/cli/interrupt.h"
-#include "runtime/cli/nearest_name.h"
-#include "runtime/cli/version.h"
+#include "runtime/run/interrupt.h"
+#include "runtime/settings/nearest_name.h"
+#include "runtime/version.h"
 
 namespace {
 
-using gazeloop::ExitCode;
+using gazeloop::cli::ExitCode;
 
 std::string joined(int count, char** arguments) {
     std::string line;
@@ -45,7 +45,7 @@ std::optional<std::string> unknown_command(const CLI::App& program, int count, c
             known.push_back(command->get_name());
         }
     }
-    return gazeloop::cli::unknown_name("command", arguments[1], known);
+    return gazeloop::settings::unknown_name("command", arguments[1], known);
 }
 
 /// Of what was left over after parsing; CLI11 lists it from the end, without saying what is near.
@@ -67,7 +67,7 @@ std::string unexpected_word(const CLI::App& program, int count, char** arguments
         const std::string word =
             std::string(arguments[i]).substr(0, std::string(arguments[i]).find('='));
         if (word.starts_with("--") && std::ranges::find(known, word) == known.end()) {
-            const auto nearest = gazeloop::cli::nearest_name(word, known);
+            const auto nearest = gazeloop::settings::nearest_name(word, known);
             return fmt::format("unknown option '{}'{}; {}", word,
                                nearest ? fmt::format("; did you mean '{}'?", *nearest) : "", help);
         }
@@ -83,14 +83,14 @@ int gazeloop_main(int count, char** arguments) {
     // Writing to a closed pipe or past a file size limit is an error to report, not a death.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
-    gazeloop::cli::catch_interrupts();
+    gazeloop::run::catch_interrupts();
 
     // Numbers are read and written with points, whatever the environment or a preloaded library
     // says.
     std::setlocale(LC_ALL, "C");
 
     CLI::App program("An eye-tracked HMD runtime with a gaze-contingent frame loop", "gazeloop");
-    program.set_version_flag("--version", fmt::format("gazeloop {}", gazeloop::cli::kVersion));
+    program.set_version_flag("--version", fmt::format("gazeloop {}", gazeloop::kVersion));
     program.require_subcommand(1);
     gazeloop::cli::Action action;
     const std::string command_line = joined(count, arguments);
@@ -124,7 +124,7 @@ int gazeloop_main(int count, char** arguments) {
         return code(result);
     } catch (const gazeloop::SetupError& error) {
         spdlog::error("{}", error.what());
-        return code(error.code());
+        return code(gazeloop::cli::exit_code(error.kind()));
     } catch (const std::bad_alloc&) {
         spdlog::error("out of memory: use a smaller picture (--set render.scale=0.5) or trace");
         return code(ExitCode::NoDevice);

@@ -5,7 +5,7 @@
 
 #include <charconv>
 
-#include "runtime/cli/kfr_settings.h"
+#include "runtime/methods/kfr_settings.h"
 #include "runtime/preview/preview_memory.h"
 #include "runtime/preview/preview_window.h"
 
@@ -125,14 +125,14 @@ void RunOptions::add_settings_to(CLI::App& command) {
     command.add_flag("--print-config", print_config, "show every setting and where it comes from");
 }
 
-Expected<void> RunOptions::apply_to(Settings& settings, bool standard_files) const {
+Expected<void> RunOptions::apply_to(settings::Settings& settings, bool standard_files) const {
     if (auto set = set_in(settings, standard_files); !set) {
         return set;
     }
-    return take_kernel_table(settings);
+    return methods::take_kernel_table(settings);
 }
 
-Expected<void> RunOptions::set_in(Settings& settings, bool standard_files) const {
+Expected<void> RunOptions::set_in(settings::Settings& settings, bool standard_files) const {
     if (standard_files) {
         if (auto loaded = settings.load_standard_files(); !loaded) {
             return loaded;
@@ -146,8 +146,8 @@ Expected<void> RunOptions::set_in(Settings& settings, bool standard_files) const
     for (const std::string& assignment : assignments) {
         const std::size_t equals = assignment.find('=');
         if (equals == std::string::npos) {
-            return std::unexpected(
-                Error{ExitCode::Usage, fmt::format("--set {}: KEY=VALUE is expected", assignment)});
+            return std::unexpected(Error{
+                ErrorKind::Usage, fmt::format("--set {}: KEY=VALUE is expected", assignment)});
         }
         if (auto set =
                 settings.set(assignment.substr(0, equals), assignment.substr(equals + 1), "--set");
@@ -165,7 +165,7 @@ Expected<void> RunOptions::set_in(Settings& settings, bool standard_files) const
     return {};
 }
 
-void RunOptions::fill(FrameRunRequest& request) const {
+void RunOptions::fill(run::FrameRunRequest& request) const {
     const auto path = [](const std::string& text) {
         return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text);
     };

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/cli/frame_run.h"
-#include "runtime/cli/settings.h"
+#include "runtime/run/frame_run.h"
+#include "runtime/settings/settings.h"
 
 namespace gazeloop::cli {
 
@@ -62,12 +62,12 @@ struct RunOptions {
 
     /// Applies --config, --set and the aliases, in this order, and reads the file of a kernel
     /// table. `standard_files`: the user's and the system's configuration first.
-    Expected<void> apply_to(Settings& settings, bool standard_files) const;
+    Expected<void> apply_to(settings::Settings& settings, bool standard_files) const;
     /// The same without the file of a kernel table.
-    Expected<void> set_in(Settings& settings, bool standard_files) const;
+    Expected<void> set_in(settings::Settings& settings, bool standard_files) const;
 
     /// What these options say of a run.
-    void fill(FrameRunRequest& request) const;
+    void fill(run::FrameRunRequest& request) const;
 };
 
 }  // namespace gazeloop::cli

@@ -8,9 +8,9 @@
 #include <memory>
 
 #include "drivers/trace/read_trace.h"
-#include "runtime/cli/interrupt.h"
 #include "runtime/cli/run_options.h"
-#include "runtime/latency/clock.h"
+#include "runtime/run/interrupt.h"
+#include "runtime/time/clock.h"
 #include "sim/gaze_generator.h"
 #include "sim/uhid_device.h"
 #include "sim/virtual_tracker.h"
@@ -28,19 +28,19 @@ struct SimulateTrackerCommand {
     sim::GazeSimulation gaze;
 };
 
-drivers::Trace gaze_of(const SimulateTrackerCommand& command) {
+gaze::GazeTrace gaze_of(const SimulateTrackerCommand& command) {
     return command.trace.empty() ? sim::generate_gaze(command.gaze, kLap_s)
                                  : value_or_throw(drivers::read_trace(command.trace));
 }
 
-double rate_hz(const drivers::Trace& trace) {
+double rate_hz(const gaze::GazeTrace& trace) {
     const double span_s = static_cast<double>(trace.samples.back().sampled.ns) * 1e-9;
     return span_s > 0.0 ? static_cast<double>(trace.samples.size() - 1) / span_s : 0.0;
 }
 
 /// Plays the gaze again and again, each sample at its time, to whoever has started the tracker.
 ExitCode simulate_tracker(const SimulateTrackerCommand& command) {
-    const drivers::Trace trace = gaze_of(command);
+    const gaze::GazeTrace trace = gaze_of(command);
     const auto hz = static_cast<std::uint16_t>(std::clamp(rate_hz(trace) + 0.5, 0.0, 65535.0));
     std::uint8_t modes = 0;
     auto device = value_or_throw(sim::UhidDevice::create(
@@ -57,17 +57,17 @@ ExitCode simulate_tracker(const SimulateTrackerCommand& command) {
     spdlog::info("plugged in: a virtual eye tracker, {} Hz; gazeloop run --gaze hid uses it", hz);
 
     std::uint64_t sent = 0;
-    const std::int64_t begin_ns = latency::monotonic_ns();
+    const std::int64_t begin_ns = time::monotonic_ns();
     std::int64_t lap_ns = begin_ns;
     const auto over = [&] {
-        return interrupted() ||
-               static_cast<double>(latency::monotonic_ns() - begin_ns) * 1e-9 > command.seconds;
+        return run::interrupted() ||
+               static_cast<double>(time::monotonic_ns() - begin_ns) * 1e-9 > command.seconds;
     };
     while (!over()) {
         for (const gaze::GazeSample& sample : trace.samples) {
-            const std::int64_t wait_ns = lap_ns + sample.sampled.ns - latency::monotonic_ns();
+            const std::int64_t wait_ns = lap_ns + sample.sampled.ns - time::monotonic_ns();
             device.answer_for(std::chrono::nanoseconds(std::max<std::int64_t>(wait_ns, 1)),
-                              [] { return interrupted(); });
+                              [] { return run::interrupted(); });
             if (over()) {
                 break;
             }
@@ -84,7 +84,7 @@ ExitCode simulate_tracker(const SimulateTrackerCommand& command) {
     if (!command.log.quiet) {
         fmt::print("{} reports sent\n", sent);
     }
-    return interrupted() ? ExitCode::Interrupted : ExitCode::Ok;
+    return run::interrupted() ? ExitCode::Interrupted : ExitCode::Ok;
 }
 
 }  // namespace

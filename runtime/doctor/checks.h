@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "runtime/display/display_profile.h"
 #include "runtime/doctor/finding.h"
 #include "runtime/doctor/probe.h"
-#include "runtime/present/display_profile.h"
 
 namespace gazeloop::doctor {
 
@@ -23,7 +23,7 @@ struct VulkanChecks {
 Findings check_vulkan(const VulkanChecks& asked, const ProbeLimits& limits);
 
 struct OpenXrChecks {
-    present::DisplayProfile display;
+    display::DisplayProfile display;
     double scale = 1.0;
     bool validation = false;
     bool vulkan_works = true;  ///< whether there is a device that could render

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "runtime/doctor/checks.h"
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::doctor {
 namespace {
@@ -20,10 +20,10 @@ Finding check_resolution() {
     constexpr int kReads = 2000;
     std::int64_t shortest_ns = std::numeric_limits<std::int64_t>::max();
     std::int64_t longest_ns = 0;
-    const std::int64_t start_ns = latency::monotonic_ns();
+    const std::int64_t start_ns = time::monotonic_ns();
     std::int64_t before_ns = start_ns;
     for (int i = 0; i < kReads; ++i) {
-        const std::int64_t now_ns = latency::monotonic_ns();
+        const std::int64_t now_ns = time::monotonic_ns();
         shortest_ns = std::min(shortest_ns, now_ns - before_ns);
         longest_ns = std::max(longest_ns, now_ns - before_ns);
         before_ns = now_ns;

@@ -8,8 +8,8 @@
 #include "runtime/doctor/eye_gaze_findings.h"
 #include "runtime/doctor/probe.h"
 #include "runtime/error.h"
-#include "runtime/latency/clock.h"
 #include "runtime/present/openxr/openxr_target.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::doctor {
 namespace {
@@ -39,8 +39,8 @@ Heard listen_for(double seconds, present::FrameTarget& target, drivers::GazeSour
     Heard heard;
     std::vector<gaze::GazeSample> samples;
     present::TargetFrame frame;
-    const std::int64_t begin_ns = latency::monotonic_ns();
-    while (static_cast<double>(latency::monotonic_ns() - begin_ns) * 1e-9 < seconds) {
+    const std::int64_t begin_ns = time::monotonic_ns();
+    while (static_cast<double>(time::monotonic_ns() - begin_ns) * 1e-9 < seconds) {
         const present::TargetState state = target.poll();
         if (state == present::TargetState::Ended) {
             break;
@@ -49,7 +49,7 @@ Heard listen_for(double seconds, present::FrameTarget& target, drivers::GazeSour
             target.wait_frame(frame);
             target.begin_frame();
             samples.clear();
-            source.poll(latency::monotonic_ns(), samples);
+            source.poll(time::monotonic_ns(), samples);
             listen(samples, heard);
             target.end_frame(frame, false);
         }
@@ -82,7 +82,7 @@ void probe_eye_gaze(const OpenXrChecks& asked, double seconds, ProbeReport& repo
         }
     };
     report.step("setting up an OpenXR session");
-    std::optional<render::VulkanContext> context;  // outlives what the target makes on it
+    std::optional<vulkan::Context> context;  // outlives what the target makes on it
     const auto target = present::make_openxr_target({.display = asked.display,
                                                      .scale = asked.scale,
                                                      .extensions = {drivers::kEyeGazeExtension}});
@@ -97,7 +97,7 @@ void probe_eye_gaze(const OpenXrChecks& asked, double seconds, ProbeReport& repo
         tell(gates);
         return;
     }
-    context.emplace(render::VulkanOptions{}, target->vulkan_factory());
+    context.emplace(vulkan::ContextOptions{}, target->vulkan_factory());
     target->start(*context);
     report.step("listening to the eye gaze");
     drivers::OpenXrSource source(target->session(), {});

@@ -12,10 +12,10 @@
 #include "runtime/doctor/checks.h"
 #include "runtime/doctor/eye_gaze_findings.h"
 #include "runtime/doctor/probe.h"
-#include "runtime/latency/clock.h"
 #include "runtime/openxr/required_extensions.h"
 #include "runtime/openxr/runtime_choice.h"
 #include "runtime/present/openxr/openxr_target.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::doctor {
 namespace {
@@ -170,8 +170,7 @@ class RuntimeProbe {
                                           gates)) {
             const XrResult suggested = drivers::EyeGazeAction(instance_).suggested();
             gates.set(drivers::GazeGate::Binding,
-                      {XR_SUCCEEDED(suggested), openxr::xr_name(suggested)},
-                      latency::monotonic_ns());
+                      {XR_SUCCEEDED(suggested), openxr::xr_name(suggested)}, time::monotonic_ns());
         }
         for (const Finding& finding : eye_gaze_findings(gates)) {
             report_.add(finding);
@@ -191,7 +190,7 @@ class RuntimeProbe {
         constexpr std::int64_t kLargestErrorNs = 1000;
         std::int64_t worst_ns = 0;
         for (int i = 0; i < kTrips; ++i) {
-            const std::int64_t now_ns = latency::monotonic_ns();
+            const std::int64_t now_ns = time::monotonic_ns();
             const timespec now{now_ns / 1'000'000'000, now_ns % 1'000'000'000};
             XrTime there = 0;
             timespec back{};
@@ -220,13 +219,13 @@ class RuntimeProbe {
 
 /// What the loop itself does before its first frame.
 void probe_session(const OpenXrChecks& asked, ProbeReport& report) {
-    std::optional<render::VulkanContext> opened;  // outlives the target
+    std::optional<vulkan::Context> opened;  // outlives the target
     report.step("setting up the loop's OpenXR target");
     const auto target = present::make_openxr_target(
         {.display = asked.display, .scale = asked.scale, .validation = asked.validation});
     report.step("opening the Vulkan device that the OpenXR runtime wants");
-    const render::VulkanContext& context =
-        opened.emplace(render::VulkanOptions{}, target->vulkan_factory());
+    const vulkan::Context& context =
+        opened.emplace(vulkan::ContextOptions{}, target->vulkan_factory());
     report.step("starting the OpenXR session");
     target->start(context);
     const bool software =

@@ -29,8 +29,8 @@ struct Pipe {
     Pipe() {
         std::array<int, 2> ends{};
         if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-            throw SetupError(ExitCode::NoDevice, fmt::format("no pipe ({}): close some programs",
-                                                             std::strerror(errno)));
+            throw SetupError(ErrorKind::NoDevice, fmt::format("no pipe ({}): close some programs",
+                                                              std::strerror(errno)));
         }
         read_end = ends[0];
         write_end = ends[1];
@@ -158,7 +158,7 @@ ProbeResult run_probe(const std::function<void(ProbeReport&)>& probe, const Prob
     Pipe output;
     const pid_t pid = fork();
     if (pid < 0) {
-        throw SetupError(ExitCode::NoDevice,
+        throw SetupError(ErrorKind::NoDevice,
                          fmt::format("no process could be started ({})", std::strerror(errno)));
     }
     if (pid == 0) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "runtime/doctor/checks.h"
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::doctor {
 namespace {
@@ -98,13 +98,13 @@ Finding check_writing(const std::filesystem::path& folder) {
     const std::vector<char> chunk(kChunkBytes, 'x');
     std::vector<double> syncs_ms;
     for (int i = 0; i < kSyncs; ++i) {
-        const std::int64_t begin_ns = latency::monotonic_ns();
+        const std::int64_t begin_ns = time::monotonic_ns();
         if (!file.append(std::span(chunk).first(kPageBytes)) || !file.sync()) {
             return refused("writing failed", file.failure());
         }
-        syncs_ms.push_back(static_cast<double>(latency::monotonic_ns() - begin_ns) * 1e-6);
+        syncs_ms.push_back(static_cast<double>(time::monotonic_ns() - begin_ns) * 1e-6);
     }
-    const std::int64_t begin_ns = latency::monotonic_ns();
+    const std::int64_t begin_ns = time::monotonic_ns();
     for (int i = 0; i < kChunks; ++i) {
         if (!file.append(chunk)) {
             return refused("writing failed", file.failure());
@@ -114,7 +114,7 @@ Finding check_writing(const std::filesystem::path& folder) {
         return refused("writing failed", file.failure());
     }
     const double mb_per_s = kChunks * static_cast<double>(kChunkBytes) / kBytesPerMb /
-                            (static_cast<double>(latency::monotonic_ns() - begin_ns) * 1e-9);
+                            (static_cast<double>(time::monotonic_ns() - begin_ns) * 1e-9);
     std::ranges::sort(syncs_ms);
     const double median_ms = syncs_ms[syncs_ms.size() / 2];
     const double longest_ms = syncs_ms.back();

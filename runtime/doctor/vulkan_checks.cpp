@@ -9,9 +9,9 @@
 
 #include "runtime/doctor/checks.h"
 #include "runtime/doctor/probe.h"
-#include "runtime/render/device_requirements.h"
-#include "runtime/render/gpu_clock.h"
-#include "runtime/render/vulkan_context.h"
+#include "runtime/vulkan/clock.h"
+#include "runtime/vulkan/context.h"
+#include "runtime/vulkan/requirements.h"
 
 namespace gazeloop::doctor {
 namespace {
@@ -39,17 +39,17 @@ Finding check_loader(const vk::raii::Context& context) {
 Finding check_validation(const vk::raii::Context& context, bool wanted) {
     const auto layers = context.enumerateInstanceLayerProperties();
     const auto layer = std::ranges::find_if(layers, [](const vk::LayerProperties& one) {
-        return std::string_view(one.layerName.data()) == render::kValidationLayer;
+        return std::string_view(one.layerName.data()) == vulkan::kValidationLayer;
     });
     if (layer != layers.end()) {
         return {.check = "vulkan.validation",
-                .found = fmt::format("{} {}", render::kValidationLayer,
+                .found = fmt::format("{} {}", vulkan::kValidationLayer,
                                      version_text(layer->specVersion)),
                 .facts = {{"installed", true}}};
     }
     return {.check = "vulkan.validation",
             .verdict = wanted ? Verdict::Failure : Verdict::NotApplicable,
-            .found = fmt::format("{} is not installed{}", render::kValidationLayer,
+            .found = fmt::format("{} is not installed{}", vulkan::kValidationLayer,
                                  wanted ? ", but vulkan.validation is on" : " (for developers)"),
             .remedy = wanted ? "apt-get install vulkan-validationlayers" : "",
             .facts = {{"installed", false}},
@@ -63,10 +63,10 @@ Finding describe_device(const vk::raii::PhysicalDevice& device, std::size_t inde
         chain.get<vk::PhysicalDeviceProperties2>().properties;
     const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
     nlohmann::json requirements = nlohmann::json::object();
-    for (const render::DeviceRequirement& requirement : render::device_requirements(device)) {
+    for (const vulkan::DeviceRequirement& requirement : vulkan::device_requirements(device)) {
         requirements[requirement.name] = requirement.met;
     }
-    const std::string lacks = render::lacking(device);
+    const std::string lacks = vulkan::lacking(device);
     return {.check = fmt::format("vulkan.device.{}", index),
             .verdict = lacks.empty() ? Verdict::Ok : Verdict::Warning,
             .found = fmt::format("{}: {}, Vulkan {}, driver {} {}; {}",
@@ -83,7 +83,7 @@ Finding describe_device(const vk::raii::PhysicalDevice& device, std::size_t inde
                       {"requirements", requirements}}};
 }
 
-Finding describe_choice(const render::VulkanContext& context) {
+Finding describe_choice(const vulkan::Context& context) {
     const bool software =
         context.physical().getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
     return {.check = "vulkan.choice",
@@ -98,7 +98,7 @@ Finding describe_choice(const render::VulkanContext& context) {
                       {"software", software}}};
 }
 
-Finding check_gpu_clock(const render::VulkanContext& context) {
+Finding check_gpu_clock(const vulkan::Context& context) {
     Finding finding{.check = "vulkan.clock"};
     const auto unrelated = [&](std::string_view why) {
         finding.verdict = Verdict::Warning;
@@ -119,14 +119,14 @@ Finding check_gpu_clock(const render::VulkanContext& context) {
         names.push_back(vk::to_string(domain));
     }
     finding.facts["domains"] = names;
-    if (!render::GpuClock::relates(domains)) {
+    if (!vulkan::GpuClock::relates(domains)) {
         return unrelated(fmt::format("time domains: {}", fmt::join(names, ", ")));
     }
     constexpr int kCalibrations = 100;
     std::uint64_t best_ns = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t worst_ns = 0;
     for (int i = 0; i < kCalibrations; ++i) {
-        const std::uint64_t deviation_ns = render::GpuClock(context).max_deviation_ns();
+        const std::uint64_t deviation_ns = vulkan::GpuClock(context).max_deviation_ns();
         best_ns = std::min(best_ns, deviation_ns);
         worst_ns = std::max(worst_ns, deviation_ns);
     }
@@ -164,7 +164,7 @@ void probe_vulkan(const VulkanChecks& asked, ProbeReport& report) {
                     ? ""
                     : "let vulkan.device be part of the name of one of the devices above that has "
                       "all that is needed, or leave it out");
-    const render::VulkanContext chosen(
+    const vulkan::Context chosen(
         {.validation = false, .device = asked.device, .device_origin = asked.device_origin},
         nullptr);
     report.add(describe_choice(chosen));

@@ -7,7 +7,7 @@
 
 #include "runtime/gaze/eye.h"
 #include "runtime/gaze/view.h"
-#include "runtime/latency/stamp.h"
+#include "runtime/time/stamp.h"
 
 namespace gazeloop::gaze {
 
@@ -17,10 +17,10 @@ enum class FoveaState : std::uint8_t {
     OtherEye,   ///< this eye is invalid, the other one's valid, fresh direction is used
     Held,       ///< no valid sample: the last valid point is held in world
     Returning,  ///< on the way from the held point to straight ahead
-    Centre,     ///< straight ahead: no gaze for longer than hold + return, or never any
+    Ahead,      ///< straight ahead: no gaze for longer than hold + return, or never any
 };
 inline constexpr std::array<std::string_view, 5> kFoveaStateNames{"tracking", "other-eye", "held",
-                                                                  "returning", "centre"};
+                                                                  "returning", "ahead"};
 
 /// Why the fovea is not tracking.
 enum class LossReason : std::uint8_t {
@@ -36,12 +36,12 @@ inline constexpr std::array<std::string_view, 4> kLossReasonNames{"none", "inval
 struct FoveaPoint {
     PixelPosition position;                ///< finite always; may lie off screen
     glm::dvec3 direction{0.0, 0.0, -1.0};  ///< unit, in the eye's view frame
-    FoveaState state = FoveaState::Centre;
+    FoveaState state = FoveaState::Ahead;
     LossReason reason = LossReason::Never;
     std::uint64_t sample_sequence = 0;  ///< of the sample it rests on; 0 with Never
-    latency::Stamp sampled;             ///< of that sample; unknown with Never
-    latency::Stamp arrived;
-    latency::Stamp ready;                        ///< of that sample, as in GazeSample
+    time::Stamp sampled;                ///< of that sample; unknown with Never
+    time::Stamp arrived;
+    time::Stamp ready;                           ///< of that sample, as in GazeSample
     std::optional<std::int64_t> uncertainty_ns;  ///< of `sampled`
     std::optional<double> parallax_rad;          ///< of that sample, as in GazeSample
 };
@@ -49,7 +49,7 @@ struct FoveaPoint {
 /// The foveae of one frame: written once, before the frame's first gaze-dependent submit.
 struct FrameFovea {
     PerEye<FoveaPoint> eyes;
-    latency::Stamp latched;  ///< when the gaze was read for the last time
+    time::Stamp latched;  ///< when the gaze was read for the last time
 };
 
 }  // namespace gazeloop::gaze

@@ -5,7 +5,7 @@
 
 #include "runtime/gaze/eye.h"
 #include "runtime/gaze/pose.h"
-#include "runtime/latency/stamp.h"
+#include "runtime/time/stamp.h"
 
 namespace gazeloop::gaze {
 
@@ -23,11 +23,11 @@ struct EyeRay {
 struct GazeSample {
     std::uint64_t sequence = 0;  ///< counts up by one per report of the source, gaps are losses
     std::int64_t device_ns = 0;  ///< the tracker's own clock, unchanged but for unit and wrap
-    latency::Stamp sampled;      ///< when the eye was seen (exposure), in host time
-    latency::Stamp arrived;      ///< when the host had it
+    time::Stamp sampled;         ///< when the eye was seen (exposure), in host time
+    time::Stamp arrived;         ///< when the host had it
     /// When the host could have had it at the earliest: `sampled` and the tracker's least delay.
     /// Known where a clock was fitted to the tracker's (latency/clock_fit.h); else unknown.
-    latency::Stamp ready;
+    time::Stamp ready;
     std::optional<std::int64_t> uncertainty_ns;  ///< of `sampled`, either way, where it is known
     PerEye<EyeRay> eyes;
     /// How far off a direction may be because the tracker gives one ray for both eyes and how far

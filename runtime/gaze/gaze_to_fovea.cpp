@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "runtime/gaze/direction.h"
-#include "runtime/latency/span.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::gaze {
 namespace {
@@ -40,13 +40,12 @@ std::int64_t elapsed_ns(std::int64_t from, std::int64_t to) {
     return difference;
 }
 
-std::int64_t age_ns(const latency::Stamp& sampled, const latency::Stamp& arrived,
-                    std::int64_t now_ns) {
+std::int64_t age_ns(const time::Stamp& sampled, const time::Stamp& arrived, std::int64_t now_ns) {
     if (!sampled.known() && !arrived.known()) {
         return std::numeric_limits<std::int64_t>::max();
     }
     std::int64_t age = std::numeric_limits<std::int64_t>::min();
-    for (const latency::Stamp& stamp : {sampled, arrived}) {
+    for (const time::Stamp& stamp : {sampled, arrived}) {
         if (stamp.known()) {
             age = std::max(age, elapsed_ns(stamp.ns, now_ns));
         }
@@ -83,7 +82,7 @@ GazeToFovea::GazeToFovea(const FoveaPolicy& policy) : policy_(policy) {}
 
 void GazeToFovea::add(const GazeSample& sample) {
     const Times times{sample.sampled, sample.arrived, sample.ready, sample.uncertainty_ns};
-    if (latency::goes_back(std::exchange(sampled_before_, times.sampled), times.sampled)) {
+    if (time::goes_back(std::exchange(sampled_before_, times.sampled), times.sampled)) {
         return;
     }
 
@@ -112,7 +111,7 @@ void GazeToFovea::add(const GazeSample& sample) {
 
 GazeToFovea::Condition GazeToFovea::condition_at(std::int64_t latched_ns) const {
     if (!last_valid_) {
-        return {FoveaState::Centre, LossReason::Never, 1.0};
+        return {FoveaState::Ahead, LossReason::Never, 1.0};
     }
     const bool fresh = age_ns(newest_->sampled, newest_->arrived, latched_ns) <= policy_.stale_ns;
     if (newest_valid_ && fresh) {
@@ -130,7 +129,7 @@ GazeToFovea::Condition GazeToFovea::condition_at(std::int64_t latched_ns) const 
             FoveaState::Returning, reason,
             smooth_step(static_cast<double>(returning) / static_cast<double>(policy_.return_ns))};
     }
-    return {FoveaState::Centre, reason, 1.0};
+    return {FoveaState::Ahead, reason, 1.0};
 }
 
 FoveaPoint GazeToFovea::fovea_of(std::size_t eye, const Condition& condition, const Pose& head,
@@ -155,7 +154,7 @@ FoveaPoint GazeToFovea::fovea_of(std::size_t eye, const Condition& condition, co
         if (condition.state == FoveaState::Tracking && valid.borrowed[eye]) {
             point.state = FoveaState::OtherEye;
         }
-        if (condition.state != FoveaState::Centre) {
+        if (condition.state != FoveaState::Ahead) {
             // In the frame of the head now, so that large world positions cost no precision.
             const glm::dvec3& looked = valid.direction_in_head[eye];
             const glm::dvec3 eye_offset_m = view_in_head.position_m;
@@ -173,7 +172,7 @@ FoveaPoint GazeToFovea::fovea_of(std::size_t eye, const Condition& condition, co
     return point;
 }
 
-FrameFovea GazeToFovea::latch(latency::Stamp latched, const Pose& head,
+FrameFovea GazeToFovea::latch(time::Stamp latched, const Pose& head,
                               const StereoView& views) const {
     const Condition condition = condition_at(latched.ns);
     FrameFovea frame;

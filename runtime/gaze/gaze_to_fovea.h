@@ -47,14 +47,14 @@ class GazeToFovea {
 
     /// The foveae of a frame whose gaze is read at `latched` (known), for views at their display
     /// time. `head` is the head pose those views belong to. Precondition: is_valid(view) of both.
-    [[nodiscard]] FrameFovea latch(latency::Stamp latched, const Pose& head,
+    [[nodiscard]] FrameFovea latch(time::Stamp latched, const Pose& head,
                                    const StereoView& views) const;
 
   private:
     struct Times {
-        latency::Stamp sampled;
-        latency::Stamp arrived;
-        latency::Stamp ready;
+        time::Stamp sampled;
+        time::Stamp arrived;
+        time::Stamp ready;
         std::optional<std::int64_t> uncertainty_ns;
     };
     struct ValidSample {
@@ -67,7 +67,7 @@ class GazeToFovea {
     };
     /// What both eyes of a frame have in common.
     struct Condition {
-        FoveaState state = FoveaState::Centre;
+        FoveaState state = FoveaState::Ahead;
         LossReason reason = LossReason::Never;
         double returned = 0.0;  ///< 0 at the held point .. 1 straight ahead
     };
@@ -77,8 +77,8 @@ class GazeToFovea {
                                       const EyeView& view) const;
 
     FoveaPolicy policy_;
-    latency::Stamp sampled_before_;  ///< of the sample added last, ignored or not
-    std::optional<Times> newest_;    ///< of the sample taken last
+    time::Stamp sampled_before_;   ///< of the sample added last, ignored or not
+    std::optional<Times> newest_;  ///< of the sample taken last
     bool newest_valid_ = false;
     std::optional<ValidSample> last_valid_;
 };

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/latency/span.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::gaze {
 
@@ -11,7 +11,7 @@ double Vergence::follow(std::optional<double> found, double assumed, const glm::
                         std::int64_t now_ns) {
     const double wanted = found.value_or(assumed);
     const std::int64_t since_ns =
-        last_ ? latency::saturated(static_cast<__int128>(now_ns) - last_->now_ns) : 0;
+        last_ ? time::saturated(static_cast<__int128>(now_ns) - last_->now_ns) : 0;
     const bool same_fixation = last_ && since_ns >= 0 && since_ns <= kGap_ns &&
                                glm::dot(direction, last_->direction) >= std::cos(kJump_rad);
     if (!same_fixation || !last_->found) {

@@ -1,5 +1,7 @@
 #include "runtime/latency/duration_histogram.h"
 
+#include "runtime/time/milliseconds.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -18,8 +20,6 @@ constexpr int kCoarseLog2 = 3;
 constexpr std::size_t kExactBins = std::size_t{1} << kExactBits;
 constexpr std::size_t kFineEnd = kExactBins + (std::size_t{kCoarseFrom - kExactBits} << kFineLog2);
 constexpr std::size_t kBinsPerSign = kFineEnd + (std::size_t{64 - kCoarseFrom} << kCoarseLog2);
-
-constexpr double kNsPerMs = 1e6;
 
 // Percentages such as 99.9 are no binary fractions: products with them are taken to be off by this
 // share, far below one sample in any count that fits a bin.
@@ -74,21 +74,21 @@ std::optional<double> DurationHistogram::min_ms() const {
     if (count_ == 0) {
         return std::nullopt;
     }
-    return static_cast<double>(min_ns_) / kNsPerMs;
+    return static_cast<double>(min_ns_) / time::kNsPerMs;
 }
 
 std::optional<double> DurationHistogram::max_ms() const {
     if (count_ == 0) {
         return std::nullopt;
     }
-    return static_cast<double>(max_ns_) / kNsPerMs;
+    return static_cast<double>(max_ns_) / time::kNsPerMs;
 }
 
 std::optional<double> DurationHistogram::mean_ms() const {
     if (count_ == 0) {
         return std::nullopt;
     }
-    return static_cast<double>(sum_ns_) / static_cast<double>(count_) / kNsPerMs;
+    return static_cast<double>(sum_ns_) / static_cast<double>(count_) / time::kNsPerMs;
 }
 
 std::optional<double> DurationHistogram::percentile_ms(double percent) const {
@@ -106,7 +106,7 @@ std::optional<double> DurationHistogram::percentile_ms(double percent) const {
     const double value_ns = bin < kBinsPerSign ? -magnitude_of(kBinsPerSign - 1 - bin)
                                                : magnitude_of(bin - kBinsPerSign);
     return std::clamp(value_ns, static_cast<double>(min_ns_), static_cast<double>(max_ns_)) /
-           kNsPerMs;
+           time::kNsPerMs;
 }
 
 }  // namespace gazeloop::latency

@@ -5,7 +5,7 @@
 
 namespace gazeloop::latency {
 
-ShownFrame shown_frame(const FrameStamps& stamps, std::int64_t period_ns) {
+ShownFrame shown_frame(const frame::FrameStamps& stamps, std::int64_t period_ns) {
     ShownFrame shown{.at = stamps.display,
                      .in_time_known = stamps.display.known() && stamps.gpu_end.known()};
     if (!shown.in_time_known || stamps.gpu_end.ns <= stamps.display.ns) {
@@ -17,40 +17,42 @@ ShownFrame shown_frame(const FrameStamps& stamps, std::int64_t period_ns) {
     const __int128 late = static_cast<__int128>(stamps.gpu_end.ns) - stamps.display.ns;
     const __int128 periods = (late + period_ns - 1) / period_ns;
     shown.periods_missed = static_cast<std::uint64_t>(periods);
-    shown.at = {saturated(stamps.display.ns + periods * period_ns), StampKind::Modelled};
+    shown.at = {time::saturated(stamps.display.ns + periods * period_ns),
+                time::StampKind::Modelled};
     return shown;
 }
 
-GazeAge gaze_age(const gaze::FoveaPoint& fovea, const FrameStamps& stamps, const Stamp& shown,
-                 std::optional<std::int64_t> switching_ns, std::optional<std::int64_t> row_ns) {
+GazeAge gaze_age(const gaze::FoveaPoint& fovea, const frame::FrameStamps& stamps,
+                 const time::Stamp& shown, std::optional<std::int64_t> switching_ns,
+                 std::optional<std::int64_t> row_ns) {
     GazeAge age;
-    age.at_latch = between(fovea.sampled, stamps.latch);
-    age.at_display = between(fovea.sampled, shown);
+    age.at_latch = time::between(fovea.sampled, stamps.latch);
+    age.at_display = time::between(fovea.sampled, shown);
     if (fovea.uncertainty_ns && age.at_display.known()) {
-        age.uncertainty = {*fovea.uncertainty_ns, StampKind::Profile};
+        age.uncertainty = {*fovea.uncertainty_ns, time::StampKind::Profile};
     }
-    age.stages = {between(fovea.sampled, fovea.ready.known() ? fovea.ready : fovea.arrived),
-                  between(fovea.ready, fovea.arrived),
-                  between(fovea.arrived, stamps.latch),
-                  between(stamps.latch, stamps.submit),
-                  between(stamps.submit, stamps.gpu_end),
-                  between(stamps.gpu_end, shown),
-                  Span{},
-                  Span{}};
+    age.stages = {time::between(fovea.sampled, fovea.ready.known() ? fovea.ready : fovea.arrived),
+                  time::between(fovea.ready, fovea.arrived),
+                  time::between(fovea.arrived, stamps.latch),
+                  time::between(stamps.latch, stamps.submit),
+                  time::between(stamps.submit, stamps.gpu_end),
+                  time::between(stamps.gpu_end, shown),
+                  time::Span{},
+                  time::Span{}};
     const auto add = [&age](Stage stage, std::optional<std::int64_t> delay_ns) {
         if (delay_ns) {
-            age.stages[static_cast<std::size_t>(stage)] = {*delay_ns, StampKind::Profile};
-            age.at_display = {saturated(static_cast<__int128>(age.at_display.ns) + *delay_ns),
-                              weaker(age.at_display.kind, StampKind::Profile)};
+            age.stages[static_cast<std::size_t>(stage)] = {*delay_ns, time::StampKind::Profile};
+            age.at_display = {time::saturated(static_cast<__int128>(age.at_display.ns) + *delay_ns),
+                              time::weaker(age.at_display.kind, time::StampKind::Profile)};
         }
     };
     add(Stage::Row, row_ns);
     add(Stage::Switching, switching_ns);
     __int128 rest = age.at_display.ns;
-    for (const Span& stage : age.stages) {
+    for (const time::Span& stage : age.stages) {
         rest -= stage.known() ? stage.ns : 0;
     }
-    age.unaccounted = {saturated(rest), age.at_display.kind};
+    age.unaccounted = {time::saturated(rest), age.at_display.kind};
     return age;
 }
 
@@ -82,8 +84,8 @@ bool may_be_of_period(std::int64_t announced_ns, std::int64_t profile_ns) {
     return std::abs(periods - whole) <= kTolerance * whole;
 }
 
-GazeAge frame_gaze_age(const FrameRecord& frame, const FrameStamps& stamps, const Stamp& shown,
-                       std::optional<std::int64_t> switching_ns,
+GazeAge frame_gaze_age(const frame::FrameRecord& frame, const frame::FrameStamps& stamps,
+                       const time::Stamp& shown, std::optional<std::int64_t> switching_ns,
                        std::optional<std::int64_t> rolling_ns) {
     const std::size_t eye = gaze::index(older_eye(frame.fovea));
     const gaze::FoveaPoint& fovea = frame.fovea.eyes[eye];

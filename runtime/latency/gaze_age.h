@@ -6,9 +6,9 @@
 #include <optional>
 #include <string_view>
 
+#include "runtime/frame/frame_record.h"
 #include "runtime/gaze/fovea_point.h"
-#include "runtime/latency/frame_record.h"
-#include "runtime/latency/span.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::latency {
 
@@ -37,7 +37,7 @@ inline constexpr std::array<std::string_view, kStageCount> kStageNames{
 
 /// When a frame came to light.
 struct ShownFrame {
-    Stamp at;
+    time::Stamp at;
     std::uint64_t periods_missed = 0;  ///< display periods after the announced one, at least
     bool in_time_known = false;        ///< whether the announced time and the GPU's end are known
 };
@@ -45,23 +45,24 @@ struct ShownFrame {
 /// A frame whose last pass ended by its announced display time is shown then. A later one is shown
 /// a whole number of periods later, which is a model of the compositor, and marked so (unknown
 /// without a period). With an unknown end on the GPU the announced time stands.
-[[nodiscard]] ShownFrame shown_frame(const FrameStamps& stamps, std::int64_t period_ns);
+[[nodiscard]] ShownFrame shown_frame(const frame::FrameStamps& stamps, std::int64_t period_ns);
 
 /// How old the gaze was in one frame.
 struct GazeAge {
-    Span at_latch;    ///< sampled -> latch
-    Span at_display;  ///< sampled -> shown, with the display's row and switching times if known
+    time::Span at_latch;  ///< sampled -> latch
+    time::Span
+        at_display;  ///< sampled -> shown, with the display's row and switching times if known
     /// Of both ages, either way: of the tracker's fitted clock and of its profile's delay.
-    Span uncertainty;
-    std::array<Span, kStageCount> stages;
+    time::Span uncertainty;
+    std::array<time::Span, kStageCount> stages;
     /// at_display less the known stages, exactly; known where at_display is. A stage with an
     /// unknown end leaves its time here.
-    Span unaccounted;
+    time::Span unaccounted;
 };
 
 /// `switching_ns` is the display profile's; `row_ns` is row_delay_ns of the row that is looked at.
-[[nodiscard]] GazeAge gaze_age(const gaze::FoveaPoint& fovea, const FrameStamps& stamps,
-                               const Stamp& shown, std::optional<std::int64_t> switching_ns,
+[[nodiscard]] GazeAge gaze_age(const gaze::FoveaPoint& fovea, const frame::FrameStamps& stamps,
+                               const time::Stamp& shown, std::optional<std::int64_t> switching_ns,
                                std::optional<std::int64_t> row_ns = std::nullopt);
 
 /// From the middle of the emission to that of the row at `y_px` in a picture of `height_px`, where
@@ -81,8 +82,9 @@ struct GazeAge {
 
 /// Of a frame that was shown at `shown`, with these stamps: that of its older gaze, at the row
 /// where that looks. The display profile's times as in gaze_age and row_delay_ns.
-[[nodiscard]] GazeAge frame_gaze_age(const FrameRecord& frame, const FrameStamps& stamps,
-                                     const Stamp& shown, std::optional<std::int64_t> switching_ns,
+[[nodiscard]] GazeAge frame_gaze_age(const frame::FrameRecord& frame,
+                                     const frame::FrameStamps& stamps, const time::Stamp& shown,
+                                     std::optional<std::int64_t> switching_ns,
                                      std::optional<std::int64_t> rolling_ns);
 
 }  // namespace gazeloop::latency

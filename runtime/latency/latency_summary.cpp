@@ -1,5 +1,7 @@
 #include "runtime/latency/latency_summary.h"
 
+#include "runtime/time/milliseconds.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,7 +11,6 @@ namespace {
 
 constexpr double kRealTimeIntervalFactor = 1.05;
 constexpr double kRealTimeMissedPercent = 5.0;
-constexpr double kNsPerMs = 1e6;
 
 Verdict verdict_of(const SummaryReport& report) {
     if (report.config.clock == LoopClock::Virtual) {
@@ -19,7 +20,7 @@ Verdict verdict_of(const SummaryReport& report) {
     if (!interval_ms || report.config.period_ns <= 0) {
         return Verdict::Unknown;
     }
-    const double period_ms = static_cast<double>(report.config.period_ns) / kNsPerMs;
+    const double period_ms = static_cast<double>(report.config.period_ns) / time::kNsPerMs;
     const bool slow = *interval_ms > kRealTimeIntervalFactor * period_ms ||
                       report.missed_percent().value_or(0.0) > kRealTimeMissedPercent;
     return slow ? Verdict::NotRealTime : Verdict::RealTime;
@@ -33,7 +34,7 @@ std::array<DurationRow, N> rows(const std::array<SpanSeries, N>& series) {
     return result;
 }
 
-void add_to(SampleCounts& sum, const SampleCounts& frame) {
+void add_to(frame::SampleCounts& sum, const frame::SampleCounts& frame) {
     sum.texels_planned += frame.texels_planned;
     sum.texels_shaded += frame.texels_shaded;
     sum.texels_off_screen += frame.texels_off_screen;
@@ -77,30 +78,30 @@ void LatencySummary::set_display_period(std::int64_t period_ns) {
 
 void LatencySummary::add(const gaze::GazeSample& sample) { gaze_.add(sample); }
 
-void LatencySummary::add(const FrameRecord& record) {
+void LatencySummary::add(const frame::FrameRecord& record) {
     ++frames_.total;
     if (before_ && before_->index + 1 == record.index) {
-        frame_interval_.add(between(before_->wake_up, record.stamps.wake_up));
+        frame_interval_.add(time::between(before_->wake_up, record.stamps.wake_up));
     }
     before_ = {record.index, record.stamps.wake_up};
-    loop_time_.add(between(record.stamps.wake_up, record.stamps.end_frame));
+    loop_time_.add(time::between(record.stamps.wake_up, record.stamps.end_frame));
     if (!record.should_render) {
         return;
     }
-    std::optional<FrameRecord>& slot = pending_[record.index % kPendingFrames];
+    std::optional<frame::FrameRecord>& slot = pending_[record.index % kPendingFrames];
     if (slot) {
         complete(*slot);
     }
     slot = record;
 }
 
-void LatencySummary::add(const FrameGpuRecord& record) {
-    for (std::size_t pass = 0; pass < kPassCount; ++pass) {
+void LatencySummary::add(const frame::FrameGpuRecord& record) {
+    for (std::size_t pass = 0; pass < frame::kPassCount; ++pass) {
         if (record.pass_ns[pass] >= 0) {
-            passes_[pass].add({record.pass_ns[pass], StampKind::Measured});
+            passes_[pass].add({record.pass_ns[pass], time::StampKind::Measured});
         }
     }
-    std::optional<FrameRecord>& slot = pending_[record.index % kPendingFrames];
+    std::optional<frame::FrameRecord>& slot = pending_[record.index % kPendingFrames];
     if (!slot || slot->index != record.index) {
         return;
     }
@@ -112,7 +113,7 @@ void LatencySummary::add(const FrameGpuRecord& record) {
     slot.reset();
 }
 
-void LatencySummary::complete(const FrameRecord& record) {
+void LatencySummary::complete(const frame::FrameRecord& record) {
     ++frames_.rendered;
     add_to(samples_, record.samples);
 
@@ -135,7 +136,7 @@ void LatencySummary::complete(const FrameRecord& record) {
         case gaze::FoveaState::Returning:
             held_gaze_age_at_display_.add(age.at_display);
             break;
-        case gaze::FoveaState::Centre:
+        case gaze::FoveaState::Ahead:
             break;  // the picture rests on no gaze: there is no age
     }
 }
@@ -153,14 +154,14 @@ void LatencySummary::add_tracking(const GazeAge& age) {
         }
     }
     if (age.unaccounted.known()) {
-        length_by_kind_ns_[static_cast<std::size_t>(StampKind::Unknown)] +=
+        length_by_kind_ns_[static_cast<std::size_t>(time::StampKind::Unknown)] +=
             std::abs(static_cast<double>(age.unaccounted.ns));
     }
 }
 
 SummaryReport LatencySummary::report() const {
     LatencySummary finished = *this;
-    for (std::optional<FrameRecord>& slot : finished.pending_) {
+    for (std::optional<frame::FrameRecord>& slot : finished.pending_) {
         if (slot) {
             finished.complete(*slot);
         }

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/frame/frame_record.h"
 #include "runtime/gaze/fovea_point.h"
 #include "runtime/gaze/gaze_sample.h"
-#include "runtime/latency/frame_record.h"
 #include "runtime/latency/gaze_age.h"
 #include "runtime/latency/sample_counter.h"
 #include "runtime/latency/span_series.h"
@@ -76,14 +76,14 @@ struct SummaryReport {
     DurationRow held_gaze_age_at_display;  ///< in held and returning frames: of the held sample
     DurationRow frame_interval;            ///< from wake_up to wake_up of neighbouring frames
     DurationRow loop_time;                 ///< wake_up -> end_frame
-    std::array<DurationRow, kPassCount> passes;
+    std::array<DurationRow, frame::kPassCount> passes;
 
     /// How the gaze age at display was obtained, percent of its length over all frames that know
     /// it, by stamp kind; what is unaccounted for is unknown. Absent if no frame knows it.
-    std::optional<std::array<double, kStampKindCount>> share_by_kind_percent;
+    std::optional<std::array<double, time::kStampKindCount>> share_by_kind_percent;
     FrameCounts frames;
     GazeCounts gaze;
-    SampleCounts samples;  ///< sums over the rendered frames
+    frame::SampleCounts samples;  ///< sums over the rendered frames
 
     /// Missed frames among those of which it is known; absent if there are none.
     [[nodiscard]] std::optional<double> missed_percent() const;
@@ -103,10 +103,10 @@ class LatencySummary {
     /// In the order of arrival.
     void add(const gaze::GazeSample& sample);
     /// In the order of their index.
-    void add(const FrameRecord& record);
+    void add(const frame::FrameRecord& record);
     /// After its frame, and before 16 later ones; a later part still counts for the passes. In
     /// virtual time the frame's own, modelled GPU stamps are used and those of this part are not.
-    void add(const FrameGpuRecord& record);
+    void add(const frame::FrameGpuRecord& record);
 
     /// Of everything so far; frames still without a GPU part count as they are.
     [[nodiscard]] SummaryReport report() const;
@@ -115,16 +115,17 @@ class LatencySummary {
     static constexpr std::size_t kPendingFrames = 16;
     struct Neighbour {
         std::uint64_t index;
-        Stamp wake_up;
+        time::Stamp wake_up;
     };
 
-    void complete(const FrameRecord& record);
+    void complete(const frame::FrameRecord& record);
     void add_tracking(const GazeAge& age);
     [[nodiscard]] SummaryReport report_of_complete() const;
 
     SummaryConfig config_;
     std::int64_t profile_period_ns_;
-    std::array<std::optional<FrameRecord>, kPendingFrames> pending_;  ///< by index modulo size
+    std::array<std::optional<frame::FrameRecord>, kPendingFrames>
+        pending_;  ///< by index modulo size
     std::optional<Neighbour> before_;
     SpanSeries gaze_age_at_latch_;
     SpanSeries gaze_age_at_display_;
@@ -134,11 +135,11 @@ class LatencySummary {
     SpanSeries held_gaze_age_at_display_;
     SpanSeries frame_interval_;
     SpanSeries loop_time_;
-    std::array<SpanSeries, kPassCount> passes_;
-    std::array<double, kStampKindCount> length_by_kind_ns_{};
+    std::array<SpanSeries, frame::kPassCount> passes_;
+    std::array<double, time::kStampKindCount> length_by_kind_ns_{};
     FrameCounts frames_;
     SampleCounter gaze_;
-    SampleCounts samples_;
+    frame::SampleCounts samples_;
 };
 
 }  // namespace gazeloop::latency

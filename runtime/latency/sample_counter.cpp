@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "runtime/latency/span.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::latency {
 
@@ -12,13 +12,13 @@ void SampleCounter::add(const gaze::GazeSample& sample) {
     if (!sample.eyes[0].valid && !sample.eyes[1].valid) {
         ++counts_.invalid;
     }
-    const Stamp sampled_before = std::exchange(last_sampled_, sample.sampled);
+    const time::Stamp sampled_before = std::exchange(last_sampled_, sample.sampled);
     const std::uint64_t highest_before =
         std::exchange(highest_sequence_, std::max(highest_sequence_, sample.sequence));
     if (first) {
         return;
     }
-    if (sample.sequence <= highest_before || goes_back(sampled_before, sample.sampled)) {
+    if (sample.sequence <= highest_before || time::goes_back(sampled_before, sample.sampled)) {
         ++counts_.out_of_order;
     }
     if (sample.sequence > highest_before) {

@@ -5,14 +5,14 @@
 
 namespace gazeloop::latency {
 
-StampKind DurationRow::kind() const {
+time::StampKind DurationRow::kind() const {
     // The enumerators stand in the order of certainty (see weaker()).
-    for (std::size_t kind = kStampKindCount - 1; kind > 0; --kind) {
+    for (std::size_t kind = time::kStampKindCount - 1; kind > 0; --kind) {
         if (frames_by_kind[kind] > 0) {
-            return static_cast<StampKind>(kind);
+            return static_cast<time::StampKind>(kind);
         }
     }
-    return StampKind::Unknown;
+    return time::StampKind::Unknown;
 }
 
 bool DurationRow::mixed() const {
@@ -20,7 +20,7 @@ bool DurationRow::mixed() const {
                          [](std::uint64_t frames) { return frames > 0; }) > 1;
 }
 
-void SpanSeries::add(const Span& span) {
+void SpanSeries::add(const time::Span& span) {
     ++frames_by_kind_[static_cast<std::size_t>(span.kind)];
     if (span.known()) {
         histogram_.add(span.ns);

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "runtime/latency/duration_histogram.h"
-#include "runtime/latency/span.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::latency {
 
@@ -14,7 +14,7 @@ namespace gazeloop::latency {
 struct DurationRow {
     std::uint64_t count = 0;  ///< frames that know it
     /// Frames by how it was obtained; those under unknown are not in the figures.
-    std::array<std::uint64_t, kStampKindCount> frames_by_kind{};
+    std::array<std::uint64_t, time::kStampKindCount> frames_by_kind{};
     std::optional<double> min_ms;
     std::optional<double> mean_ms;
     std::optional<double> p50_ms;
@@ -23,7 +23,7 @@ struct DurationRow {
     std::optional<double> max_ms;
 
     /// The least certain kind among the known ones; unknown where no frame knows it.
-    [[nodiscard]] StampKind kind() const;
+    [[nodiscard]] time::StampKind kind() const;
     /// Whether frames of more than one known kind are in the figures.
     [[nodiscard]] bool mixed() const;
 };
@@ -31,12 +31,12 @@ struct DurationRow {
 /// Gathers a DurationRow in fixed memory.
 class SpanSeries {
   public:
-    void add(const Span& span);
+    void add(const time::Span& span);
     [[nodiscard]] DurationRow row() const;
 
   private:
     DurationHistogram histogram_;
-    std::array<std::uint64_t, kStampKindCount> frames_by_kind_{};
+    std::array<std::uint64_t, time::kStampKindCount> frames_by_kind_{};
 };
 
 }  // namespace gazeloop::latency

@@ -9,7 +9,7 @@
 #include <optional>
 #include <random>
 
-#include "runtime/foveation/useless_map.h"
+#include "runtime/foveation/log_polar/degenerate_map.h"
 #include "runtime/numerics/errors.h"
 #include "runtime/numerics/maps_of_interest.h"
 #include "runtime/numerics/random_draws.h"
@@ -40,7 +40,7 @@ constexpr std::array kFoveae{
 
 class Measurement {
   public:
-    Measurement(const render::VulkanContext& context, const EnvelopeOptions& options)
+    Measurement(const vulkan::Context& context, const EnvelopeOptions& options)
         : context_(context), options_(options), probe_(context), random_(options.seed) {}
 
     void picture_frame(const NamedKernel& named, ImageSize image, double sigma) {
@@ -60,8 +60,8 @@ class Measurement {
                      .lp = *lp,
                      .fovea = at.name,
                      .on_screen = at.on_screen,
-                     .useless = foveation::why_useless(LogPolarMap(named.kernel, image, fovea), *lp,
-                                                       0.0)});
+                     .useless = foveation::why_degenerate(LogPolarMap(named.kernel, image, fovea),
+                                                          *lp, 0.0)});
         }
     }
 
@@ -102,7 +102,7 @@ class Measurement {
         rows.push_back(std::move(row));
     }
 
-    const render::VulkanContext& context_;
+    const vulkan::Context& context_;
     const EnvelopeOptions& options_;
     MapProbe probe_;
     std::mt19937_64 random_;
@@ -129,7 +129,7 @@ bool Envelope::met() const {
            std::ranges::all_of(rows, [](const EnvelopeRow& row) { return row.met(); });
 }
 
-Envelope measure_envelope(const render::VulkanContext& context, const EnvelopeOptions& options) {
+Envelope measure_envelope(const vulkan::Context& context, const EnvelopeOptions& options) {
     const auto begin = std::chrono::steady_clock::now();
     const std::vector<ImageSize> images =
         options.quick ? std::vector<ImageSize>{{1280, 1440}}

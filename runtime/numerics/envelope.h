@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "runtime/foveation/lp_size.h"
+#include "runtime/foveation/log_polar/lp_size.h"
+#include "runtime/foveation/picture/image_size.h"
 #include "runtime/numerics/table_builds.h"
-#include "runtime/render/vulkan_context.h"
+#include "runtime/vulkan/context.h"
 
 namespace gazeloop::numerics {
 
@@ -88,6 +89,6 @@ struct Envelope {
 };
 
 /// Measures every map of the library on this device.
-Envelope measure_envelope(const render::VulkanContext& context, const EnvelopeOptions& options);
+Envelope measure_envelope(const vulkan::Context& context, const EnvelopeOptions& options);
 
 }  // namespace gazeloop::numerics

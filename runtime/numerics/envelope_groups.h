@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/foveation/picture/image_size.h"
 #include "runtime/numerics/envelope.h"
 
 namespace gazeloop::numerics {

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <tuple>
 
-#include "runtime/render/pipelines.h"
+#include "runtime/vulkan/pipelines.h"
 #include "shaders/shader_library.h"
 
 namespace gazeloop::numerics {
@@ -16,16 +16,16 @@ constexpr std::uint32_t kOutputsBinding = 7;
 constexpr std::uint32_t kGroupSize = 64;
 
 constexpr std::array kBindings{
-    std::pair{std::uint32_t{render::kEyeUniformsBinding}, Type::eUniformBuffer},
-    std::pair{std::uint32_t{render::kMapTablesBinding}, Type::eUniformBuffer},
-    std::pair{std::uint32_t{render::kColumnTableBinding}, Type::eStorageBuffer},
-    std::pair{std::uint32_t{render::kRowTableBinding}, Type::eStorageBuffer},
+    std::pair{std::uint32_t{vulkan::kEyeUniformsBinding}, Type::eUniformBuffer},
+    std::pair{std::uint32_t{vulkan::kMapTablesBinding}, Type::eUniformBuffer},
+    std::pair{std::uint32_t{vulkan::kColumnTableBinding}, Type::eStorageBuffer},
+    std::pair{std::uint32_t{vulkan::kRowTableBinding}, Type::eStorageBuffer},
     std::pair{kInputsBinding, Type::eStorageBuffer},
     std::pair{kOutputsBinding, Type::eStorageBuffer}};
 
 }  // namespace
 
-MapProbe::MapProbe(const render::VulkanContext& context) : context_(&context) {
+MapProbe::MapProbe(const vulkan::Context& context) : context_(&context) {
     const vk::raii::Device& device = context.device();
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     bindings.reserve(kBindings.size());
@@ -63,11 +63,11 @@ std::vector<ProbeOutput> MapProbe::run(const render::MapBuffers& tables,
     };
     const vk::raii::Device& device = context_->device();
     using Usage = vk::BufferUsageFlagBits;
-    render::HostBuffer uniform_buffer(*context_, sizeof uniforms, Usage::eUniformBuffer);
+    vulkan::HostBuffer uniform_buffer(*context_, sizeof uniforms, Usage::eUniformBuffer);
     uniform_buffer.write(uniforms);
-    render::HostBuffer input_buffer(*context_, inputs.size_bytes(), Usage::eStorageBuffer);
+    vulkan::HostBuffer input_buffer(*context_, inputs.size_bytes(), Usage::eStorageBuffer);
     input_buffer.write(inputs);
-    const render::HostBuffer output_buffer(*context_, inputs.size() * sizeof(Answer),
+    const vulkan::HostBuffer output_buffer(*context_, inputs.size() * sizeof(Answer),
                                            Usage::eStorageBuffer);
 
     const std::array sizes{vk::DescriptorPoolSize(Type::eUniformBuffer, 2),

@@ -27,7 +27,7 @@ struct ProbeOutput {
 /// Runs the maps as the shaders have them (shaders/lib) on the device.
 class MapProbe {
   public:
-    explicit MapProbe(const render::VulkanContext& context);
+    explicit MapProbe(const vulkan::Context& context);
 
     /// Waits for the answers. `uniforms` decide the gaze, `in_gaze_frame` which of the two maps.
     [[nodiscard]] std::vector<ProbeOutput> run(const render::MapBuffers& tables,
@@ -36,7 +36,7 @@ class MapProbe {
                                                std::span<const ProbeInput> inputs) const;
 
   private:
-    const render::VulkanContext* context_;
+    const vulkan::Context* context_;
     vk::raii::DescriptorSetLayout set_layout_{nullptr};
     vk::raii::PipelineLayout layout_{nullptr};
     std::array<vk::raii::Pipeline, 2> pipelines_{nullptr, nullptr};  ///< by in_gaze_frame

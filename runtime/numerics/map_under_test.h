@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
-#include "runtime/foveation/acuity_map.h"
-#include "runtime/foveation/float_map.h"
-#include "runtime/foveation/map_error.h"
-#include "runtime/foveation/sampling_plan.h"
+#include "runtime/foveation/log_polar/acuity_map.h"
+#include "runtime/foveation/log_polar/float_map.h"
+#include "runtime/foveation/log_polar/map_error.h"
+#include "runtime/foveation/plans/sampling_plan.h"
 #include "runtime/numerics/map_probe.h"
 
 namespace gazeloop::numerics {

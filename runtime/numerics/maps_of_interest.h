@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/foveation/lp_size.h"
-#include "runtime/foveation/radial_kernel.h"
+#include "runtime/foveation/log_polar/lp_size.h"
+#include "runtime/foveation/log_polar/radial_kernel.h"
+#include "runtime/foveation/picture/image_size.h"
 #include "runtime/gaze/view.h"
 
 namespace gazeloop::numerics {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <random>
 
-#include "runtime/foveation/acuity_map.h"
-#include "runtime/foveation/float_map.h"
+#include "runtime/foveation/log_polar/acuity_map.h"
+#include "runtime/foveation/log_polar/float_map.h"
 
 namespace gazeloop::numerics {
 namespace {

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <limits>
 
-#include "runtime/foveation/map_tables.h"
+#include "runtime/foveation/log_polar/map_tables.h"
 #include "runtime/numerics/maps_of_interest.h"
 
 namespace gazeloop::numerics {

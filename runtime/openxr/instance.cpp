@@ -29,7 +29,7 @@ std::vector<const char*> extensions_to_enable(const RuntimeChoice& choice,
     };
     for (const char* name : kRequiredXrExtensions) {
         if (!offers(name)) {
-            throw SetupError(ExitCode::NoDevice,
+            throw SetupError(ErrorKind::NoDevice,
                              fmt::format("the OpenXR runtime {} lacks {}: use another runtime "
                                          "(XR_RUNTIME_JSON) or --target headless",
                                          choice.manifest, name));
@@ -57,14 +57,14 @@ XrInstance create_instance(const RuntimeChoice& choice, bool validation,
     XrInstance instance = XR_NULL_HANDLE;
     const XrResult created = xrCreateInstance(&info, &instance);
     if (created == XR_ERROR_API_LAYER_NOT_PRESENT) {
-        throw SetupError(ExitCode::NoDevice,
+        throw SetupError(ErrorKind::NoDevice,
                          "target.validation is on, but its layer is not installed (Debian: "
                          "openxr-layer-corevalidation)");
     }
     // Whatever a runtime calls it, before there is an instance nothing can have been lost.
     if (XR_FAILED(created)) {
         throw SetupError(
-            ExitCode::NoDevice,
+            ErrorKind::NoDevice,
             fmt::format("OpenXR: the runtime {} did not start ({}): is its service running, "
                         "and does Vulkan have a driver (vulkaninfo)? ./dev setup builds an "
                         "in-process Monado; --target headless needs no runtime",

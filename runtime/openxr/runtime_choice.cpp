@@ -75,7 +75,7 @@ std::string fov_text(const gaze::FieldOfView& fov) {
                        fov.up_rad * kDegrees, fov.down_rad * kDegrees);
 }
 
-void simulate_display(const present::DisplayProfile& display) {
+void simulate_display(const display::DisplayProfile& display) {
     if (display.cant_outward_rad != gaze::PerEye<double>{}) {
         spdlog::warn(
             "display '{}' has canted views, the simulated headset does not: its views are "
@@ -103,12 +103,12 @@ void simulate_display(const present::DisplayProfile& display) {
 
 }  // namespace
 
-RuntimeChoice choose_runtime(const present::DisplayProfile& display) {
+RuntimeChoice choose_runtime(const display::DisplayProfile& display) {
     const fs::path ours = cache_folder() / "monado/share/openxr/1/openxr_monado.json";
     if (const auto chosen = environment("XR_RUNTIME_JSON")) {
         if (!is_there(*chosen)) {
             throw SetupError(
-                ExitCode::NoDevice,
+                ErrorKind::NoDevice,
                 fmt::format("no OpenXR runtime: XR_RUNTIME_JSON names '{}', which does "
                             "not exist; {}",
                             *chosen, kRemedy));
@@ -135,7 +135,7 @@ RuntimeChoice choose_runtime(const present::DisplayProfile& display) {
         setenv("XR_RUNTIME_JSON", packaged.c_str(), 1);
         return {packaged, "package of the system"};
     }
-    throw SetupError(ExitCode::NoDevice, fmt::format("no OpenXR runtime: {}", kRemedy));
+    throw SetupError(ErrorKind::NoDevice, fmt::format("no OpenXR runtime: {}", kRemedy));
 }
 
 }  // namespace gazeloop::openxr

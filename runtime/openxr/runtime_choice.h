@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "runtime/present/display_profile.h"
+#include "runtime/display/display_profile.h"
 
 namespace gazeloop::openxr {
 
@@ -18,6 +18,6 @@ struct RuntimeChoice {
 /// setup` built into the cache folder. For the last one the environment is set so that it simulates
 /// the display (size, refresh, fields of view, eyes' distance) and composites into nothing.
 /// Throws SetupError (NoDevice), naming the remedy, when there is none or the file is missing.
-RuntimeChoice choose_runtime(const present::DisplayProfile& display);
+RuntimeChoice choose_runtime(const display::DisplayProfile& display);
 
 }  // namespace gazeloop::openxr

@@ -25,7 +25,7 @@ std::string_view state_name(XrSessionState state) {
 }
 
 /// What a later step leaves behind when it throws goes with the instance.
-XrSession create_session(const Instance& instance, const render::VulkanContext& context) {
+XrSession create_session(const Instance& instance, const vulkan::Context& context) {
     auto binding = typed<XrGraphicsBindingVulkan2KHR>(XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR);
     binding.instance = *context.instance();
     binding.physicalDevice = *context.physical();
@@ -51,8 +51,7 @@ XrSpace create_space(XrSession session, XrReferenceSpaceType type) {
 
 }  // namespace
 
-Session::Session(const Instance& instance, const XrClock& clock,
-                 const render::VulkanContext& context)
+Session::Session(const Instance& instance, const XrClock& clock, const vulkan::Context& context)
     : instance_(instance),
       clock_(clock),
       session_(create_session(instance, context)),
@@ -109,7 +108,7 @@ void Session::tell(std::string_view text) { events_.emplace_back(text); }
 void Session::handle_event(const XrEventDataBuffer& event) {
     switch (event.type) {
         case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
-            throw SetupError(ExitCode::SessionLost,
+            throw SetupError(ErrorKind::SessionLost,
                              fmt::format("OpenXR: {} is going away (instance loss pending): start "
                                          "again when it is back",
                                          instance_.runtime_name()));
@@ -159,7 +158,7 @@ void Session::change_state(const XrEventDataSessionStateChanged& changed) {
             ended_ = true;
             break;
         case XR_SESSION_STATE_LOSS_PENDING:
-            throw SetupError(ExitCode::SessionLost,
+            throw SetupError(ErrorKind::SessionLost,
                              fmt::format("OpenXR: {} is losing the session (session loss "
                                          "pending): see that the headset is connected, then "
                                          "start again",

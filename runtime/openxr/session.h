@@ -10,7 +10,7 @@
 
 #include "runtime/openxr/instance.h"
 #include "runtime/openxr/xr_clock.h"
-#include "runtime/render/vulkan_context.h"
+#include "runtime/vulkan/context.h"
 
 namespace gazeloop::openxr {
 
@@ -21,7 +21,7 @@ inline constexpr XrViewConfigurationType kStereo = XR_VIEW_CONFIGURATION_TYPE_PR
 class Session {
   public:
     /// Throws SetupError.
-    Session(const Instance& instance, const XrClock& clock, const render::VulkanContext& context);
+    Session(const Instance& instance, const XrClock& clock, const vulkan::Context& context);
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
     ~Session();

@@ -12,7 +12,7 @@ namespace {
 void check_vulkan(VkResult result, const Instance& instance, std::string_view what) {
     if (result != VK_SUCCESS) {
         throw SetupError(
-            ExitCode::NoDevice,
+            ErrorKind::NoDevice,
             fmt::format("{} could not create {} ({}): install a Vulkan 1.3 driver "
                         "(Debian: mesa-vulkan-drivers); VK_ICD_FILENAMES, if set, "
                         "must name an existing one",
@@ -26,7 +26,7 @@ void check_version(XrVersion least, std::uint32_t ours, const Instance& instance
         XR_MAKE_VERSION(VK_API_VERSION_MAJOR(ours), VK_API_VERSION_MINOR(ours), 0);
     if (least > offered) {
         throw SetupError(
-            ExitCode::NoDevice,
+            ErrorKind::NoDevice,
             fmt::format("{} wants Vulkan {}.{} or later, gazeloop uses {}.{}: use another OpenXR "
                         "runtime (XR_RUNTIME_JSON), or --target headless",
                         instance.runtime_name(), XR_VERSION_MAJOR(least), XR_VERSION_MINOR(least),

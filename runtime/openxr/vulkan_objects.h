@@ -1,13 +1,13 @@
 #pragma once
 
 #include "runtime/openxr/instance.h"
-#include "runtime/render/vulkan_factory.h"
+#include "runtime/vulkan/factory.h"
 
 namespace gazeloop::openxr {
 
 /// Has the runtime make Vulkan's objects, with what its compositor needs
 /// (XR_KHR_vulkan_enable2). `instance` must outlive this.
-class VulkanObjects final : public render::VulkanFactory {
+class VulkanObjects final : public vulkan::Factory {
   public:
     explicit VulkanObjects(const Instance& instance) : instance_(instance) {}
 

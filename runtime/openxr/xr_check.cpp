@@ -33,7 +33,7 @@ XrResult xr_check(XrResult result, std::string_view what) {
     if (XR_SUCCEEDED(result)) {
         return result;
     }
-    throw SetupError(went_away(result) ? ExitCode::SessionLost : ExitCode::NoDevice,
+    throw SetupError(went_away(result) ? ErrorKind::SessionLost : ErrorKind::NoDevice,
                      fmt::format("OpenXR: {}: {}", what, xr_name(result)));
 }
 
@@ -42,7 +42,7 @@ XrResult xr_check_session(XrResult result, std::string_view call) {
         return result;
     }
     throw SetupError(
-        ExitCode::SessionLost,
+        ErrorKind::SessionLost,
         went_away(result)
             ? fmt::format("OpenXR: the runtime or its session went away ({}: {}): see that the "
                           "runtime runs and the headset is connected, then start again",

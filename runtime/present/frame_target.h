@@ -8,9 +8,9 @@
 
 #include "runtime/gaze/hidden_mesh.h"
 #include "runtime/gaze/view.h"
-#include "runtime/latency/stamp.h"
-#include "runtime/render/frame_renderer.h"
-#include "runtime/render/vulkan_context.h"
+#include "runtime/render/eye_target.h"
+#include "runtime/time/stamp.h"
+#include "runtime/vulkan/context.h"
 
 namespace gazeloop::present {
 
@@ -25,7 +25,7 @@ struct DepthRange {
 
 /// What the target knows of the frame that is about to begin.
 struct TargetFrame {
-    latency::Stamp display;      ///< announced middle of the display's emission, host time
+    time::Stamp display;         ///< announced middle of the display's emission, host time
     std::int64_t period_ns = 0;  ///< of the display; 0: not known
     bool should_render = true;   ///< false: begin and end it, but draw nothing
     gaze::Pose head;             ///< in world, at the display time
@@ -52,11 +52,11 @@ class FrameTarget {
     virtual ~FrameTarget() = default;
 
     /// Who must create the Vulkan objects; null: nobody cares.
-    virtual render::VulkanFactory* vulkan_factory() = 0;
+    virtual vulkan::Factory* vulkan_factory() = 0;
 
     /// Makes swapchains or images for the context, once, before anything below. The context must
     /// outlive the target. Throws SetupError.
-    virtual void start(const render::VulkanContext& context) = 0;
+    virtual void start(const vulkan::Context& context) = 0;
 
     [[nodiscard]] virtual gaze::PerEye<vk::Extent2D> extents() const = 0;
     [[nodiscard]] virtual vk::Format format() const = 0;

@@ -4,19 +4,19 @@
 
 #include <algorithm>
 
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::present {
 
 HeadlessTarget::HeadlessTarget(const Options& options) : options_(options) {}
 
-void HeadlessTarget::start(const render::VulkanContext& context) {
+void HeadlessTarget::start(const vulkan::Context& context) {
     for (const gaze::Eye eye : gaze::kEyes) {
-        images_[gaze::index(eye)] = render::ColorImage(
+        images_[gaze::index(eye)] = vulkan::ColorImage(
             context, options_.extents[gaze::index(eye)], options_.format,
             vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
     }
-    first_emission_ns_ = latency::monotonic_ns();
+    first_emission_ns_ = time::monotonic_ns();
 }
 
 gaze::PerEye<vk::Extent2D> HeadlessTarget::extents() const { return options_.extents; }
@@ -28,14 +28,14 @@ void HeadlessTarget::wait_frame(TargetFrame& frame) {
     if (options_.paced) {
         // The emission after the last announced one, or if that is too close, the first one that
         // leaves a period for the work; the loop wakes a period before it.
-        const std::int64_t since = latency::monotonic_ns() - first_emission_ns_;
+        const std::int64_t since = time::monotonic_ns() - first_emission_ns_;
         const std::int64_t first_in_time = (since + period - 1) / period + 1;
         next_emission_ = std::max(next_emission_ + 1, first_in_time);
-        latency::sleep_until_ns(first_emission_ns_ + (next_emission_ - 1) * period);
+        time::sleep_until_ns(first_emission_ns_ + (next_emission_ - 1) * period);
     } else {
         ++next_emission_;
     }
-    frame.display = {first_emission_ns_ + next_emission_ * period, latency::StampKind::Predicted};
+    frame.display = {first_emission_ns_ + next_emission_ * period, time::StampKind::Predicted};
     frame.should_render = true;
 }
 
@@ -43,8 +43,8 @@ void HeadlessTarget::locate(TargetFrame& frame) {
     frame.head = {};
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
-        frame.views[e] = profile_view(options_.display, eye, options_.extents[e].width,
-                                      options_.extents[e].height);
+        frame.views[e] = display::profile_view(options_.display, eye, options_.extents[e].width,
+                                               options_.extents[e].height);
     }
 }
 

@@ -2,8 +2,9 @@
 
 #include <functional>
 
-#include "runtime/present/display_profile.h"
+#include "runtime/display/display_profile.h"
 #include "runtime/present/frame_target.h"
+#include "runtime/vulkan/memory.h"
 
 namespace gazeloop::present {
 
@@ -14,15 +15,15 @@ namespace gazeloop::present {
 class HeadlessTarget final : public FrameTarget {
   public:
     struct Options {
-        DisplayProfile display;
+        display::DisplayProfile display;
         gaze::PerEye<vk::Extent2D> extents;
         vk::Format format = vk::Format::eR8G8B8A8Srgb;
         bool paced = true;
     };
     explicit HeadlessTarget(const Options& options);
 
-    render::VulkanFactory* vulkan_factory() override { return nullptr; }
-    void start(const render::VulkanContext& context) override;
+    vulkan::Factory* vulkan_factory() override { return nullptr; }
+    void start(const vulkan::Context& context) override;
     [[nodiscard]] gaze::PerEye<vk::Extent2D> extents() const override;
     [[nodiscard]] vk::Format format() const override;
     TargetState poll() override {
@@ -40,7 +41,7 @@ class HeadlessTarget final : public FrameTarget {
 
   private:
     Options options_;
-    gaze::PerEye<render::ColorImage> images_;
+    gaze::PerEye<vulkan::ColorImage> images_;
     std::int64_t first_emission_ns_ = 0;
     std::int64_t next_emission_ = 0;
     bool exit_requested_ = false;

@@ -38,7 +38,7 @@ vk::ArrayWrapper1D<vk::Offset3D, 2> corners(const vk::Extent2D& extent) {
 
 }  // namespace
 
-PreviewFeed::PreviewFeed(const render::VulkanContext& context, const Options& options,
+PreviewFeed::PreviewFeed(const vulkan::Context& context, const Options& options,
                          PreviewMemory& memory)
     : context_(&context),
       options_(options),
@@ -47,12 +47,12 @@ PreviewFeed::PreviewFeed(const render::VulkanContext& context, const Options& op
     const vk::raii::Device& device = context.device();
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
         const vk::Extent2D extent = reduced(options.extents[e], reduction_);
-        eyes_[e].reduced = render::ColorImage(
+        eyes_[e].reduced = vulkan::ColorImage(
             context, extent, options.format,
             // A view must be of some use; this one is never drawn to.
             vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc |
                 vk::ImageUsageFlagBits::eColorAttachment);
-        eyes_[e].pixels = render::HostBuffer(
+        eyes_[e].pixels = vulkan::HostBuffer(
             context, vk::DeviceSize{extent.width} * extent.height * kBytesPerPixel,
             vk::BufferUsageFlagBits::eTransferDst);
     }
@@ -132,11 +132,11 @@ void PreviewFeed::record_copy(const render::FrameRequest& request, std::uint32_t
         const vk::Image from = request.targets[e].image;
         const vk::Image to = eyes_[e].reduced.image();
         const vk::Extent2D extent = eyes_[e].reduced.extent();
-        barrier(render::image_barrier(from, Layout::eColorAttachmentOptimal,
+        barrier(vulkan::image_barrier(from, Layout::eColorAttachmentOptimal,
                                       Layout::eTransferSrcOptimal, Stage::eColorAttachmentOutput,
                                       Access::eColorAttachmentWrite, Stage::eBlit,
                                       Access::eTransferRead));
-        barrier(render::image_barrier(to, Layout::eUndefined, Layout::eTransferDstOptimal,
+        barrier(vulkan::image_barrier(to, Layout::eUndefined, Layout::eTransferDstOptimal,
                                       Stage::eCopy, Access::eNone, Stage::eBlit,
                                       Access::eTransferWrite));
         const vk::ImageSubresourceLayers layers(vk::ImageAspectFlagBits::eColor, 0, 0, 1);
@@ -144,11 +144,11 @@ void PreviewFeed::record_copy(const render::FrameRequest& request, std::uint32_t
             from, Layout::eTransferSrcOptimal, to, Layout::eTransferDstOptimal,
             vk::ImageBlit(layers, corners(options_.extents[e]), layers, corners(extent)),
             reduction_ > 1 ? vk::Filter::eLinear : vk::Filter::eNearest);
-        barrier(render::image_barrier(
+        barrier(vulkan::image_barrier(
             from, Layout::eTransferSrcOptimal, Layout::eColorAttachmentOptimal, Stage::eBlit,
             Access::eNone, Stage::eColorAttachmentOutput,
             Access::eColorAttachmentRead | Access::eColorAttachmentWrite));
-        barrier(render::image_barrier(to, Layout::eTransferDstOptimal, Layout::eTransferSrcOptimal,
+        barrier(vulkan::image_barrier(to, Layout::eTransferDstOptimal, Layout::eTransferSrcOptimal,
                                       Stage::eBlit, Access::eTransferWrite, Stage::eCopy,
                                       Access::eTransferRead));
         commands_.copyImageToBuffer(
@@ -164,12 +164,12 @@ void PreviewFeed::record_copy(const render::FrameRequest& request, std::uint32_t
     context_->queue().submit2(vk::SubmitInfo2({}, {}, info, done));
 }
 
-void PreviewFeed::on_frame(const latency::FrameRecord& record) {
+void PreviewFeed::on_frame(const frame::FrameRecord& record) {
     frames_[record.index % frames_.size()] = record;
 }
 
-void PreviewFeed::on_gpu(const latency::FrameGpuRecord& record) {
-    const latency::FrameRecord& frame = frames_[record.index % frames_.size()];
+void PreviewFeed::on_gpu(const frame::FrameGpuRecord& record) {
+    const frame::FrameRecord& frame = frames_[record.index % frames_.size()];
     if (frame.index == record.index) {
         bars_ = stage_bars(frame, record, options_.display);
     }

@@ -8,10 +8,10 @@
 #include <thread>
 #include <vulkan/vulkan_raii.hpp>
 
-#include "runtime/frame_observer.h"
+#include "runtime/frame/frame_observer.h"
 #include "runtime/preview/preview_memory.h"
 #include "runtime/render/frame_renderer.h"
-#include "runtime/render/gpu_memory.h"
+#include "runtime/vulkan/memory.h"
 
 namespace gazeloop::preview {
 
@@ -19,7 +19,7 @@ namespace gazeloop::preview {
 /// and only when the window has asked for a picture and the last copy is out; a thread of the
 /// feed's own waits for the GPU and hands the picture over. Frames that meet a busy window are
 /// counted and dropped. The frames themselves are not touched.
-class PreviewFeed final : public FrameObserver {
+class PreviewFeed final : public frame::FrameObserver {
   public:
     struct Options {
         gaze::PerEye<vk::Extent2D> extents;
@@ -28,30 +28,29 @@ class PreviewFeed final : public FrameObserver {
         /// Radius of the fovea's ring in the frame that was rendered last; 0: none is known.
         std::function<double(gaze::Eye)> ring_radius_px;
     };
-    PreviewFeed(const render::VulkanContext& context, const Options& options,
-                PreviewMemory& memory);
+    PreviewFeed(const vulkan::Context& context, const Options& options, PreviewMemory& memory);
     PreviewFeed(const PreviewFeed&) = delete;
     PreviewFeed& operator=(const PreviewFeed&) = delete;
     ~PreviewFeed() override;
 
     void on_rendered(const render::FrameRequest& request) override;
-    void on_frame(const latency::FrameRecord& record) override;
-    void on_gpu(const latency::FrameGpuRecord& record) override;
+    void on_frame(const frame::FrameRecord& record) override;
+    void on_gpu(const frame::FrameGpuRecord& record) override;
 
     [[nodiscard]] std::uint64_t frames_shown() const { return copies_; }
     [[nodiscard]] std::uint64_t frames_dropped() const { return dropped_; }
 
   private:
     struct EyeCopy {
-        render::ColorImage reduced;
-        render::HostBuffer pixels;
+        vulkan::ColorImage reduced;
+        vulkan::HostBuffer pixels;
     };
 
     void describe(const render::FrameRequest& request, std::uint32_t eyes);
     void record_copy(const render::FrameRequest& request, std::uint32_t eyes);
     void hand_over(const std::stop_token& stop);
 
-    const render::VulkanContext* context_;
+    const vulkan::Context* context_;
     Options options_;
     PreviewMemory* memory_;
     std::uint32_t reduction_ = 1;
@@ -62,7 +61,7 @@ class PreviewFeed final : public FrameObserver {
     std::uint64_t copies_ = 0;  ///< submitted; the timeline's value
     std::uint64_t dropped_ = 0;
     PreviewFrame next_;
-    std::array<latency::FrameRecord, 4> frames_;  ///< by index; the GPU is at most 3 behind
+    std::array<frame::FrameRecord, 4> frames_;  ///< by index; the GPU is at most 3 behind
     StageBars bars_;
     std::atomic<std::uint64_t> submitted_{0};  ///< copies, as the thread sees them
     std::jthread thread_;

@@ -4,11 +4,10 @@
 #include <string_view>
 
 #include "runtime/latency/gaze_age.h"
+#include "runtime/time/milliseconds.h"
 
 namespace gazeloop::preview {
 namespace {
-
-constexpr double kNsPerMs = 1e6;
 
 BarText text(std::string_view from) {
     BarText to{};
@@ -16,30 +15,31 @@ BarText text(std::string_view from) {
     return to;
 }
 
-void add(StageBar& bar, std::string_view name, const latency::Span& span) {
+void add(StageBar& bar, std::string_view name, const time::Span& span) {
     if (bar.count == kBarSegments) {
         return;
     }
-    bar.segments[bar.count++] = {
-        text(name), span.known() ? static_cast<double>(span.ns) / kNsPerMs : 0.0, span.known()};
+    bar.segments[bar.count++] = {text(name),
+                                 span.known() ? static_cast<double>(span.ns) / time::kNsPerMs : 0.0,
+                                 span.known()};
 }
 
-void set_total(StageBar& bar, const latency::Span& span) {
+void set_total(StageBar& bar, const time::Span& span) {
     bar.total_known = span.known();
-    bar.total_ms = span.known() ? static_cast<double>(span.ns) / kNsPerMs : 0.0;
+    bar.total_ms = span.known() ? static_cast<double>(span.ns) / time::kNsPerMs : 0.0;
 }
 
 }  // namespace
 
-StageBars stage_bars(const latency::FrameRecord& frame, const latency::FrameGpuRecord& gpu,
+StageBars stage_bars(const frame::FrameRecord& frame, const frame::FrameGpuRecord& gpu,
                      const DisplayTimes& display) {
     static_assert(latency::kStageCount <= kBarSegments);
     StageBars result{.frame = frame.index,
                      .any = true,
-                     .budget_ms = static_cast<double>(frame.period_ns) / kNsPerMs,
+                     .budget_ms = static_cast<double>(frame.period_ns) / time::kNsPerMs,
                      .bars = {}};
 
-    latency::FrameStamps stamps = frame.stamps;
+    frame::FrameStamps stamps = frame.stamps;
     stamps.gpu_begin = gpu.gpu_begin;
     stamps.gpu_end = gpu.gpu_end;
     const bool ours = latency::may_be_of_period(frame.period_ns, display.period_ns);
@@ -58,13 +58,12 @@ StageBars stage_bars(const latency::FrameRecord& frame, const latency::FrameGpuR
 
     StageBar& passes = result.bars[1];
     passes.title = text("GPU");
-    for (std::size_t pass = 0; pass < latency::kPassCount; ++pass) {
+    for (std::size_t pass = 0; pass < frame::kPassCount; ++pass) {
         if (gpu.pass_ns[pass] >= 0) {
-            add(passes, latency::kPassNames[pass],
-                {gpu.pass_ns[pass], latency::StampKind::Measured});
+            add(passes, frame::kPassNames[pass], {gpu.pass_ns[pass], time::StampKind::Measured});
         }
     }
-    set_total(passes, latency::between(gpu.gpu_begin, gpu.gpu_end));
+    set_total(passes, time::between(gpu.gpu_begin, gpu.gpu_end));
     return result;
 }
 

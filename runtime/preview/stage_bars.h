@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "runtime/latency/frame_record.h"
+#include "runtime/frame/frame_record.h"
 
 namespace gazeloop::preview {
 
@@ -46,8 +46,8 @@ struct DisplayTimes {
 };
 
 /// The bars of a frame that the GPU has finished. Precondition: both records are of the same frame.
-[[nodiscard]] StageBars stage_bars(const latency::FrameRecord& frame,
-                                   const latency::FrameGpuRecord& gpu, const DisplayTimes& display);
+[[nodiscard]] StageBars stage_bars(const frame::FrameRecord& frame,
+                                   const frame::FrameGpuRecord& gpu, const DisplayTimes& display);
 
 /// How far the scale of both bars reaches: past the longest bar and the budget. At least 1 ms.
 [[nodiscard]] double bar_scale_ms(const StageBars& bars);

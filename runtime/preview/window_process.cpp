@@ -27,7 +27,7 @@ constexpr int kOpenPatienceMs = 20'000;
 constexpr int kClosePatienceMs = 2'000;
 
 SetupError refused(std::string_view why) {
-    return {ExitCode::NoDevice,
+    return {ErrorKind::NoDevice,
             fmt::format("--preview: {}; run it on a desktop or with DISPLAY naming an X server "
                         "(under Wayland: Xwayland; without a screen: xvfb-run), or leave --preview "
                         "out",

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <glm/vec4.hpp>
 
-#include "runtime/foveation/sampling_plan.h"
+#include "runtime/foveation/plans/sampling_plan.h"
 #include "runtime/gaze/view.h"
 
 namespace gazeloop::render {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "runtime/foveation/shaded_around.h"
+#include "runtime/foveation/picture/shaded_around.h"
 
 namespace gazeloop::render {
 namespace {
@@ -35,7 +35,7 @@ void transition(const vk::raii::CommandBuffer& commands,
 
 }  // namespace
 
-FoveaDepth::FoveaDepth(const VulkanContext& context, vk::Extent2D extent)
+FoveaDepth::FoveaDepth(const vulkan::Context& context, vk::Extent2D extent)
     : pixels_(context,
               vk::DeviceSize{std::min(extent.width, 2 * kMostAcross_px + 1)} *
                   std::min(extent.height, 2 * kMostDown_px + 1) * kBytesPerPixel,
@@ -63,18 +63,19 @@ void FoveaDepth::record(const vk::raii::CommandBuffer& commands, vk::Image direc
         return;
     }
     // No pass writes it before the next frame's, which waits for Copy too.
-    transition(commands, image_barrier(direct_buffer, Layout::eShaderReadOnlyOptimal,
-                                       Layout::eTransferSrcOptimal, Stage::eFragmentShader,
-                                       Access::eNone, Stage::eCopy, Access::eTransferRead));
+    transition(commands, vulkan::image_barrier(direct_buffer, Layout::eShaderReadOnlyOptimal,
+                                               Layout::eTransferSrcOptimal, Stage::eFragmentShader,
+                                               Access::eNone, Stage::eCopy, Access::eTransferRead));
     commands.copyImageToBuffer(
         direct_buffer, Layout::eTransferSrcOptimal, pixels_.buffer(),
         vk::BufferImageCopy(
             0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
             {static_cast<std::int32_t>(tile.x0), static_cast<std::int32_t>(tile.y0), 0},
             {width_px_, height_px, 1}));
-    transition(commands, image_barrier(direct_buffer, Layout::eTransferSrcOptimal,
-                                       Layout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eNone,
-                                       Stage::eFragmentShader, Access::eShaderSampledRead));
+    transition(commands,
+               vulkan::image_barrier(direct_buffer, Layout::eTransferSrcOptimal,
+                                     Layout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eNone,
+                                     Stage::eFragmentShader, Access::eShaderSampledRead));
 }
 
 void FoveaDepth::collect(gaze::DepthPatch& patch) const {

@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "runtime/foveation/band_tiles.h"
+#include "runtime/foveation/picture/band_tiles.h"
 #include "runtime/gaze/seen_depth.h"
-#include "runtime/render/gpu_memory.h"
+#include "runtime/vulkan/memory.h"
 
 namespace gazeloop::render {
 
@@ -26,7 +26,7 @@ class FoveaDepth {
     static constexpr std::uint32_t kMostRows = 32;
 
     /// For pictures of this size.
-    FoveaDepth(const VulkanContext& context, vk::Extent2D extent);
+    FoveaDepth(const vulkan::Context& context, vk::Extent2D extent);
 
     /// Records the copy from the direct buffer, which is SHADER_READ_ONLY_OPTIMAL before and after,
     /// read by fragment shaders last. Nothing is copied where the fovea's pixel is not among
@@ -40,7 +40,7 @@ class FoveaDepth {
     void collect(gaze::DepthPatch& patch) const;
 
   private:
-    HostBuffer pixels_;
+    vulkan::HostBuffer pixels_;
     gaze::DepthPatch copied_;  ///< without its samples
     std::uint32_t width_px_ = 0;
 };

@@ -13,7 +13,7 @@
 #include "runtime/error.h"
 #include "runtime/render/eye_uniforms.h"
 #include "runtime/render/fovea_depth.h"
-#include "runtime/render/pipelines.h"
+#include "runtime/vulkan/pipelines.h"
 
 namespace gazeloop::render {
 namespace {
@@ -21,7 +21,7 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 using Layout = vk::ImageLayout;
-using latency::Pass;
+using frame::Pass;
 
 constexpr std::uint32_t kMaxSegments = 4;  // pass I, resolve, disc, copies
 constexpr std::uint32_t kBytesPerPixel = 4;
@@ -37,20 +37,21 @@ void barrier(const vk::raii::CommandBuffer& commands, const vk::ImageMemoryBarri
 /// Makes a target ready to be drawn into; what it held is discarded. Earlier frames may still write
 /// or copy it.
 void discard_and_attach(const vk::raii::CommandBuffer& commands, vk::Image image) {
-    barrier(commands, image_barrier(image, Layout::eUndefined, Layout::eColorAttachmentOptimal,
-                                    Stage::eColorAttachmentOutput | Stage::eCopy,
-                                    Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput,
-                                    Access::eColorAttachmentWrite));
+    barrier(commands,
+            vulkan::image_barrier(image, Layout::eUndefined, Layout::eColorAttachmentOptimal,
+                                  Stage::eColorAttachmentOutput | Stage::eCopy,
+                                  Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput,
+                                  Access::eColorAttachmentWrite));
 }
 
 void discard_and_attach_depth(const vk::raii::CommandBuffer& commands, vk::Image image) {
     constexpr auto kTests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
-    barrier(
-        commands,
-        image_barrier(image, Layout::eUndefined, Layout::eDepthStencilAttachmentOptimal, kTests,
-                      Access::eDepthStencilAttachmentWrite, kTests,
-                      Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite,
-                      vk::ImageAspectFlagBits::eDepth));
+    barrier(commands,
+            vulkan::image_barrier(
+                image, Layout::eUndefined, Layout::eDepthStencilAttachmentOptimal, kTests,
+                Access::eDepthStencilAttachmentWrite, kTests,
+                Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite,
+                vk::ImageAspectFlagBits::eDepth));
 }
 
 void write_buffer(const vk::raii::Device& device, vk::DescriptorSet set, std::uint32_t binding,
@@ -100,9 +101,9 @@ void draw_visible(const vk::raii::CommandBuffer& commands, const foveation::Hidd
 }  // namespace
 
 struct FrameRenderer::EyeSlot {
-    HostBuffer uniforms;
-    HostBuffer bands;
-    HostBuffer pixels;  ///< for hashing
+    vulkan::HostBuffer uniforms;
+    vulkan::HostBuffer bands;
+    vulkan::HostBuffer pixels;  ///< for hashing
     std::optional<FoveaDepth> depth;
     vk::raii::DescriptorSet set{nullptr};
 };
@@ -122,51 +123,52 @@ struct FrameRenderer::Slot {
     [[nodiscard]] const vk::raii::CommandBuffer& commands() const { return buffers[segments - 1]; }
 };
 
-FrameRenderer::FrameRenderer(const VulkanContext& context, const RendererConfig& config)
+FrameRenderer::FrameRenderer(const vulkan::Context& context, const RendererConfig& config)
     : context_(&context), config_(config), clock_(context) {
     if (config.samples < 1 || config.samples > kMaxSamples) {
-        throw SetupError(ExitCode::Usage, fmt::format("render.spp = {}: must lie in [1, {}]",
-                                                      config.samples, kMaxSamples));
+        throw SetupError(ErrorKind::Usage, fmt::format("render.spp = {}: must lie in [1, {}]",
+                                                       config.samples, kMaxSamples));
     }
     const vk::raii::Device& device = context.device();
     const bool log_polar = config.method != Method::Full;
-    set_layout_ = make_set_layout(device, log_polar ? Inputs::UniformsAndLpMap : Inputs::Uniforms);
-    layout_ = make_pipeline_layout(device, set_layout_);
+    set_layout_ = vulkan::make_set_layout(
+        device, log_polar ? vulkan::Inputs::UniformsAndLpMap : vulkan::Inputs::Uniforms);
+    layout_ = vulkan::make_pipeline_layout(device, set_layout_);
     const bool encode = !encodes_srgb(config.format);
     // A variant of its own: the mere statement of a depth costs a third of a resolve.
     const std::string_view suffix =
         config.depth_format == vk::Format::eUndefined ? "frag" : "depth.frag";
     const bool in_gaze_frame = config.method == Method::Acuity;
     if (log_polar) {
-        pass_i_ = make_pipeline(device, layout_,
-                                {.vertex = "tiles.vert",
-                                 .fragment = fmt::format("{}.log_polar.frag", config.scene),
-                                 .format = kLpFormat,
-                                 .in_gaze_frame = in_gaze_frame,
-                                 .samples = config.samples});
+        pass_i_ = vulkan::make_pipeline(device, layout_,
+                                        {.vertex = "tiles.vert",
+                                         .fragment = fmt::format("{}.log_polar.frag", config.scene),
+                                         .format = kLpFormat,
+                                         .in_gaze_frame = in_gaze_frame,
+                                         .samples = config.samples});
         const std::string resolve_shader = fmt::format("log_polar.{}", suffix);
-        PipelineSource resolve{.vertex = "full_screen.vert",
-                               .fragment = resolve_shader,
-                               .format = config.format,
-                               .depth_format = config.depth_format,
-                               .in_gaze_frame = in_gaze_frame,
-                               .encode_srgb = encode};
-        resolve_ = make_pipeline(device, layout_, resolve);
+        vulkan::PipelineSource resolve{.vertex = "full_screen.vert",
+                                       .fragment = resolve_shader,
+                                       .format = config.format,
+                                       .depth_format = config.depth_format,
+                                       .in_gaze_frame = in_gaze_frame,
+                                       .encode_srgb = encode};
+        resolve_ = vulkan::make_pipeline(device, layout_, resolve);
         resolve.disc = true;
-        resolve_disc_ = make_pipeline(device, layout_, resolve);
+        resolve_disc_ = vulkan::make_pipeline(device, layout_, resolve);
         using Mode = vk::SamplerAddressMode;
         sampler_ = vk::raii::Sampler(
             device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear,
                                           vk::SamplerMipmapMode::eNearest, Mode::eClampToEdge,
                                           Mode::eRepeat, Mode::eClampToEdge));
     } else {
-        full_ = make_pipeline(device, layout_,
-                              {.vertex = "full_screen.vert",
-                               .fragment = fmt::format("{}.full.{}", config.scene, suffix),
-                               .format = config.format,
-                               .depth_format = config.depth_format,
-                               .encode_srgb = encode,
-                               .samples = config.samples});
+        full_ = vulkan::make_pipeline(device, layout_,
+                                      {.vertex = "full_screen.vert",
+                                       .fragment = fmt::format("{}.full.{}", config.scene, suffix),
+                                       .format = config.format,
+                                       .depth_format = config.depth_format,
+                                       .encode_srgb = encode,
+                                       .samples = config.samples});
     }
 
     const std::uint32_t sets =
@@ -184,10 +186,10 @@ FrameRenderer::FrameRenderer(const VulkanContext& context, const RendererConfig&
     make_slots();
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
         if (config.method == Method::Kfr) {
-            put_eye(e,
-                    std::make_unique<LogPolarEye>(
-                        context, config.kfr,
-                        foveation::ImageSize{config.extents[e].width, config.extents[e].height}));
+            attach_eye(
+                e, std::make_unique<LogPolarEye>(
+                       context, config.kfr,
+                       foveation::ImageSize{config.extents[e].width, config.extents[e].height}));
         }
     }
 }
@@ -206,15 +208,15 @@ void FrameRenderer::make_slots() {
             device, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2 * kMaxSegments));
         for (const gaze::Eye eye : gaze::kEyes) {
             EyeSlot& at = slot->eyes[gaze::index(eye)];
-            at.uniforms =
-                HostBuffer(*context_, sizeof(EyeUniforms), vk::BufferUsageFlagBits::eUniformBuffer);
+            at.uniforms = vulkan::HostBuffer(*context_, sizeof(EyeUniforms),
+                                             vk::BufferUsageFlagBits::eUniformBuffer);
             at.set = std::move(vk::raii::DescriptorSets(
                 device, vk::DescriptorSetAllocateInfo(*pool_, *set_layout_))[0]);
-            write_buffer(device, *at.set, kEyeUniformsBinding, vk::DescriptorType::eUniformBuffer,
-                         at.uniforms.buffer());
+            write_buffer(device, *at.set, vulkan::kEyeUniformsBinding,
+                         vk::DescriptorType::eUniformBuffer, at.uniforms.buffer());
             if (config_.hash) {
                 const vk::Extent2D extent = config_.extents[gaze::index(eye)];
-                at.pixels = HostBuffer(
+                at.pixels = vulkan::HostBuffer(
                     *context_, vk::DeviceSize{extent.width} * extent.height * kBytesPerPixel,
                     vk::BufferUsageFlagBits::eTransferDst);
             }
@@ -227,24 +229,25 @@ void FrameRenderer::make_slots() {
 }
 
 /// Precondition: no frame is unfinished on the GPU.
-void FrameRenderer::put_eye(std::size_t eye, std::unique_ptr<LogPolarEye> made) {
+void FrameRenderer::attach_eye(std::size_t eye, std::unique_ptr<LogPolarEye> made) {
     const vk::raii::Device& device = context_->device();
     eyes_[eye] = std::move(made);
     const LogPolarEye& put = *eyes_[eye];
     for (const auto& slot : slots_) {
         EyeSlot& at = slot->eyes[eye];
-        at.bands = HostBuffer(*context_, put.max_bands() * sizeof(foveation::Columns),
-                              vk::BufferUsageFlagBits::eStorageBuffer);
-        write_buffer(device, *at.set, kMapTablesBinding, vk::DescriptorType::eUniformBuffer,
+        at.bands = vulkan::HostBuffer(*context_, put.max_bands() * sizeof(foveation::Columns),
+                                      vk::BufferUsageFlagBits::eStorageBuffer);
+        write_buffer(device, *at.set, vulkan::kMapTablesBinding, vk::DescriptorType::eUniformBuffer,
                      put.map_buffers().map_tables());
         for (const auto& [binding, buffer] :
-             {std::pair{kColumnTableBinding, put.map_buffers().column_table()},
-              {kRowTableBinding, put.map_buffers().row_table()},
-              {kBandsBinding, at.bands.buffer()}}) {
+             {std::pair{vulkan::kColumnTableBinding, put.map_buffers().column_table()},
+              {vulkan::kRowTableBinding, put.map_buffers().row_table()},
+              {vulkan::kBandsBinding, at.bands.buffer()}}) {
             write_buffer(device, *at.set, binding, vk::DescriptorType::eStorageBuffer, buffer);
         }
-        for (const auto& [binding, image] : {std::pair{kLpBufferBinding, &put.lp_buffer()},
-                                             {kDirectBufferBinding, &put.direct_buffer()}}) {
+        for (const auto& [binding, image] :
+             {std::pair{vulkan::kLpBufferBinding, &put.lp_buffer()},
+              {vulkan::kDirectBufferBinding, &put.direct_buffer()}}) {
             const vk::DescriptorImageInfo info(*sampler_, image->view(),
                                                Layout::eShaderReadOnlyOptimal);
             device.updateDescriptorSets(
@@ -257,12 +260,12 @@ void FrameRenderer::put_eye(std::size_t eye, std::unique_ptr<LogPolarEye> made) 
 
 /// The acuity-derived map needs the fields of view, which a runtime states with the first frame and
 /// may change.
-void FrameRenderer::fit(const gaze::StereoView& views) {
+void FrameRenderer::prepare(const gaze::StereoView& views) {
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
         if (config_.method == Method::Acuity &&
             (eyes_[e] == nullptr || !eyes_[e]->fits(views[e]))) {
             wait_idle();
-            put_eye(e, std::make_unique<LogPolarEye>(*context_, config_.acuity, views[e]));
+            attach_eye(e, std::make_unique<LogPolarEye>(*context_, config_.acuity, views[e]));
         }
     }
 }
@@ -305,15 +308,15 @@ void FrameRenderer::wait_for_slot(std::uint32_t in_flight) {
     }
 }
 
-latency::SampleCounts FrameRenderer::render(const FrameRequest& request) {
-    fit(request.views);
+frame::SampleCounts FrameRenderer::render(const FrameRequest& request) {
+    prepare(request.views);
     Slot& slot = *slots_[submitted_ % slots_.size()];
     slot.pool.reset();
     slot.segments = 0;
     slot.timed_segments = 0;
     slot.frame_index = request.index;
 
-    latency::SampleCounts counts;
+    frame::SampleCounts counts;
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
         const gaze::EyeView& view = request.views[e];
@@ -377,11 +380,11 @@ void FrameRenderer::end_segments(Slot& slot) {
 
 /// Shades tiles of one eye into a buffer and makes it readable for the resolve. Tiles may be none:
 /// the resolve then reads nothing of it, but its layout must be right.
-void FrameRenderer::shade_tiles(Slot& slot, std::size_t eye, const ColorImage& target,
+void FrameRenderer::shade_tiles(Slot& slot, std::size_t eye, const vulkan::ColorImage& target,
                                 std::span<const foveation::Tile> tiles, bool direct) {
     const vk::raii::CommandBuffer& commands = slot.commands();
-    barrier(commands,
-            image_barrier(target.image(), Layout::eUndefined, Layout::eColorAttachmentOptimal,
+    barrier(commands, vulkan::image_barrier(
+                          target.image(), Layout::eUndefined, Layout::eColorAttachmentOptimal,
                           Stage::eFragmentShader | Stage::eCopy, Access::eNone,
                           Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite));
     const bool clear = config_.lp_background.has_value();
@@ -395,10 +398,11 @@ void FrameRenderer::shade_tiles(Slot& slot, std::size_t eye, const ColorImage& t
         draw_tiles(commands, tiles, direct ? 1 : 0);
         commands.endRendering();
     }
-    barrier(commands, image_barrier(target.image(), Layout::eColorAttachmentOptimal,
-                                    Layout::eShaderReadOnlyOptimal, Stage::eColorAttachmentOutput,
-                                    Access::eColorAttachmentWrite, Stage::eFragmentShader,
-                                    Access::eShaderSampledRead));
+    barrier(commands,
+            vulkan::image_barrier(target.image(), Layout::eColorAttachmentOptimal,
+                                  Layout::eShaderReadOnlyOptimal, Stage::eColorAttachmentOutput,
+                                  Access::eColorAttachmentWrite, Stage::eFragmentShader,
+                                  Access::eShaderSampledRead));
 }
 
 /// Draws both eyes' pictures, less what no eye sees of them.
@@ -507,16 +511,16 @@ void FrameRenderer::record_picture_copies(Slot& slot, const FrameRequest& reques
         const std::size_t e = gaze::index(eye);
         const vk::Extent2D extent = config_.extents[e];
         const vk::Image image = request.targets[e].image;
-        barrier(commands,
-                image_barrier(image, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
+        barrier(commands, vulkan::image_barrier(
+                              image, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
                               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
                               Stage::eCopy, Access::eTransferRead));
         commands.copyImageToBuffer(
             image, Layout::eTransferSrcOptimal, slot.eyes[e].pixels.buffer(),
             vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},
                                 vk::Extent3D(extent, 1)));
-        barrier(commands,
-                image_barrier(image, Layout::eTransferSrcOptimal, Layout::eColorAttachmentOptimal,
+        barrier(commands, vulkan::image_barrier(
+                              image, Layout::eTransferSrcOptimal, Layout::eColorAttachmentOptimal,
                               Stage::eCopy, Access::eNone, Stage::eColorAttachmentOutput,
                               Access::eColorAttachmentRead | Access::eColorAttachmentWrite));
     }
@@ -533,15 +537,15 @@ void FrameRenderer::submit(Slot& slot) {
     }
 }
 
-std::optional<latency::FrameGpuRecord> FrameRenderer::next_finished() {
+std::optional<frame::FrameGpuRecord> FrameRenderer::next_finished() {
     if (collected_ == submitted_ || timeline_.getCounterValue() <= collected_) {
         return std::nullopt;
     }
     return collect(*slots_[collected_++ % slots_.size()]);
 }
 
-latency::FrameGpuRecord FrameRenderer::collect(Slot& slot) {
-    latency::FrameGpuRecord record;
+frame::FrameGpuRecord FrameRenderer::collect(Slot& slot) {
+    frame::FrameGpuRecord record;
     record.index = slot.frame_index;
     std::array<std::uint64_t, std::size_t{2} * kMaxSegments> ticks{};
     const vk::Result result =

@@ -8,15 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "runtime/foveation/hidden_area.h"
-#include "runtime/foveation/sampling_plan.h"
+#include "runtime/foveation/picture/hidden_area.h"
+#include "runtime/foveation/plans/sampling_plan.h"
+#include "runtime/frame/frame_record.h"
 #include "runtime/gaze/seen_depth.h"
 #include "runtime/gaze/view.h"
-#include "runtime/latency/frame_record.h"
-#include "runtime/render/gpu_clock.h"
-#include "runtime/render/gpu_memory.h"
+#include "runtime/render/eye_target.h"
 #include "runtime/render/log_polar_eye.h"
 #include "runtime/render/method.h"
+#include "runtime/vulkan/clock.h"
+#include "runtime/vulkan/memory.h"
 
 namespace gazeloop::render {
 
@@ -36,15 +37,6 @@ struct RendererConfig {
     std::uint32_t frames_in_flight = 2;  ///< [1, 3]
     /// Radiance that texels outside the plan hold; unset: anything, since no pixel reads them.
     std::optional<std::array<float, 4>> lp_background;
-};
-
-/// Where an eye's picture goes. The depth image, as large as the picture, is there only where the
-/// target takes one.
-struct EyeTarget {
-    vk::Image image;
-    vk::ImageView view;
-    vk::Image depth_image{};
-    vk::ImageView depth_view{};
 };
 
 /// One frame to render: everything that depends on time, head or gaze.
@@ -68,7 +60,7 @@ struct FrameRequest {
 class FrameRenderer {
   public:
     /// Throws SetupError (Usage) for parameters out of range or an unknown scene.
-    FrameRenderer(const VulkanContext& context, const RendererConfig& config);
+    FrameRenderer(const vulkan::Context& context, const RendererConfig& config);
     FrameRenderer(const FrameRenderer&) = delete;
     FrameRenderer& operator=(const FrameRenderer&) = delete;
     ~FrameRenderer();
@@ -80,14 +72,14 @@ class FrameRenderer {
 
     /// Makes what depends on the fields of view, if they are others than before, which takes
     /// milliseconds: before the gaze is read. render() does it where nobody has.
-    void fit(const gaze::StereoView& views);
+    void prepare(const gaze::StereoView& views);
 
     /// Submits a frame. Precondition: wait_for_slot() and the drained next_finished() since the
     /// last call.
-    latency::SampleCounts render(const FrameRequest& request);
+    frame::SampleCounts render(const FrameRequest& request);
 
     /// The next frame that the GPU has finished, if there is one.
-    std::optional<latency::FrameGpuRecord> next_finished();
+    std::optional<frame::FrameGpuRecord> next_finished();
 
     /// Waits for the GPU; next_finished() then yields every frame left.
     void wait_idle();
@@ -112,10 +104,10 @@ class FrameRenderer {
         return config_.seen_depth && config_.method != Method::Full;
     }
     void make_slots();
-    void put_eye(std::size_t eye, std::unique_ptr<LogPolarEye> made);
-    void begin_segment(Slot& slot, std::optional<latency::Pass> pass);
+    void attach_eye(std::size_t eye, std::unique_ptr<LogPolarEye> made);
+    void begin_segment(Slot& slot, std::optional<frame::Pass> pass);
     void end_segments(Slot& slot);
-    void shade_tiles(Slot& slot, std::size_t eye, const ColorImage& target,
+    void shade_tiles(Slot& slot, std::size_t eye, const vulkan::ColorImage& target,
                      std::span<const foveation::Tile> tiles, bool direct);
     template <typename DrawEye>  // no std::function: no allocation a frame
     void draw_pictures(const Slot& slot, const FrameRequest& request, const DrawEye& draw_eye);
@@ -127,11 +119,11 @@ class FrameRenderer {
     void record_picture_copies(Slot& slot, const FrameRequest& request);
     void record_depth_copies(Slot& slot, const FrameRequest& request);
     void submit(Slot& slot);
-    [[nodiscard]] latency::FrameGpuRecord collect(Slot& slot);
+    [[nodiscard]] frame::FrameGpuRecord collect(Slot& slot);
 
-    const VulkanContext* context_;
+    const vulkan::Context* context_;
     RendererConfig config_;
-    GpuClock clock_;
+    vulkan::GpuClock clock_;
     vk::raii::DescriptorSetLayout set_layout_{nullptr};
     vk::raii::PipelineLayout layout_{nullptr};
     vk::raii::Pipeline full_{nullptr};

@@ -1,12 +1,12 @@
 #include "runtime/render/log_polar_eye.h"
 
 #include "runtime/error.h"
-#include "runtime/foveation/acuity_plan.h"
-#include "runtime/foveation/map_tables.h"
+#include "runtime/foveation/log_polar/map_tables.h"
+#include "runtime/foveation/plans/acuity_plan.h"
 
 namespace gazeloop::render {
 
-LogPolarEye::LogPolarEye(const VulkanContext& context, Map map, foveation::LpSize lp,
+LogPolarEye::LogPolarEye(const vulkan::Context& context, Map map, foveation::LpSize lp,
                          foveation::ImageSize image, const foveation::MapTables& tables)
     : map_(std::move(map)),
       image_(image),
@@ -19,18 +19,18 @@ LogPolarEye::LogPolarEye(const VulkanContext& context, Map map, foveation::LpSiz
                          vk::ImageUsageFlagBits::eTransferSrc),
       map_buffers_(context, tables) {}
 
-LogPolarEye::LogPolarEye(const VulkanContext& context, const foveation::KfrParameters& parameters,
+LogPolarEye::LogPolarEye(const vulkan::Context& context, const foveation::KfrParameters& parameters,
                          foveation::ImageSize image)
     : LogPolarEye(
           context, parameters, value_or_throw(foveation::lp_buffer_size(parameters, image)), image,
           foveation::build_map_tables(
               parameters.kernel, value_or_throw(foveation::lp_buffer_size(parameters, image)))) {}
 
-LogPolarEye::LogPolarEye(const VulkanContext& context, Acuity acuity, foveation::ImageSize image)
+LogPolarEye::LogPolarEye(const vulkan::Context& context, Acuity acuity, foveation::ImageSize image)
     : LogPolarEye(context, acuity, acuity.profile.lp(), image,
                   foveation::build_map_tables(acuity.profile)) {}
 
-LogPolarEye::LogPolarEye(const VulkanContext& context,
+LogPolarEye::LogPolarEye(const vulkan::Context& context,
                          const foveation::AcuityParameters& parameters, const gaze::EyeView& view)
     : LogPolarEye(
           context,

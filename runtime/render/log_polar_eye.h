@@ -2,10 +2,11 @@
 
 #include <variant>
 
-#include "runtime/foveation/acuity_profile.h"
-#include "runtime/foveation/sampling_plan.h"
-#include "runtime/render/gpu_memory.h"
+#include "runtime/foveation/log_polar/acuity_profile.h"
+#include "runtime/foveation/picture/image_size.h"
+#include "runtime/foveation/plans/sampling_plan.h"
 #include "runtime/render/map_buffers.h"
+#include "runtime/vulkan/memory.h"
 
 namespace gazeloop::render {
 
@@ -17,11 +18,11 @@ inline constexpr vk::Format kLpFormat = vk::Format::eR16G16B16A16Sfloat;
 class LogPolarEye {
   public:
     /// Kernel foveated rendering. Throws SetupError (Usage) as lp_buffer_size reports.
-    LogPolarEye(const VulkanContext& context, const foveation::KfrParameters& parameters,
+    LogPolarEye(const vulkan::Context& context, const foveation::KfrParameters& parameters,
                 foveation::ImageSize image);
     /// The acuity-derived map of this view. Throws SetupError (Usage) as AcuityProfile::create
     /// reports.
-    LogPolarEye(const VulkanContext& context, const foveation::AcuityParameters& parameters,
+    LogPolarEye(const vulkan::Context& context, const foveation::AcuityParameters& parameters,
                 const gaze::EyeView& view);
 
     /// Whether it can render a view: the acuity-derived map is made for one field of view.
@@ -35,9 +36,9 @@ class LogPolarEye {
 
     [[nodiscard]] foveation::LpSize lp() const { return lp_; }
     [[nodiscard]] foveation::ImageSize image() const { return image_; }
-    [[nodiscard]] const ColorImage& lp_buffer() const { return lp_buffer_; }
+    [[nodiscard]] const vulkan::ColorImage& lp_buffer() const { return lp_buffer_; }
     /// Pixels of the picture that are shaded directly; only those of the plan's disc are written.
-    [[nodiscard]] const ColorImage& direct_buffer() const { return direct_buffer_; }
+    [[nodiscard]] const vulkan::ColorImage& direct_buffer() const { return direct_buffer_; }
     [[nodiscard]] const MapBuffers& map_buffers() const { return map_buffers_; }
 
     /// Most bands that a plan of this eye can have.
@@ -51,15 +52,15 @@ class LogPolarEye {
     };
     using Map = std::variant<foveation::KfrParameters, Acuity>;
 
-    LogPolarEye(const VulkanContext& context, Map map, foveation::LpSize lp,
+    LogPolarEye(const vulkan::Context& context, Map map, foveation::LpSize lp,
                 foveation::ImageSize image, const foveation::MapTables& tables);
-    LogPolarEye(const VulkanContext& context, Acuity acuity, foveation::ImageSize image);
+    LogPolarEye(const vulkan::Context& context, Acuity acuity, foveation::ImageSize image);
 
     Map map_;
     foveation::ImageSize image_;
     foveation::LpSize lp_;
-    ColorImage lp_buffer_;
-    ColorImage direct_buffer_;
+    vulkan::ColorImage lp_buffer_;
+    vulkan::ColorImage direct_buffer_;
     MapBuffers map_buffers_;
 };
 

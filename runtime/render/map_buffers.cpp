@@ -29,19 +29,21 @@ void pack(std::array<glm::vec4, Vectors>& packed, const std::array<float, Entrie
 
 }  // namespace
 
-MapBuffers::MapBuffers(const VulkanContext& context, const MapTables& tables) {
+MapBuffers::MapBuffers(const vulkan::Context& context, const MapTables& tables) {
     PackedTables packed;
     pack(packed.log2_mantissa, tables.log2_mantissa);
     pack(packed.exp2_fraction, tables.exp2_fraction);
     pack(packed.forward, tables.forward);
-    map_tables_ = HostBuffer(context, sizeof packed, vk::BufferUsageFlagBits::eUniformBuffer);
+    map_tables_ =
+        vulkan::HostBuffer(context, sizeof packed, vk::BufferUsageFlagBits::eUniformBuffer);
     map_tables_.write(packed);
     const std::span<const float> columns(tables.column);
     column_table_ =
-        HostBuffer(context, columns.size_bytes(), vk::BufferUsageFlagBits::eStorageBuffer);
+        vulkan::HostBuffer(context, columns.size_bytes(), vk::BufferUsageFlagBits::eStorageBuffer);
     column_table_.write(columns);
     const std::span<const MapTables::Direction> rows(tables.row);
-    row_table_ = HostBuffer(context, rows.size_bytes(), vk::BufferUsageFlagBits::eStorageBuffer);
+    row_table_ =
+        vulkan::HostBuffer(context, rows.size_bytes(), vk::BufferUsageFlagBits::eStorageBuffer);
     row_table_.write(rows);
 }
 

@@ -28,7 +28,7 @@ std::uint32_t bytes_per_pixel(vk::Format format) {
     return format == vk::Format::eR16G16B16A16Sfloat ? 8 : 4;
 }
 
-void run_once(const VulkanContext& context, auto&& record) {
+void run_once(const vulkan::Context& context, auto&& record) {
     const vk::raii::Device& device = context.device();
     const vk::raii::CommandPool pool(
         device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient,
@@ -45,18 +45,18 @@ void run_once(const VulkanContext& context, auto&& record) {
 }
 
 /// All pixels, row by row; the image is left in its layout.
-HostBuffer copy_to_host(const VulkanContext& context, vk::Image image, vk::Extent2D extent,
-                        vk::ImageAspectFlagBits aspect, vk::ImageLayout layout,
-                        vk::DeviceSize bytes) {
-    HostBuffer buffer(context, bytes * extent.width * extent.height,
-                      vk::BufferUsageFlagBits::eTransferDst);
+vulkan::HostBuffer copy_to_host(const vulkan::Context& context, vk::Image image,
+                                vk::Extent2D extent, vk::ImageAspectFlagBits aspect,
+                                vk::ImageLayout layout, vk::DeviceSize bytes) {
+    vulkan::HostBuffer buffer(context, bytes * extent.width * extent.height,
+                              vk::BufferUsageFlagBits::eTransferDst);
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;
     run_once(context, [&](const vk::raii::CommandBuffer& commands) {
         const auto move = [&](vk::ImageLayout from, vk::ImageLayout to) {
-            const auto barrier = image_barrier(image, from, to, Stage::eAllCommands,
-                                               Access::eMemoryWrite, Stage::eAllCommands,
-                                               Access::eMemoryRead | Access::eMemoryWrite, aspect);
+            const auto barrier = vulkan::image_barrier(
+                image, from, to, Stage::eAllCommands, Access::eMemoryWrite, Stage::eAllCommands,
+                Access::eMemoryRead | Access::eMemoryWrite, aspect);
             commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
         };
         move(layout, vk::ImageLayout::eTransferSrcOptimal);
@@ -73,8 +73,9 @@ HostBuffer copy_to_host(const VulkanContext& context, vk::Image image, vk::Exten
 
 }  // namespace
 
-std::vector<float> read_back_depth(const VulkanContext& context, const DepthImage& image) {
-    const HostBuffer buffer =
+std::vector<float> read_back_depth(const vulkan::Context& context,
+                                   const vulkan::DepthImage& image) {
+    const vulkan::HostBuffer buffer =
         copy_to_host(context, image.image(), image.extent(), vk::ImageAspectFlagBits::eDepth,
                      vk::ImageLayout::eDepthStencilAttachmentOptimal, sizeof(float));
     std::vector<float> depths(std::size_t{image.extent().width} * image.extent().height);
@@ -82,10 +83,10 @@ std::vector<float> read_back_depth(const VulkanContext& context, const DepthImag
     return depths;
 }
 
-Picture read_back(const VulkanContext& context, vk::Image image, vk::Extent2D extent,
+Picture read_back(const vulkan::Context& context, vk::Image image, vk::Extent2D extent,
                   vk::Format format, vk::ImageLayout layout) {
-    const HostBuffer buffer = copy_to_host(context, image, extent, vk::ImageAspectFlagBits::eColor,
-                                           layout, bytes_per_pixel(format));
+    const vulkan::HostBuffer buffer = copy_to_host(
+        context, image, extent, vk::ImageAspectFlagBits::eColor, layout, bytes_per_pixel(format));
     const std::size_t count = std::size_t{extent.width} * extent.height;
     Picture picture{extent.width, extent.height, {}};
     picture.pixels.resize(count);
@@ -145,9 +146,9 @@ Expected<void> write_png(const Picture& picture, const std::filesystem::path& fi
     image.format = PNG_FORMAT_RGB;
     if (png_image_write_to_file(&image, file.c_str(), 0, picture.pixels.data(), 0, nullptr) == 0) {
         return std::unexpected(
-            Error{ExitCode::BadInput, fmt::format("{}: the picture could not be written ({}); "
-                                                  "is the folder there and writable?",
-                                                  file.string(), image.message)});
+            Error{ErrorKind::BadInput, fmt::format("{}: the picture could not be written ({}); "
+                                                   "is the folder there and writable?",
+                                                   file.string(), image.message)});
     }
     return {};
 }

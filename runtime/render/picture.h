@@ -7,7 +7,7 @@
 
 #include "runtime/error.h"
 #include "runtime/gaze/view.h"
-#include "runtime/render/gpu_memory.h"
+#include "runtime/vulkan/memory.h"
 
 namespace gazeloop::render {
 
@@ -21,11 +21,11 @@ struct Picture {
 /// Reads back an image that lies in `layout` (and is left in it); waits for the queue. Formats:
 /// R8G8B8A8, B8G8R8A8 (SRGB or UNORM: bytes as they are) and R16G16B16A16_SFLOAT (linear: clamped
 /// to [0, 1] and sRGB-encoded).
-Picture read_back(const VulkanContext& context, vk::Image image, vk::Extent2D extent,
+Picture read_back(const vulkan::Context& context, vk::Image image, vk::Extent2D extent,
                   vk::Format format, vk::ImageLayout layout);
 
 /// The values of a D32_SFLOAT image that lies in DEPTH_STENCIL_ATTACHMENT_OPTIMAL, top row first.
-std::vector<float> read_back_depth(const VulkanContext& context, const DepthImage& image);
+std::vector<float> read_back_depth(const vulkan::Context& context, const vulkan::DepthImage& image);
 
 /// |a - b| times `gain` for each channel, clamped. Precondition: equal sizes.
 Picture amplified_difference(const Picture& a, const Picture& b, double gain);

@@ -15,16 +15,16 @@ struct Rendered {
     gaze::PerEye<double> disc_radius_px{};
 };
 
-Rendered render_off_screen(const VulkanContext& context, RendererConfig config,
+Rendered render_off_screen(const vulkan::Context& context, RendererConfig config,
                            FrameRequest request) {
     config.hash = false;
     config.depth_format = vk::Format::eUndefined;
     config.lp_background = {0.0F, 0.0F, 0.0F, 1.0F};
     FrameRenderer renderer(context, config);
-    gaze::PerEye<ColorImage> images;
+    gaze::PerEye<vulkan::ColorImage> images;
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
-        images[e] = ColorImage(
+        images[e] = vulkan::ColorImage(
             context, config.extents[e], config.format,
             vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
         request.targets[e] = {images[e].image(), images[e].view()};
@@ -39,7 +39,7 @@ Rendered render_off_screen(const VulkanContext& context, RendererConfig config,
                                        vk::ImageLayout::eColorAttachmentOptimal);
         const LogPolarEye* const log_polar = renderer.log_polar_eye(eye);
         if (log_polar != nullptr && !renderer.last_plan(eye).lp_tiles.empty()) {
-            const ColorImage& lp = log_polar->lp_buffer();
+            const vulkan::ColorImage& lp = log_polar->lp_buffer();
             rendered.lp[e] = read_back(context, lp.image(), lp.extent(), lp.format(),
                                        vk::ImageLayout::eShaderReadOnlyOptimal);
             rendered.disc_radius_px[e] = renderer.last_plan(eye).disc_radius_px;
@@ -55,13 +55,13 @@ Expected<void> make_snapshot_folder(const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder, failure);
     if (failure) {
         return std::unexpected(
-            Error{ExitCode::BadInput, fmt::format("--snapshot {}: the folder cannot be made ({})",
-                                                  folder.string(), failure.message())});
+            Error{ErrorKind::BadInput, fmt::format("--snapshot {}: the folder cannot be made ({})",
+                                                   folder.string(), failure.message())});
     }
     return {};
 }
 
-Expected<std::vector<std::filesystem::path>> write_snapshot(const VulkanContext& context,
+Expected<std::vector<std::filesystem::path>> write_snapshot(const vulkan::Context& context,
                                                             const RendererConfig& config,
                                                             const FrameRequest& request,
                                                             const SnapshotOptions& options) {

@@ -21,7 +21,7 @@ Expected<void> make_snapshot_folder(const std::filesystem::path& folder);
 /// and for methods other than full also EYE-result.png, EYE-lp.png (the LP-buffer, black where the
 /// plan left texels out) and EYE-difference.png. The request's targets are ignored.
 /// Returns the files written. Errors (BadInput): the folder or a file cannot be written.
-Expected<std::vector<std::filesystem::path>> write_snapshot(const VulkanContext& context,
+Expected<std::vector<std::filesystem::path>> write_snapshot(const vulkan::Context& context,
                                                             const RendererConfig& config,
                                                             const FrameRequest& request,
                                                             const SnapshotOptions& options);

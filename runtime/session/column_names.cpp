@@ -53,21 +53,21 @@ ColumnNames sample_columns() {
 
 ColumnNames frame_columns() {
     ColumnNames names;
-    const latency::FrameRecord record;
+    const frame::FrameRecord record;
     visit_frame(names, record);
     return names;
 }
 
 ColumnNames gpu_columns() {
     ColumnNames names;
-    const latency::FrameGpuRecord record;
+    const frame::FrameGpuRecord record;
     visit_gpu(names, record);
     return names;
 }
 
 ColumnNames whole_frame_columns() {
     ColumnNames names = frame_columns();
-    const latency::FrameGpuRecord record;
+    const frame::FrameGpuRecord record;
     visit_gpu(names, record);
     return names;
 }
@@ -95,7 +95,7 @@ ColumnNames hidden_columns() {
 
 ColumnNames event_columns() {
     ColumnNames names;
-    const latency::Stamp time;
+    const time::Stamp time;
     visit_event(names, time, kText, kText);
     return names;
 }

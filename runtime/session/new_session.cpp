@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::array<const char*, 3> kCompanions{"-wal", "-shm", "-journal"};
 
-Error bad_input(std::string message) { return {ExitCode::BadInput, std::move(message)}; }
+Error bad_input(std::string message) { return {ErrorKind::BadInput, std::move(message)}; }
 
 Error exists_already(const std::filesystem::path& file) {
     return bad_input(

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <variant>
 
+#include "runtime/frame/frame_record.h"
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/hidden_mesh.h"
-#include "runtime/latency/frame_record.h"
 #include "runtime/session/fixed_text.h"
 
 namespace gazeloop::session {
@@ -16,7 +16,7 @@ struct SampleRecord {
 };
 
 struct EventRecord {
-    latency::Stamp time;
+    time::Stamp time;
     FixedText<32> kind;
     FixedText<240> text;
 };
@@ -29,7 +29,7 @@ struct HiddenRecord {
 };
 
 /// What the loop hands to the recorder's thread.
-using Record = std::variant<SampleRecord, latency::FrameRecord, latency::FrameGpuRecord,
-                            EventRecord, HiddenRecord>;
+using Record = std::variant<SampleRecord, frame::FrameRecord, frame::FrameGpuRecord, EventRecord,
+                            HiddenRecord>;
 
 }  // namespace gazeloop::session

@@ -48,8 +48,7 @@ void visit_clocked(Visitor& visit, Timed& timed) {
     visit("ready", "_ns", ready_ns);
     visit("uncertainty", "_ns", timed.uncertainty_ns);
     if constexpr (!std::is_const_v<Timed>) {
-        timed.ready =
-            ready_ns ? latency::Stamp{*ready_ns, latency::StampKind::Measured} : latency::Stamp{};
+        timed.ready = ready_ns ? time::Stamp{*ready_ns, time::StampKind::Measured} : time::Stamp{};
     }
 }
 
@@ -126,10 +125,10 @@ void visit_gpu(Visitor& visit, Record& record) {
     visit_stamp(visit, "reported_gpu_begin", record.gpu_begin);
     visit_stamp(visit, "reported_gpu_end", record.gpu_end);
     constexpr std::int64_t kDidNotRun = -1;
-    for (std::size_t pass = 0; pass < latency::kPassCount; ++pass) {
+    for (std::size_t pass = 0; pass < frame::kPassCount; ++pass) {
         auto& ns = record.pass_ns[pass];
         std::optional<std::int64_t> ran = ns == kDidNotRun ? std::nullopt : std::optional(ns);
-        visit(latency::kPassNames[pass], "_ns", ran);
+        visit(frame::kPassNames[pass], "_ns", ran);
         if constexpr (!std::is_const_v<Record>) {
             ns = ran.value_or(kDidNotRun);
         }

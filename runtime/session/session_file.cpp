@@ -214,7 +214,7 @@ SessionFile read_tables(const Database& database) {
 }
 
 std::unexpected<Error> bad_input(const std::filesystem::path& file, std::string_view what) {
-    return std::unexpected(Error{ExitCode::BadInput, fmt::format("{}: {}", file.string(), what)});
+    return std::unexpected(Error{ErrorKind::BadInput, fmt::format("{}: {}", file.string(), what)});
 }
 
 }  // namespace

@@ -18,13 +18,12 @@ struct RecordedSample {
 };
 
 struct RecordedFrame {
-    latency::FrameRecord frame;
-    latency::FrameGpuRecord
-        gpu;  ///< with unknown stamps and no passes where the GPU part is missing
+    frame::FrameRecord frame;
+    frame::FrameGpuRecord gpu;  ///< with unknown stamps and no passes where the GPU part is missing
 };
 
 struct RecordedEvent {
-    latency::Stamp time;
+    time::Stamp time;
     std::string kind;
     std::string text;
 };

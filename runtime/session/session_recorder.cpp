@@ -181,8 +181,9 @@ Expected<std::unique_ptr<SessionRecorder>> SessionRecorder::create(
         return std::unique_ptr<SessionRecorder>(new SessionRecorder(std::move(impl)));
     } catch (const std::exception& error) {  // SQLite, memory, or the thread
         remove_session(file);
-        return std::unexpected(Error{ExitCode::BadInput, fmt::format("{}: cannot be recorded: {}",
-                                                                     file.string(), error.what())});
+        return std::unexpected(
+            Error{ErrorKind::BadInput,
+                  fmt::format("{}: cannot be recorded: {}", file.string(), error.what())});
     }
 }
 
@@ -201,9 +202,9 @@ void SessionRecorder::add(const gaze::GazeSample& sample, std::uint64_t frame) {
     impl_->add(SampleRecord{frame, sample});
 }
 
-void SessionRecorder::add(const latency::FrameRecord& record) { impl_->add(record); }
+void SessionRecorder::add(const frame::FrameRecord& record) { impl_->add(record); }
 
-void SessionRecorder::add(const latency::FrameGpuRecord& record) { impl_->add(record); }
+void SessionRecorder::add(const frame::FrameGpuRecord& record) { impl_->add(record); }
 
 void SessionRecorder::add(const gaze::HiddenChange& change) {
     bool any = false;
@@ -221,7 +222,7 @@ void SessionRecorder::add(const gaze::HiddenChange& change) {
     }
 }
 
-void SessionRecorder::event(latency::Stamp time, std::string_view kind, std::string_view text) {
+void SessionRecorder::event(time::Stamp time, std::string_view kind, std::string_view text) {
     impl_->add(EventRecord{time, FixedText<32>(kind), FixedText<240>(text)});
 }
 

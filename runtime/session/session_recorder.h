@@ -8,16 +8,12 @@
 #include <vector>
 
 #include "runtime/error.h"
+#include "runtime/frame/frame_record.h"
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/hidden_mesh.h"
-#include "runtime/latency/frame_record.h"
+#include "runtime/named_value.h"
 
 namespace gazeloop::session {
-
-struct NamedValue {
-    std::string name;
-    std::string value;
-};
 
 /// What a session states about itself before its first frame. Names are unique within each list;
 /// in `meta` the recorder keeps schema_version, records_dropped and closed for itself.
@@ -55,13 +51,13 @@ class SessionRecorder {
 
     /// `frame` is the index of the frame that consumed the sample; it does not decrease.
     void add(const gaze::GazeSample& sample, std::uint64_t frame);
-    void add(const latency::FrameRecord& record);
-    void add(const latency::FrameGpuRecord& record);
+    void add(const frame::FrameRecord& record);
+    void add(const frame::FrameGpuRecord& record);
     /// Frame numbers of changes do not decrease.
     void add(const gaze::HiddenChange& change);
     /// `kind` is one word of at most 32 bytes, e.g. "session-state", "gaze-lost", "interrupted";
     /// `text` is cut after 240 bytes, between characters.
-    void event(latency::Stamp time, std::string_view kind, std::string_view text);
+    void event(time::Stamp time, std::string_view kind, std::string_view text);
 
     /// Whether something has gone wrong, which the person who records may want to know at once: the
     /// writing has ended early, or the file has been moved or removed. Does not block.

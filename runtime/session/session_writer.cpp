@@ -52,7 +52,7 @@ void SessionWriter::write_one(const SampleRecord& record) {
     insert_sample_.run();
 }
 
-void SessionWriter::write_one(const latency::FrameRecord& record) {
+void SessionWriter::write_one(const frame::FrameRecord& record) {
     FieldBinder binder(insert_frame_);
     visit_frame(binder, record);
     insert_frame_.run();
@@ -66,7 +66,7 @@ void SessionWriter::write_one(const latency::FrameRecord& record) {
     }
 }
 
-void SessionWriter::write_one(const latency::FrameGpuRecord& record) {
+void SessionWriter::write_one(const frame::FrameGpuRecord& record) {
     // Changes nothing if the frame itself was dropped, which has been counted.
     FieldBinder binder(update_gpu_);
     visit_gpu(binder, record);

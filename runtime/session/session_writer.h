@@ -34,8 +34,8 @@ class SessionWriter {
 
   private:
     void write_one(const SampleRecord& record);
-    void write_one(const latency::FrameRecord& record);
-    void write_one(const latency::FrameGpuRecord& record);
+    void write_one(const frame::FrameRecord& record);
+    void write_one(const frame::FrameGpuRecord& record);
     void write_one(const EventRecord& record);
     void write_one(const HiddenRecord& record);
     void set_meta(std::string_view name, std::string_view value);

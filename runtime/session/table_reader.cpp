@@ -136,9 +136,9 @@ void TableReader::read(std::string& value) {
     value = statement_.text(column_);
 }
 
-void TableReader::read(latency::StampKind& value) {
-    value = static_cast<latency::StampKind>(
-        integer_below(static_cast<std::int64_t>(latency::kStampKindCount)));
+void TableReader::read(time::StampKind& value) {
+    value = static_cast<time::StampKind>(
+        integer_below(static_cast<std::int64_t>(time::kStampKindCount)));
 }
 
 void TableReader::read(gaze::FoveaState& value) {

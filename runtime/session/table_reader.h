@@ -59,7 +59,7 @@ class TableReader {
     void read(bool& value);
     void read(double& value);
     void read(std::string& value);
-    void read(latency::StampKind& value);
+    void read(time::StampKind& value);
     void read(gaze::FoveaState& value);
     void read(gaze::LossReason& value);
     void read(gaze::Eye& value);

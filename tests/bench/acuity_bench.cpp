@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "runtime/error.h"
-#include "runtime/foveation/acuity_map.h"
-#include "runtime/foveation/fewest_samples.h"
-#include "runtime/foveation/guenter_acuity.h"
-#include "runtime/foveation/log_polar_map.h"
+#include "runtime/foveation/eye/fewest_samples.h"
+#include "runtime/foveation/eye/guenter_acuity.h"
+#include "runtime/foveation/log_polar/acuity_map.h"
+#include "runtime/foveation/log_polar/log_polar_map.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/raycast_times.h"
 
@@ -24,7 +24,7 @@ constexpr double kHalfWidth_rad = 50.0 * std::numbers::pi / 180.0;
 
 class Measurement {
   public:
-    Measurement(const render::VulkanContext& context, const Case& at, const Options& options)
+    Measurement(const vulkan::Context& context, const Case& at, const Options& options)
         : context_(context),
           case_(at),
           rounds_(options.rounds),
@@ -84,7 +84,7 @@ class Measurement {
                 foveation::GazeFrame(frame.views[0], frame.gaze_directions[0])};
     }
 
-    const render::VulkanContext& context_;
+    const vulkan::Context& context_;
     const Case& case_;
     unsigned rounds_;
     RaycastSetup setup_;
@@ -97,7 +97,7 @@ class Measurement {
 }  // namespace
 
 std::vector<Figure> acuity(const Options& options) {
-    const render::VulkanContext context({}, nullptr);
+    const vulkan::Context context({}, nullptr);
     std::vector<Figure> figures;
     for (const Case& at : kCases) {
         if (options.wants(fmt::format("{}x{}", at.extent.width, at.extent.height))) {

@@ -94,7 +94,7 @@ int bench_main(int count, char** arguments) {
             fmt::print(stderr, " {}", bench.name);
         }
         fmt::print(stderr, "\n");
-        return static_cast<int>(ExitCode::Usage);
+        return static_cast<int>(ErrorKind::Usage);
     }
     print(figures);
     if (!json_file.empty()) {
@@ -102,14 +102,14 @@ int bench_main(int count, char** arguments) {
         out << json(figures).dump(2) << '\n';
         if (!out.flush()) {
             fmt::print(stderr, "error: {} cannot be written\n", json_file);
-            return static_cast<int>(ExitCode::BadInput);
+            return static_cast<int>(ErrorKind::BadInput);
         }
     }
     for (const std::string& wanted : options.cases) {
         if (std::ranges::find(figures, wanted, &Figure::name) == figures.end()) {
             fmt::print(stderr, "error: {} no case '{}'; a run without --case names them\n",
                        name.empty() ? "there is" : fmt::format("bench {} has", name), wanted);
-            return static_cast<int>(ExitCode::Usage);
+            return static_cast<int>(ErrorKind::Usage);
         }
     }
     return 0;
@@ -134,6 +134,6 @@ int main(int count, char** arguments) {
         return gazeloop::bench::bench_main(count, arguments);
     } catch (const std::exception& error) {
         fmt::print(stderr, "error: {}\n", error.what());
-        return static_cast<int>(gazeloop::ExitCode::NoDevice);
+        return static_cast<int>(gazeloop::ErrorKind::NoDevice);
     }
 }

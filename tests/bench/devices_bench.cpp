@@ -14,8 +14,8 @@
 
 #include "drivers/device/device_feed.h"
 #include "drivers/hid/hid_source.h"
-#include "runtime/latency/clock.h"
 #include "runtime/session/session_file.h"
+#include "runtime/time/clock.h"
 #include "sim/gaze_generator.h"
 #include "sim/virtual_tracker.h"
 #include "tests/bench/bench.h"
@@ -40,9 +40,9 @@ int send_each_period(int reports, const std::function<bool(std::span<const std::
         ray.valid = true;
     }
     int refused = 0;
-    const std::int64_t begin_ns = latency::monotonic_ns();
+    const std::int64_t begin_ns = time::monotonic_ns();
     for (int i = 0; i < reports; ++i) {
-        latency::sleep_until_ns(begin_ns + i * kPeriod_ns);
+        time::sleep_until_ns(begin_ns + i * kPeriod_ns);
         const auto time_us = static_cast<std::uint64_t>(i * kPeriod_ns / 1000);
         refused += take(sim::virtual_tracker_report(sample, time_us)) ? 0 : 1;
     }
@@ -119,14 +119,14 @@ void add_reading(std::vector<Figure>& figures) {
         pollfd file{packets[0], POLLIN, 0};
         while (poll(&file, 1, -1) > 0) {
             const ssize_t bytes = read(packets[0], report.data(), report.size());
-            const std::int64_t arrived_ns = latency::monotonic_ns();
+            const std::int64_t arrived_ns = time::monotonic_ns();
             if (bytes <= 0) {
                 break;  // the sender has closed it
             }
             if (auto sample =
                     decoder.take({report.data(), static_cast<std::size_t>(bytes)}, arrived_ns)) {
                 feed.push(*sample, decoder.lost_before_last());
-                published_us.push_back(static_cast<double>(latency::monotonic_ns() - arrived_ns) *
+                published_us.push_back(static_cast<double>(time::monotonic_ns() - arrived_ns) *
                                        1e-3);
             }
         }

@@ -5,7 +5,7 @@
 
 #include "drivers/trace/read_trace.h"
 #include "runtime/error.h"
-#include "runtime/foveation/log_polar_map.h"
+#include "runtime/foveation/log_polar/log_polar_map.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/raycast_times.h"
 
@@ -28,7 +28,7 @@ const std::array kCases{Case{{1920, 1080}, 3.9, 2.9, 100, true},
 
 class Measurement {
   public:
-    Measurement(const render::VulkanContext& context, const Case& at, const Options& options)
+    Measurement(const vulkan::Context& context, const Case& at, const Options& options)
         : context_(context),
           case_(at),
           rounds_(std::min(options.rounds, at.most_rounds)),
@@ -114,7 +114,7 @@ class Measurement {
         times.keep(full_, contender, costs, map);
     }
 
-    const render::VulkanContext& context_;
+    const vulkan::Context& context_;
     const Case& case_;
     unsigned rounds_;
     RaycastSetup setup_;
@@ -122,7 +122,7 @@ class Measurement {
     Contender full_;
     Contender kfr_;
     Contender plain_;
-    drivers::Trace trace_;
+    gaze::GazeTrace trace_;
     RaycastTimes centred_;
     RaycastTimes centred_plain_;
     RaycastTimes edge_;
@@ -133,7 +133,7 @@ class Measurement {
 }  // namespace
 
 std::vector<Figure> kfr_raycast(const Options& options) {
-    const render::VulkanContext context({}, nullptr);
+    const vulkan::Context context({}, nullptr);
     std::vector<Figure> figures;
     for (const Case& at : kCases) {
         if (options.wants(fmt::format("{}x{}", at.extent.width, at.extent.height))) {

@@ -7,8 +7,8 @@
 #include <functional>
 #include <stdexcept>
 
-#include "runtime/latency/clock.h"
 #include "runtime/session/session_file.h"
+#include "runtime/time/clock.h"
 #include "tests/bench/bench.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -153,7 +153,7 @@ void add_start_up(const char* target, const Options& options, std::vector<Figure
     for (unsigned round = 0; round < options.rounds; ++round) {
         const tests::ScratchFolder folder;
         const std::string session = folder.file("session.gaze");
-        const std::int64_t start_ns = latency::monotonic_ns();
+        const std::int64_t start_ns = time::monotonic_ns();
         const tests::ProgramResult result =
             tests::run_gazeloop({"run", "--target", target, "--frames", "1", "--set",
                                  "render.scale=0.25", "--record", session});

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "runtime/error.h"
-#include "runtime/foveation/acuity_plan.h"
+#include "runtime/foveation/plans/acuity_plan.h"
 #include "runtime/numerics/table_builds.h"
 #include "runtime/render/eye_uniforms.h"
 #include "tests/bench/bench.h"

@@ -17,11 +17,11 @@ constexpr double kSceneTime_s = 2.5;
 
 }  // namespace
 
-RaycastSetup::RaycastSetup(const render::VulkanContext& context, vk::Extent2D extent,
+RaycastSetup::RaycastSetup(const vulkan::Context& context, vk::Extent2D extent,
                            double half_width_rad)
     : extents_{extent, kOtherEye}, half_width_rad_(half_width_rad) {
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-        images_[e] = render::ColorImage(context, extents_[e], render::RendererConfig{}.format,
+        images_[e] = vulkan::ColorImage(context, extents_[e], render::RendererConfig{}.format,
                                         vk::ImageUsageFlagBits::eColorAttachment);
     }
 }
@@ -62,7 +62,7 @@ render::FrameRequest RaycastSetup::frame(double yaw_deg, const gaze::PixelPositi
     return request;
 }
 
-Contender::Contender(const render::VulkanContext& context, const render::RendererConfig& config)
+Contender::Contender(const vulkan::Context& context, const render::RendererConfig& config)
     : renderer_(std::make_unique<render::FrameRenderer>(context, config)) {}
 
 void Contender::round(const render::FrameRequest& request, bool keep) {
@@ -74,7 +74,7 @@ void Contender::round(const render::FrameRequest& request, bool keep) {
         return;
     }
     double total = 0.0;
-    for (std::size_t pass = 0; pass < latency::kPassCount; ++pass) {
+    for (std::size_t pass = 0; pass < frame::kPassCount; ++pass) {
         if (finished->pass_ns[pass] >= 0) {
             const double ms = static_cast<double>(finished->pass_ns[pass]) * 1e-6;
             pass_ms_[pass].push_back(ms);
@@ -93,7 +93,7 @@ void Contender::reset() {
 
 double Contender::median_ms() const { return median(total_ms_); }
 
-double Contender::median_ms(latency::Pass pass) const {
+double Contender::median_ms(frame::Pass pass) const {
     const std::vector<double>& rounds = pass_ms_[static_cast<std::size_t>(pass)];
     return rounds.empty() ? 0.0 : median(rounds);
 }
@@ -102,13 +102,13 @@ double Contender::cells() const {
     return static_cast<double>(counts_.texels_shaded + counts_.pixels_direct);
 }
 
-CostMap::CostMap(const render::VulkanContext& context, const RaycastSetup& setup,
+CostMap::CostMap(const vulkan::Context& context, const RaycastSetup& setup,
                  render::RendererConfig config, double yaw_deg, double whole_ms)
     : extent_(setup.extent()) {
     const vk::Extent2D cell(extent_.width / kCells, extent_.height / kCells);
     config.method = render::Method::Full;
     config.extents = {cell, setup.extents()[1]};
-    const render::ColorImage image(context, cell, config.format,
+    const vulkan::ColorImage image(context, cell, config.format,
                                    vk::ImageUsageFlagBits::eColorAttachment);
     Contender full(context, config);
     render::FrameRequest request = setup.frame(yaw_deg, setup.centre());

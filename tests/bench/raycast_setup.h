@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/foveation/radial_map.h"
+#include "runtime/foveation/log_polar/radial_map.h"
 #include "runtime/render/frame_renderer.h"
 #include "tests/bench/bench.h"
 
@@ -21,7 +21,7 @@ class RaycastSetup {
   public:
     /// half_width_rad: half of the horizontal field of view; the vertical one follows from square
     /// pixels.
-    RaycastSetup(const render::VulkanContext& context, vk::Extent2D extent, double half_width_rad);
+    RaycastSetup(const vulkan::Context& context, vk::Extent2D extent, double half_width_rad);
 
     [[nodiscard]] const gaze::PerEye<vk::Extent2D>& extents() const { return extents_; }
     [[nodiscard]] std::string name() const;  ///< "1920x1080"
@@ -38,13 +38,13 @@ class RaycastSetup {
   private:
     gaze::PerEye<vk::Extent2D> extents_;
     double half_width_rad_;
-    gaze::PerEye<render::ColorImage> images_;
+    gaze::PerEye<vulkan::ColorImage> images_;
 };
 
 /// One way to render, with the durations of its rounds.
 class Contender {
   public:
-    Contender(const render::VulkanContext& context, const render::RendererConfig& config);
+    Contender(const vulkan::Context& context, const render::RendererConfig& config);
 
     /// Renders a frame and keeps what it took, unless it is the first of its kind, which compiles.
     void round(const render::FrameRequest& request, bool keep = true);
@@ -53,7 +53,7 @@ class Contender {
 
     [[nodiscard]] double median_ms() const;
     /// 0 for a pass that the method does not have.
-    [[nodiscard]] double median_ms(latency::Pass pass) const;
+    [[nodiscard]] double median_ms(frame::Pass pass) const;
     /// Of the last round: cells that were shaded, of both eyes.
     [[nodiscard]] double cells() const;
     [[nodiscard]] const foveation::SamplingPlan& plan() const {
@@ -63,8 +63,8 @@ class Contender {
   private:
     std::unique_ptr<render::FrameRenderer> renderer_;
     std::vector<double> total_ms_;
-    std::array<std::vector<double>, latency::kPassCount> pass_ms_;
-    latency::SampleCounts counts_;
+    std::array<std::vector<double>, frame::kPassCount> pass_ms_;
+    frame::SampleCounts counts_;
 };
 
 /// What a pixel costs at full resolution, cell by cell of a grid over the picture: content is
@@ -76,7 +76,7 @@ class CostMap {
 
     /// Renders every cell for itself at the picture's scale, so that their sum is one full frame;
     /// then scales them to sum up to `whole_ms`.
-    CostMap(const render::VulkanContext& context, const RaycastSetup& setup,
+    CostMap(const vulkan::Context& context, const RaycastSetup& setup,
             render::RendererConfig config, double yaw_deg, double whole_ms);
 
     /// What the plan's cells would take if each cost what a pixel at its place costs.

@@ -8,7 +8,7 @@
 namespace gazeloop::bench {
 namespace {
 
-using latency::Pass;
+using frame::Pass;
 
 double sum(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);

@@ -7,8 +7,8 @@
 #include <stop_token>
 #include <thread>
 
-#include "runtime/latency/clock.h"
 #include "runtime/session/session_file.h"
+#include "runtime/time/clock.h"
 #include "sim/virtual_tracker.h"
 #include "tests/device/emulated_tracker.h"
 #include "tests/device/standstill.h"
@@ -27,9 +27,9 @@ class Sending {
               for (gaze::EyeRay& ray : sample.eyes) {
                   ray.valid = true;
               }
-              const std::int64_t begin_ns = latency::monotonic_ns();
+              const std::int64_t begin_ns = time::monotonic_ns();
               for (std::int64_t i = 0; !stop.stop_requested(); ++i) {
-                  latency::sleep_until_ns(begin_ns + i * 5'000'000);
+                  time::sleep_until_ns(begin_ns + i * 5'000'000);
                   // Nobody may read yet, or any more.
                   (void)tracker.try_send(
                       sim::virtual_tracker_report(sample, static_cast<std::uint64_t>(i) * 5000));

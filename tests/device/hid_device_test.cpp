@@ -12,7 +12,7 @@
 
 #include "drivers/device/usb_polling.h"
 #include "drivers/hid/hid_source.h"
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 #include "tests/device/as_nobody.h"
 #include "tests/device/hid_device_fixture.h"
 #include "tests/device/thread_time.h"
@@ -85,7 +85,7 @@ TEST_F(HidDevice, WorksWithoutFeaturesToo) {
 TEST_F(HidDevice, ANodeThatIsNoHidDeviceIsRefused) {
     const auto opened = HidrawDevice::open("/dev/null");
     ASSERT_FALSE(opened.has_value());
-    EXPECT_EQ(opened.error().code, ExitCode::NoDevice);
+    EXPECT_EQ(opened.error().kind, ErrorKind::NoDevice);
     EXPECT_NE(opened.error().message.find("/dev/null"), std::string::npos);
     EXPECT_FALSE(HidrawDevice::open("/dev/hidraw77").has_value());
 }
@@ -132,7 +132,7 @@ TEST_F(HidDevice, ReportsBecomeSamplesWholeAndShort) {
     until_event(source, "calibration");
     EXPECT_TRUE(samples_[0].eyes[0].valid && samples_[0].eyes[1].valid);
     EXPECT_EQ(samples_[0].device_ns, 1'000'000);
-    EXPECT_EQ(samples_[0].arrived.kind, latency::StampKind::Measured);
+    EXPECT_EQ(samples_[0].arrived.kind, time::StampKind::Measured);
     EXPECT_FALSE(samples_[0].sampled.known()) << "one sample makes no clock";
     EXPECT_FALSE(samples_[1].eyes[0].valid) << "cut off before the eyes";
     EXPECT_EQ(samples_[1].device_ns, 9'333'000);
@@ -147,13 +147,13 @@ TEST_F(HidDevice, ComesLateGoesAndComesBack) {
     for (int round = 1; round <= 4; ++round) {
         until_event(source, "no HID eye tracker is plugged in");
         events_.clear();
-        const std::int64_t before_ns = latency::monotonic_ns();
+        const std::int64_t before_ns = time::monotonic_ns();
         tracker_->plug_in();
         until_event(source, "plugged in");
-        noticed_ns = std::min(noticed_ns, latency::monotonic_ns() - before_ns);
+        noticed_ns = std::min(noticed_ns, time::monotonic_ns() - before_ns);
         tracker_->send(report_at(1000));
         until(source, [&] { return !samples_.empty() && samples_.back().eyes[0].valid; });
-        const std::int64_t pulled_ns = latency::monotonic_ns();
+        const std::int64_t pulled_ns = time::monotonic_ns();
         tracker_->unplug();
         until_event(source, "gone: " + tracker_->node());
         ASSERT_FALSE(samples_.back().eyes[0].valid || samples_.back().eyes[1].valid)
@@ -196,8 +196,8 @@ TEST_F(HidDevice, ThatFailsAgainAndAgainIsTriedLessAndLessOften) {
     events_.clear();
     samples_.clear();
     const int asked = tracker_->asked();
-    const std::int64_t begin_ns = latency::monotonic_ns();
-    until(source, [&] { return latency::monotonic_ns() - begin_ns > 3'000'000'000; });
+    const std::int64_t begin_ns = time::monotonic_ns();
+    until(source, [&] { return time::monotonic_ns() - begin_ns > 3'000'000'000; });
     EXPECT_TRUE(events_.empty()) << testing::PrintToString(events_);
     EXPECT_TRUE(samples_.empty());
     EXPECT_LE(tracker_->asked() - asked, 4 * 8) << "opened four times in 3 s at the most";
@@ -213,19 +213,19 @@ TEST_F(HidDevice, GivesTimesOnceItsClockIsKnown) {
     until_event(source, "plugged in");
     // Each report bears the time at which it is sent, however late that is, and so a busy machine
     // only takes more reports until the clock is known.
-    const std::int64_t start_ns = latency::monotonic_ns();
+    const std::int64_t start_ns = time::monotonic_ns();
     constexpr std::size_t kMostReports = 20'000;
     const auto known = [&] { return !samples_.empty() && samples_.back().sampled.known(); };
     while (samples_.size() < kMostReports && !known()) {
         const std::size_t before = samples_.size();
-        const std::int64_t sent_ns = latency::monotonic_ns() - start_ns;
+        const std::int64_t sent_ns = time::monotonic_ns() - start_ns;
         tracker_->send(report_at(static_cast<std::uint64_t>(sent_ns) / 1000));
         until(source, [&] { return samples_.size() > before; });
     }
     ASSERT_TRUE(known());
     const gaze::GazeSample& last = samples_.back();
-    EXPECT_EQ(last.sampled.kind, latency::StampKind::Profile);
-    EXPECT_EQ(last.ready.kind, latency::StampKind::Measured);
+    EXPECT_EQ(last.sampled.kind, time::StampKind::Profile);
+    EXPECT_EQ(last.ready.kind, time::StampKind::Measured);
     EXPECT_EQ(last.ready.ns - last.sampled.ns, 4'000'000);
     EXPECT_GE(last.uncertainty_ns.value_or(0), 1'000'000);
     EXPECT_LE(last.ready.ns, last.arrived.ns);
@@ -233,7 +233,7 @@ TEST_F(HidDevice, GivesTimesOnceItsClockIsKnown) {
     // the time between two askings is taken off.
     const std::int64_t asked_ns = last.ready.ns + kUsualPolling_ns / 2;
     EXPECT_GE(static_cast<double>(asked_ns - start_ns),
-              static_cast<double>(last.device_ns) * (1.0 - latency::ClockFit::kGreatestSkew));
+              static_cast<double>(last.device_ns) * (1.0 - time::ClockFit::kGreatestSkew));
 }
 
 // Nothing is lost; what it takes is printed, and an upper bound, because every read goes through
@@ -244,11 +244,11 @@ TEST_F(HidDevice, KeepsUpWithAThousandReportsASecond) {
     HidSource source({});
     until_event(source, "plugged in");
     const double cpu_before_s = tests::thread_seconds(kHidThreadName);
-    const std::int64_t start_ns = latency::monotonic_ns();
+    const std::int64_t start_ns = time::monotonic_ns();
     int refused = 0;  // the emulated node holds a second of reports
     std::thread sender([&] {
         for (int i = 0; i < kReports; ++i) {
-            latency::sleep_until_ns(start_ns + i * 1'000'000LL);
+            time::sleep_until_ns(start_ns + i * 1'000'000LL);
             refused += tracker_->try_send(report_at(static_cast<std::uint64_t>(i) * 1000)) ? 0 : 1;
         }
     });
@@ -256,18 +256,18 @@ TEST_F(HidDevice, KeepsUpWithAThousandReportsASecond) {
     for (int i = 0; i < 1'000'000 && samples_.size() < kReports; ++i) {
         const std::size_t before = samples_.size();
         source.poll(0, samples_);
-        const std::int64_t now_ns = latency::monotonic_ns();
+        const std::int64_t now_ns = time::monotonic_ns();
         if (samples_.size() == before + 1) {
             published_us.push_back(static_cast<double>(now_ns - samples_.back().arrived.ns) * 1e-3);
         }
         if (samples_.size() == before) {
-            latency::sleep_until_ns(now_ns + 20'000);
+            time::sleep_until_ns(now_ns + 20'000);
         }
     }
     sender.join();
     EXPECT_EQ(refused, 0);
     ASSERT_EQ(samples_.size(), static_cast<std::size_t>(kReports));
-    const double seconds = static_cast<double>(latency::monotonic_ns() - start_ns) * 1e-9;
+    const double seconds = static_cast<double>(time::monotonic_ns() - start_ns) * 1e-9;
     for (int i = 0; i < kReports; ++i) {
         EXPECT_EQ(samples_[static_cast<std::size_t>(i)].device_ns, i * 1'000'000LL);
         EXPECT_EQ(samples_[static_cast<std::size_t>(i)].sequence,

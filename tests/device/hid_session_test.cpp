@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "drivers/hid/hid_source.h"
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 #include "tests/device/hid_device_fixture.h"
 
 namespace gazeloop::drivers::hid {
@@ -39,12 +39,12 @@ TEST_F(HidDevice, IsAskedForNoMoreOnceTheProgramEnds) {
     const auto ends = [&] { return tracker_->asked() > 0; };
     const auto session = TrackerSession::open(find_trackers().at(0), {}, ends);
     ASSERT_FALSE(session.has_value());
-    EXPECT_EQ(session.error().code, ExitCode::Interrupted);
+    EXPECT_EQ(session.error().kind, ErrorKind::Interrupted);
     EXPECT_EQ(tracker_->asked(), 1);
     EXPECT_FALSE(tracker_->sent(0x14).has_value()) << "neither started nor stopped";
     const auto any = open_tracker({}, ends);
     ASSERT_FALSE(any.has_value());
-    EXPECT_EQ(any.error().code, ExitCode::Interrupted);
+    EXPECT_EQ(any.error().kind, ErrorKind::Interrupted);
     EXPECT_EQ(tracker_->asked(), 2);
 }
 
@@ -220,12 +220,12 @@ TEST_F(HidDevice, IsReadAgainOnceItIsReady) {
 // Whatever its status does, it is asked once a second at most.
 TEST_F(HidDevice, IsNotAskedMoreOftenWhileItsStatusChanges) {
     tracker_->plug_in();
-    const std::int64_t begin_ns = latency::monotonic_ns();
+    const std::int64_t begin_ns = time::monotonic_ns();
     auto session = TrackerSession::open(find_trackers().at(0), {}, never);
     ASSERT_TRUE(session.has_value());
     const int once = tracker_->asked();
     const auto seconds = [&] {
-        return static_cast<double>(latency::monotonic_ns() - begin_ns) * 1e-9;
+        return static_cast<double>(time::monotonic_ns() - begin_ns) * 1e-9;
     };
     DeviceFeed feed;
     for (std::uint8_t i = 0; tracker_->asked() < 2 * once + 1 && seconds() < 60.0; ++i) {

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "drivers/psvr2/psvr2_source.h"
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 #include "sim/psvr2_packet.h"
 #include "tests/device/as_nobody.h"
 #include "tests/device/emulated_psvr2.h"
@@ -143,7 +143,7 @@ TEST_F(Psvr2Device, IsClaimedAskedReadAndLeftAsItWas) {
         EXPECT_LT(last.eyes[0].origin_m.x, last.eyes[1].origin_m.x);
         EXPECT_EQ(last.device_ns, 12 * 8'333'000LL);
         EXPECT_EQ(last.sequence, samples_.front().sequence + 11);
-        EXPECT_EQ(last.arrived.kind, latency::StampKind::Measured);
+        EXPECT_EQ(last.arrived.kind, time::StampKind::Measured);
         until_event(source, "axes: as published");
         EXPECT_EQ(headset_->seen().others, 0);
     }
@@ -365,16 +365,16 @@ TEST_F(Psvr2Device, KeepsUpWithAThousandPacketsASecond) {
     Psvr2Source source({});
     until_event(source, "plugged in");
     const double cpu_before_s = tests::thread_seconds("gaze-psvr2");
-    const std::int64_t start_ns = latency::monotonic_ns();
+    const std::int64_t start_ns = time::monotonic_ns();
     std::thread sender([&] {
         for (std::uint32_t i = 0; i < kPackets; ++i) {
-            latency::sleep_until_ns(start_ns + i * 1'000'000LL);
+            time::sleep_until_ns(start_ns + i * 1'000'000LL);
             headset_->send(sim::psvr2_packet(looking_right(), std::uint64_t{i} * 1000, i));
         }
     });
     until(source, [&] { return samples_.size() >= kPackets; });
     sender.join();
-    const double seconds = static_cast<double>(latency::monotonic_ns() - start_ns) * 1e-9;
+    const double seconds = static_cast<double>(time::monotonic_ns() - start_ns) * 1e-9;
     ASSERT_EQ(samples_.size(), kPackets);
     for (std::uint32_t i = 0; i < kPackets; ++i) {
         EXPECT_EQ(samples_[i].device_ns, i * 1'000'000LL);
@@ -397,7 +397,7 @@ TEST_F(Psvr2Device, SaysThatItMayNotBeOpenedAndWhatCuresIt) {
                   R"(SUBSYSTEM=="usb", ATTR{idVendor}=="054c", ATTR{idProduct}=="0cde", )"
                   R"(TAG+="uaccess")");
         const auto opened = open_headset(found.at(0), {});
-        EXPECT_TRUE(!opened && opened.error().code == ExitCode::NoDevice &&
+        EXPECT_TRUE(!opened && opened.error().kind == ErrorKind::NoDevice &&
                     opened.error().message == found.at(0).access_problem);
         return !testing::Test::HasFailure();
     }));

@@ -7,8 +7,8 @@
 #include <stop_token>
 #include <thread>
 
-#include "runtime/latency/clock.h"
 #include "runtime/session/session_file.h"
+#include "runtime/time/clock.h"
 #include "sim/gaze_generator.h"
 #include "sim/psvr2_packet.h"
 #include "tests/device/emulated_psvr2.h"
@@ -27,10 +27,10 @@ class Sending {
               sim::GazeSimulation simulation;
               simulation.tracker.rate_hz = 120.0;
               simulation.eye.blinks_per_min = 0.0;  // a closed eye looks like a loss
-              const drivers::Trace trace = sim::generate_gaze(simulation, kLap_s);
-              const std::int64_t begin_ns = latency::monotonic_ns();
+              const gaze::GazeTrace trace = sim::generate_gaze(simulation, kLap_s);
+              const std::int64_t begin_ns = time::monotonic_ns();
               for (std::uint32_t i = 0; !stop.stop_requested(); ++i) {
-                  latency::sleep_until_ns(begin_ns + i * 8'333'333LL);
+                  time::sleep_until_ns(begin_ns + i * 8'333'333LL);
                   gaze::GazeSample sample = trace.samples[i % trace.samples.size()];
                   sample.eyes[0].origin_m = {-0.031, 0.0, 0.0};
                   sample.eyes[1].origin_m = {0.031, 0.0, 0.0};

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "runtime/latency/clock_fit.h"
-#include "runtime/latency/span.h"
+#include "runtime/time/clock_fit.h"
+#include "runtime/time/span.h"
 
 namespace {
 

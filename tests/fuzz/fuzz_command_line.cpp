@@ -47,17 +47,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(options.frames.value_or(0) >= 0);
     require(options.seconds.value_or(0.0) >= 0.0 && std::isfinite(options.seconds.value_or(0.0)));
     if (const auto fixed = drivers::parse_fixed_gaze(gaze); !fixed) {
-        require(fixed.error().code == ExitCode::Usage && !fixed.error().message.empty());
+        require(fixed.error().kind == ErrorKind::Usage && !fixed.error().message.empty());
     }
-    cli::Settings settings;
+    settings::Settings settings;
     if (const auto applied = options.apply_to(settings, false)) {
-        const cli::SettingValues& values = settings.values();
+        const settings::SettingValues& values = settings.values();
         require(values.kfr.sigma >= 0.5 && values.kfr.sigma <= 32.0);
         require(values.render.spp >= 1 && values.render.spp <= 16);
         require(std::isfinite(values.gaze.hold_ms) && values.gaze.hold_ms >= 0.0);
         (void)settings.check();
     } else {
-        require(applied.error().code == ExitCode::Usage && !applied.error().message.empty());
+        require(applied.error().kind == ErrorKind::Usage && !applied.error().message.empty());
     }
     return 0;
 }

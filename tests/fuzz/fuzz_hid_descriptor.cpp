@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace gazeloop::drivers::hid;
     const Expected<ReportDescriptor> parsed = parse_report_descriptor({data, size});
     if (!parsed) {
-        require(parsed.error().code == ExitCode::BadInput && !parsed.error().message.empty());
+        require(parsed.error().kind == ErrorKind::BadInput && !parsed.error().message.empty());
         return 0;
     }
     for (const ReportField& field : parsed->fields) {

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "runtime/foveation/kernel_table_file.h"
+#include "runtime/methods/kernel_table_file.h"
 
 namespace {
 
@@ -26,15 +26,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     std::istringstream in(std::string(data + 1, data + size));
-    const auto kernel = foveation::read_kernel_table(in, "fuzz", data[0] % 2 == 1);
+    const auto kernel = methods::read_kernel_table(in, "fuzz", data[0] % 2 == 1);
     if (!kernel) {
-        require(kernel.error().code == ExitCode::BadInput &&
+        require(kernel.error().kind == ErrorKind::BadInput &&
                 kernel.error().message.starts_with("fuzz:"));
         return 0;
     }
-    const std::string line = foveation::kernel_samples(*kernel);
-    const auto again = foveation::read_kernel_samples(line, "fuzz");
-    require(again.has_value() && foveation::kernel_samples(*again) == line);
+    const std::string line = methods::kernel_samples(*kernel);
+    const auto again = methods::read_kernel_samples(line, "fuzz");
+    require(again.has_value() && methods::kernel_samples(*again) == line);
     double before = 0.0;
     for (int i = 0; i <= 64; ++i) {
         const double x = i / 64.0;

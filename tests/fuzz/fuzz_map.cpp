@@ -8,8 +8,8 @@
 #include <cstring>
 #include <vector>
 
-#include "runtime/foveation/acuity_plan.h"
-#include "runtime/foveation/float_map.h"
+#include "runtime/foveation/log_polar/float_map.h"
+#include "runtime/foveation/plans/acuity_plan.h"
 
 namespace {
 
@@ -86,7 +86,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             .lp_height = bytes.take<std::uint8_t>() * 64U};
         const auto profile = AcuityProfile::create(parameters, view);
         if (!profile) {
-            require(profile.error().code == ExitCode::Usage && !profile.error().message.empty());
+            require(profile.error().kind == ErrorKind::Usage && !profile.error().message.empty());
             return 0;
         }
         const glm::dvec3 gaze{bytes.number(-1.0, 1.0), bytes.number(-1.0, 1.0),
@@ -120,14 +120,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         const auto kernel = PolynomialKernel::create(coefficients);
         if (!kernel) {
-            require(kernel.error().code == ExitCode::Usage);
+            require(kernel.error().kind == ErrorKind::Usage);
             return 0;
         }
         parameters.kernel = *kernel;
     }
     const auto lp = lp_buffer_size(parameters, image);
     if (!lp) {
-        require(lp.error().code == ExitCode::Usage && !lp.error().message.empty());
+        require(lp.error().kind == ErrorKind::Usage && !lp.error().message.empty());
         return 0;
     }
     const LogPolarMap map(parameters.kernel, image, fovea);

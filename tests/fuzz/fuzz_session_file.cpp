@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::ofstream(file, std::ios::binary | std::ios::trunc)
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
     const Expected<session::SessionFile> session = session::read_session(file);
-    if (!session && (session.error().code != ExitCode::BadInput ||
+    if (!session && (session.error().kind != ErrorKind::BadInput ||
                      session.error().message.find(file.string()) == std::string::npos)) {
         std::abort();
     }

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "runtime/cli/settings.h"
+#include "runtime/settings/settings.h"
 #include "tests/support/temporary_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -17,11 +17,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto file = folder / "config.toml";
     std::ofstream(file, std::ios::binary | std::ios::trunc)
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-    cli::Settings settings;
+    settings::Settings settings;
     const Expected<void> loaded = settings.load(file);
     if (!loaded) {
         const Error& error = loaded.error();
-        if ((error.code != ExitCode::BadInput && error.code != ExitCode::Usage) ||
+        if ((error.kind != ErrorKind::BadInput && error.kind != ErrorKind::Usage) ||
             error.message.find(file.string()) == std::string::npos) {
             std::abort();
         }
@@ -29,7 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     (void)settings.check();
     (void)settings.describe();
-    cli::Settings again;
+    settings::Settings again;
     for (const auto& [key, value] : settings.list()) {
         if (!again.set(key, value, "again")) {
             std::abort();

@@ -23,15 +23,15 @@ inline void require(bool held) {
 
 /// Reads the rows as a trace that follows the header, and stops the fuzzer where a promise of
 /// trace.h does not hold.
-inline std::optional<drivers::Trace> read_checked(std::string_view header,
-                                                  std::span<const std::uint8_t> rows,
-                                                  std::string_view format) {
+inline std::optional<gaze::GazeTrace> read_checked(std::string_view header,
+                                                   std::span<const std::uint8_t> rows,
+                                                   std::string_view format) {
     std::string text{header};
     text.append(rows.begin(), rows.end());
     std::istringstream in(text);
-    const Expected<drivers::Trace> trace = drivers::read_trace(in, "fuzz", format);
+    const Expected<gaze::GazeTrace> trace = drivers::read_trace(in, "fuzz", format);
     if (!trace) {
-        require(trace.error().code == ExitCode::BadInput && !trace.error().message.empty());
+        require(trace.error().kind == ErrorKind::BadInput && !trace.error().message.empty());
         return std::nullopt;
     }
     require(!trace->samples.empty());

@@ -9,7 +9,7 @@
 
 namespace {
 
-std::string written(const gazeloop::drivers::Trace& trace) {
+std::string written(const gazeloop::gaze::GazeTrace& trace) {
     std::ostringstream out;
     gazeloop::drivers::write_native_trace(trace, out);
     return out.str();

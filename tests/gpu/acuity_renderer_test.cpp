@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "runtime/foveation/gaze_frame.h"
+#include "runtime/foveation/picture/gaze_frame.h"
 #include "tests/support/frame_renderer_fixture.h"
 
 namespace gazeloop::render {
@@ -116,13 +116,13 @@ using AcuityRendererOnce = FrameRendererTest;
 /// A renderer with pictures to draw into.
 struct Drawing {
     RendererConfig config;
-    gaze::PerEye<ColorImage> images;
+    gaze::PerEye<vulkan::ColorImage> images;
     FrameRenderer renderer;  // waits for its frames before the images go
 
-    Drawing(const VulkanContext& context, const RendererConfig& drawn)
+    Drawing(const vulkan::Context& context, const RendererConfig& drawn)
         : config(drawn), renderer(context, drawn) {
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            images[e] = ColorImage(
+            images[e] = vulkan::ColorImage(
                 context, config.extents[e], config.format,
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
         }

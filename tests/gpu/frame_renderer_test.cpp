@@ -114,7 +114,7 @@ TEST_F(FrameRendererTest, JoinsTheLastRowToTheFirst) {
 TEST_F(FrameRendererTest, CountsAddUp) {
     const RendererConfig kfr = config(Method::Kfr);
     const Rendered foveated = render(kfr, request(kfr, {0, 60}));
-    const latency::SampleCounts& counts = foveated.counts;
+    const frame::SampleCounts& counts = foveated.counts;
     EXPECT_EQ(counts.texels_planned, 2U * 89 * 67);
     EXPECT_EQ(counts.texels_shaded + counts.texels_off_screen + counts.texels_under_disc,
               counts.texels_planned);
@@ -128,7 +128,7 @@ TEST_F(FrameRendererTest, CountsAddUp) {
 TEST_F(FrameRendererTest, TimesThePassesThatRan) {
     const RendererConfig kfr = config(Method::Kfr);
     const Rendered foveated = render(kfr, request(kfr, {80, 60}));
-    using latency::Pass;
+    using frame::Pass;
     const auto ns = [](const Rendered& rendered, Pass pass) {
         return rendered.gpu.pass_ns[static_cast<std::size_t>(pass)];
     };
@@ -155,7 +155,7 @@ TEST_F(FrameRendererTest, SkipsTheLpBufferWhereTheDiscCoversTheScreen) {
     const Rendered foveated = render(kfr, at);
     const Rendered full = render(config(Method::Full, 16, 16), at);
     EXPECT_EQ(foveated.counts.texels_shaded, 0U);
-    EXPECT_EQ(foveated.gpu.pass_ns[static_cast<std::size_t>(latency::Pass::PassI)], -1);
+    EXPECT_EQ(foveated.gpu.pass_ns[static_cast<std::size_t>(frame::Pass::PassI)], -1);
     EXPECT_LE(largest_difference(foveated.pictures[0], full.pictures[0]), 1);
 }
 
@@ -233,14 +233,14 @@ TEST_F(FrameRendererTest, KeepsFramesInFlightApart) {
     kfr.hash = true;
     FrameRequest at = request(kfr, {80, 60});
     FrameRenderer renderer(context(), kfr);
-    gaze::PerEye<ColorImage> images;
+    gaze::PerEye<vulkan::ColorImage> images;
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-        images[e] = ColorImage(
+        images[e] = vulkan::ColorImage(
             context(), kfr.extents[e], kfr.format,
             vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
         at.targets[e] = {images[e].image(), images[e].view()};
     }
-    std::vector<latency::FrameGpuRecord> finished;
+    std::vector<frame::FrameGpuRecord> finished;
     const auto drain = [&] {
         while (auto record = renderer.next_finished()) {
             finished.push_back(*record);

@@ -30,10 +30,10 @@ class Probe {
         return probe_.run(eye.map_buffers(), uniforms, false, inputs);
     }
 
-    [[nodiscard]] const VulkanContext& context() const { return context_; }
+    [[nodiscard]] const vulkan::Context& context() const { return context_; }
 
   private:
-    VulkanContext context_;
+    vulkan::Context context_;
     numerics::MapProbe probe_;
 };
 

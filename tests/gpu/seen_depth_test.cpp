@@ -168,7 +168,7 @@ TEST_F(SeenDepth, LeavesTheRestAlone) {
             const Rendered b = render(without, frame);
             EXPECT_EQ(a.gpu.pixel_hash, b.gpu.pixel_hash);
             EXPECT_EQ(a.counts, b.counts);
-            for (std::size_t pass = 0; pass < latency::kPassCount; ++pass) {
+            for (std::size_t pass = 0; pass < frame::kPassCount; ++pass) {
                 EXPECT_EQ(a.gpu.pass_ns[pass] >= 0, b.gpu.pass_ns[pass] >= 0);
             }
         }
@@ -179,12 +179,12 @@ TEST_F(SeenDepth, LeavesTheRestAlone) {
 TEST_F(SeenDepth, BelongsToTheFrameThatIsFinished) {
     const RendererConfig with = with_seen_depth(Method::Kfr);
     FrameRenderer renderer(context(), with);
-    gaze::PerEye<ColorImage> images;
-    gaze::PerEye<DepthImage> depths;
+    gaze::PerEye<vulkan::ColorImage> images;
+    gaze::PerEye<vulkan::DepthImage> depths;
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-        images[e] = ColorImage(context(), with.extents[e], with.format,
-                               vk::ImageUsageFlagBits::eColorAttachment);
-        depths[e] = DepthImage(context(), with.extents[e], with.depth_format);
+        images[e] = vulkan::ColorImage(context(), with.extents[e], with.format,
+                                       vk::ImageUsageFlagBits::eColorAttachment);
+        depths[e] = vulkan::DepthImage(context(), with.extents[e], with.depth_format);
     }
     std::vector<double> middles_px;
     const auto take_finished = [&] {

@@ -10,8 +10,8 @@
 
 #include "runtime/error.h"
 #include "runtime/present/openxr/openxr_target.h"
-#include "runtime/render/gpu_memory.h"
 #include "runtime/session/session_file.h"
+#include "runtime/vulkan/memory.h"
 #include "tests/support/faults/injected.h"
 #include "tests/support/run_program.h"
 
@@ -22,8 +22,7 @@ using Layout = vk::ImageLayout;
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
-void clear(const render::VulkanContext& context, const render::EyeTarget& target,
-           vk::Extent2D extent) {
+void clear(const vulkan::Context& context, const render::EyeTarget& target, vk::Extent2D extent) {
     const vk::raii::Device& device = context.device();
     const vk::raii::CommandPool pool(device, vk::CommandPoolCreateInfo({}, context.queue_family()));
     const vk::raii::CommandBuffers buffers(
@@ -31,11 +30,11 @@ void clear(const render::VulkanContext& context, const render::EyeTarget& target
     const vk::raii::CommandBuffer& commands = buffers[0];
     commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
     const auto color_barrier =
-        render::image_barrier(target.image, Layout::eUndefined, Layout::eColorAttachmentOptimal,
+        vulkan::image_barrier(target.image, Layout::eUndefined, Layout::eColorAttachmentOptimal,
                               Stage::eColorAttachmentOutput, Access::eNone,
                               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
     constexpr auto kTests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
-    const auto depth_barrier = render::image_barrier(
+    const auto depth_barrier = vulkan::image_barrier(
         target.depth_image, Layout::eUndefined, Layout::eDepthStencilAttachmentOptimal, kTests,
         Access::eNone, kTests, Access::eDepthStencilAttachmentWrite,
         vk::ImageAspectFlagBits::eDepth);
@@ -57,7 +56,7 @@ void clear(const render::VulkanContext& context, const render::EyeTarget& target
 }
 
 /// Frames until `rendered` of them were asked for and drawn.
-void present_frames(FrameTarget& target, const render::VulkanContext& context, int rendered,
+void present_frames(FrameTarget& target, const vulkan::Context& context, int rendered,
                     std::optional<DepthRange> depth) {
     TargetFrame frame;
     int left = rendered;
@@ -94,16 +93,16 @@ class DepthLayer : public testing::Test {
         const std::string log = scratch_.file("validation.txt");
         setenv("XR_CORE_VALIDATION_EXPORT_TYPE", "text", 1);
         setenv("XR_CORE_VALIDATION_FILE_NAME", log.c_str(), 1);
-        DisplayProfile display;
+        display::DisplayProfile display;
         display.fov = {gaze::FieldOfView{-0.8, 0.7, 0.7, -0.7}, {-0.7, 0.8, 0.7, -0.7}};
         display.width_px = 64;
         display.height_px = 48;
         display.refresh_hz = 200.0;
         {
-            std::optional<render::VulkanContext> context;  // outlives the target
+            std::optional<vulkan::Context> context;  // outlives the target
             const auto target =
                 make_openxr_target({.display = display, .validation = true, .depth = true});
-            context.emplace(render::VulkanOptions{.validation = true, .device = ""},
+            context.emplace(vulkan::ContextOptions{.validation = true, .device = ""},
                             target->vulkan_factory());
             target->start(*context);
             ASSERT_EQ(target->depth_format(), vk::Format::eD32Sfloat);
@@ -141,7 +140,7 @@ TEST_F(DepthLayer, GoesAlongWithTheProgramsPicturesUnlessSwitchedOff) {
         EXPECT_EQ(result.err.find("Vulkan validation"), std::string::npos) << result.err;
         const auto recorded = value_or_throw(session::read_session(session));
         const auto row =
-            std::ranges::find(recorded.header.device, "depth layer", &session::NamedValue::name);
+            std::ranges::find(recorded.header.device, "depth layer", &NamedValue::name);
         ASSERT_NE(row, recorded.header.device.end());
         EXPECT_EQ(row->value, taken);
         std::filesystem::remove(session);
@@ -165,7 +164,7 @@ TEST_F(DepthLayer, IsGoneWithoutWhereItsImagesCannotBeMade) {
         const auto recorded = value_or_throw(session::read_session(session));
         EXPECT_EQ(recorded.frames.size(), 5U);
         const auto row =
-            std::ranges::find(recorded.header.device, "depth layer", &session::NamedValue::name);
+            std::ranges::find(recorded.header.device, "depth layer", &NamedValue::name);
         ASSERT_NE(row, recorded.header.device.end());
         EXPECT_EQ(row->value, "none");
         std::filesystem::remove(session);

@@ -147,7 +147,7 @@ TEST_F(EyeGaze, ArrivesWithItsTimeAndItsHead) {
     std::uint64_t sequence = 0;
     for (const auto& [frame, sample] : session.samples) {
         EXPECT_EQ(sample.sequence, ++sequence);
-        ASSERT_EQ(sample.sampled.kind, latency::StampKind::Measured);
+        ASSERT_EQ(sample.sampled.kind, time::StampKind::Measured);
         EXPECT_TRUE(sample.head.has_value());
         // The file is read for the latch's time, so that the age is known exactly.
         const std::int64_t age_ns = session.frames[frame].frame.stamps.latch.ns - sample.sampled.ns;
@@ -194,7 +194,7 @@ TEST_F(EyeGaze, LeadsWhereAReplayOfTheSameTraceDoes) {
     ASSERT_LT(first[0].origin_m.x, first[1].origin_m.x);
     EXPECT_NEAR(glm::length(first[1].origin_m - first[0].origin_m), 0.063, 0.01);
 
-    drivers::Trace trace;
+    gaze::GazeTrace trace;
     for (std::size_t i = 0; i < kSamples; ++i) {
         gaze::GazeSample sample;
         sample.sequence = i;
@@ -471,7 +471,7 @@ TEST_F(EyeGaze, WithoutTimesHasNoAge) {
     EXPECT_THAT(result.out, Not(HasSubstr("gaze age at latch       measured")));
     for (const auto& [frame, sample] : recorded().samples) {
         EXPECT_FALSE(sample.sampled.known());
-        EXPECT_EQ(sample.arrived.kind, latency::StampKind::Measured);
+        EXPECT_EQ(sample.arrived.kind, time::StampKind::Measured);
     }
 }
 

@@ -91,7 +91,7 @@ TEST_F(OpenXrLoop, TakesTheDisplaysSizeAndRate) {
     const auto recorded = session::read_session(session);
     ASSERT_TRUE(recorded.has_value());
     ASSERT_FALSE(recorded->frames.empty());
-    const latency::FrameRecord& frame = recorded->frames.back().frame;
+    const frame::FrameRecord& frame = recorded->frames.back().frame;
     EXPECT_EQ(frame.views[0].width_px, 108U);  // 2160 at scale .05
     EXPECT_EQ(frame.views[0].height_px, 108U);
     EXPECT_NEAR(static_cast<double>(frame.period_ns), 1e9 / 90, 1e4);

@@ -79,8 +79,8 @@ TEST_F(RuntimeWishes, AnotherMaskIsFollowedAndReplayed) {
     const std::uint64_t at = session.hidden[1].frame;
     ASSERT_GT(at, 5U);
     ASSERT_LT(at, session.frames.size());
-    const latency::SampleCounts& corners = session.frames[at - 1].frame.samples;
-    const latency::SampleCounts& half = session.frames[at].frame.samples;
+    const frame::SampleCounts& corners = session.frames[at - 1].frame.samples;
+    const frame::SampleCounts& half = session.frames[at].frame.samples;
     EXPECT_GT(corners.pixels_hidden, 0U);
     EXPECT_GT(half.pixels_hidden, corners.pixels_hidden);
     EXPECT_LE(half.pixels_hidden, half.pixels_output / 2);
@@ -109,7 +109,7 @@ TEST_F(RuntimeWishes, AMaskMayGo) {
 // Full resolution and the foveated methods are compared on the same pixels.
 TEST_F(RuntimeWishes, EveryMethodLeavesOutTheSame) {
     ASSERT_EQ(run("", {"--method", "full"}).exit_code, 0);
-    const latency::SampleCounts full = recorded().frames.back().frame.samples;
+    const frame::SampleCounts full = recorded().frames.back().frame.samples;
     EXPECT_GT(full.pixels_hidden, 0U);
     EXPECT_EQ(full.pixels_direct, full.pixels_output - full.pixels_hidden);
     std::filesystem::remove(session());

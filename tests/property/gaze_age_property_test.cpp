@@ -11,15 +11,16 @@ namespace gazeloop::latency {
 namespace {
 
 /// Unknown once in eight times.
-Stamp any_stamp(std::int64_t within_ns) {
+time::Stamp any_stamp(std::int64_t within_ns) {
     const int kind = *rc::gen::inRange(0, 8);
-    return {*rc::gen::inRange(-within_ns, within_ns),
-            static_cast<StampKind>(kind < static_cast<int>(kStampKindCount) ? kind : 1)};
+    return {
+        *rc::gen::inRange(-within_ns, within_ns),
+        static_cast<time::StampKind>(kind < static_cast<int>(time::kStampKindCount) ? kind : 1)};
 }
 
 struct Drawn {
     gaze::FoveaPoint fovea;
-    FrameStamps stamps;
+    frame::FrameStamps stamps;
     std::int64_t period_ns;
     std::optional<std::int64_t> switching_ns;
     std::optional<std::int64_t> row_ns;
@@ -30,8 +31,8 @@ Drawn any_frame(std::int64_t within_ns) {
     drawn.fovea.sampled = any_stamp(within_ns);
     drawn.fovea.arrived = any_stamp(within_ns);
     drawn.fovea.ready = any_stamp(within_ns);
-    for (Stamp* stamp : {&drawn.stamps.latch, &drawn.stamps.submit, &drawn.stamps.gpu_end,
-                         &drawn.stamps.display}) {
+    for (time::Stamp* stamp : {&drawn.stamps.latch, &drawn.stamps.submit, &drawn.stamps.gpu_end,
+                               &drawn.stamps.display}) {
         *stamp = any_stamp(within_ns);
     }
     drawn.period_ns = *rc::gen::inRange<std::int64_t>(-1, 20'000'000);

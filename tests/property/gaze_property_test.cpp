@@ -119,7 +119,7 @@ RC_GTEST_PROP(GazeToFovea, GivesTheDirectionBackForAnUnmovedHead, ()) {
     const PerEye<Pose> in_head{Pose{rotation(0.3), vector_within(0.05)},
                                Pose{rotation(0.3), vector_within(0.05)}};
     GazeSample sample;
-    sample.sampled = {0, latency::StampKind::Modelled};
+    sample.sampled = {0, time::StampKind::Modelled};
     sample.head = head;
     for (EyeRay& ray : sample.eyes) {
         ray.direction = direction_ahead();
@@ -128,7 +128,7 @@ RC_GTEST_PROP(GazeToFovea, GivesTheDirectionBackForAnUnmovedHead, ()) {
     gaze.add(sample);
     const StereoView views{any_view(compose(head, in_head[0])),
                            any_view(compose(head, in_head[1]))};
-    const FrameFovea frame = gaze.latch({1, latency::StampKind::Modelled}, head, views);
+    const FrameFovea frame = gaze.latch({1, time::StampKind::Modelled}, head, views);
     for (const Eye eye : kEyes) {
         const std::size_t i = index(eye);
         const glm::dvec3 expected =
@@ -141,9 +141,9 @@ RC_GTEST_PROP(GazeToFovea, GivesTheDirectionBackForAnUnmovedHead, ()) {
     }
 }
 
-latency::Stamp any_stamp() {
-    const auto kind = static_cast<latency::StampKind>(
-        *rc::gen::inRange<int>(0, static_cast<int>(latency::kStampKindCount)));
+time::Stamp any_stamp() {
+    const auto kind = static_cast<time::StampKind>(
+        *rc::gen::inRange<int>(0, static_cast<int>(time::kStampKindCount)));
     const auto ns = *rc::gen::arbitrary<bool>() ? *rc::gen::arbitrary<std::int64_t>()
                                                 : *rc::gen::inRange<std::int64_t>(0, 1'000'000'000);
     return {ns, kind};
@@ -180,7 +180,7 @@ RC_GTEST_PROP(GazeToFovea, StaysFiniteAndRepeatsItselfWhateverComes, ()) {
         twin.add(sample);
         const Pose head{rotation(), vector_within(2.0)};
         const StereoView views{any_view(head), any_view(compose(head, {rotation(0.3), {}}))};
-        const latency::Stamp latched = any_stamp();
+        const time::Stamp latched = any_stamp();
         const FrameFovea frame = gaze.latch(latched, head, views);
         const FrameFovea same = twin.latch(latched, head, views);
         for (const Eye eye : kEyes) {
@@ -191,7 +191,7 @@ RC_GTEST_PROP(GazeToFovea, StaysFiniteAndRepeatsItselfWhateverComes, ()) {
                 point.state == FoveaState::Tracking || point.state == FoveaState::OtherEye;
             RC_ASSERT(tracking == (point.reason == LossReason::None));
             if (point.reason == LossReason::Never) {
-                RC_ASSERT(point.state == FoveaState::Centre);
+                RC_ASSERT(point.state == FoveaState::Ahead);
             }
             const FoveaPoint& twins = same.eyes[index(eye)];
             RC_ASSERT(std::bit_cast<std::uint64_t>(point.position.x_px) ==

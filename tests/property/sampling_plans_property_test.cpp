@@ -7,16 +7,16 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "runtime/foveation/eccentricity_layers.h"
-#include "runtime/foveation/fewest_samples.h"
-#include "runtime/foveation/fovea_widening.h"
-#include "runtime/foveation/gaze_field.h"
-#include "runtime/foveation/geisler_perry_acuity.h"
-#include "runtime/foveation/guenter_acuity.h"
-#include "runtime/foveation/layer_plan.h"
-#include "runtime/foveation/shading_rings.h"
-#include "runtime/foveation/sparse_pattern.h"
-#include "runtime/foveation/stela_acuity.h"
+#include "runtime/foveation/eye/fewest_samples.h"
+#include "runtime/foveation/eye/fovea_widening.h"
+#include "runtime/foveation/eye/geisler_perry_acuity.h"
+#include "runtime/foveation/eye/guenter_acuity.h"
+#include "runtime/foveation/eye/stela_acuity.h"
+#include "runtime/foveation/picture/gaze_field.h"
+#include "runtime/foveation/plans/eccentricity_layers.h"
+#include "runtime/foveation/plans/layer_plan.h"
+#include "runtime/foveation/plans/shading_rings.h"
+#include "runtime/foveation/plans/sparse_pattern.h"
 
 namespace gazeloop::foveation {
 namespace {
@@ -134,7 +134,7 @@ RC_GTEST_PROP(LayerProperty, AreRefusedOrFinite, ()) {
     if (layers) {
         RC_ASSERT(std::isfinite(layers->work) && layers->work > 0.0);
     } else {
-        RC_ASSERT(layers.error().code == ExitCode::Usage);
+        RC_ASSERT(layers.error().kind == ErrorKind::Usage);
         RC_ASSERT(layers.error().message.find("must") != std::string::npos);
     }
 }

@@ -41,8 +41,8 @@ class AnyRecord {
         return sample;
     }
 
-    latency::FrameRecord frame(std::uint64_t index) {
-        latency::FrameRecord frame;
+    frame::FrameRecord frame(std::uint64_t index) {
+        frame::FrameRecord frame;
         frame.index = index;
         auto& stamps = frame.stamps;
         stamps = {stamp(), stamp(), stamp(), stamp(), stamp(), stamp(), stamp(), stamp()};
@@ -72,8 +72,8 @@ class AnyRecord {
         return frame;
     }
 
-    latency::FrameGpuRecord gpu(std::uint64_t index) {
-        latency::FrameGpuRecord gpu;
+    frame::FrameGpuRecord gpu(std::uint64_t index) {
+        frame::FrameGpuRecord gpu;
         gpu.index = index;
         gpu.gpu_begin = stamp();
         gpu.gpu_end = stamp();
@@ -105,7 +105,7 @@ class AnyRecord {
     template <typename Timed>
     void clocked(Timed& timed) {
         if (coin()) {
-            timed.ready = {signed_integer(), latency::StampKind::Measured};
+            timed.ready = {signed_integer(), time::StampKind::Measured};
         }
         if (coin()) {
             timed.uncertainty_ns = signed_integer();
@@ -152,8 +152,8 @@ class AnyRecord {
     }
     glm::dvec3 vector() { return {real(), real(), real()}; }
     gaze::Pose pose() { return {glm::dquat{real(), real(), real(), real()}, vector()}; }
-    latency::Stamp stamp() {
-        return {signed_integer(), static_cast<latency::StampKind>(below(latency::kStampKindCount))};
+    time::Stamp stamp() {
+        return {signed_integer(), static_cast<time::StampKind>(below(time::kStampKindCount))};
     }
 
     std::mt19937_64 random_;
@@ -176,7 +176,7 @@ void append(Bits& bits, const gaze::Pose& pose) {
     append(bits, pose.orientation.z);
     append(bits, pose.position_m);
 }
-void append(Bits& bits, const latency::Stamp& stamp) {
+void append(Bits& bits, const time::Stamp& stamp) {
     append(bits, stamp.ns);
     append(bits, static_cast<std::uint64_t>(stamp.kind));
 }
@@ -209,11 +209,11 @@ Bits bits_of(const gaze::GazeSample& sample) {
     return bits;
 }
 
-Bits bits_of(const latency::FrameRecord& frame) {
+Bits bits_of(const frame::FrameRecord& frame) {
     Bits bits;
     append(bits, frame.index);
-    const latency::FrameStamps& stamps = frame.stamps;
-    for (const latency::Stamp& stamp :
+    const frame::FrameStamps& stamps = frame.stamps;
+    for (const time::Stamp& stamp :
          {stamps.wake_up, stamps.begin, stamps.latch, stamps.submit, stamps.end_frame,
           stamps.gpu_begin, stamps.gpu_end, stamps.display, frame.fovea.latched}) {
         append(bits, stamp);
@@ -242,7 +242,7 @@ Bits bits_of(const latency::FrameRecord& frame) {
         append(bits, fovea.arrived);
         append_clocked(bits, fovea);
     }
-    const latency::SampleCounts& samples = frame.samples;
+    const frame::SampleCounts& samples = frame.samples;
     for (const std::uint64_t count :
          {samples.texels_planned, samples.texels_shaded, samples.texels_off_screen,
           samples.texels_under_disc, samples.texels_hidden, samples.pixels_direct,
@@ -252,7 +252,7 @@ Bits bits_of(const latency::FrameRecord& frame) {
     return bits;
 }
 
-Bits bits_of(const latency::FrameGpuRecord& gpu) {
+Bits bits_of(const frame::FrameGpuRecord& gpu) {
     Bits bits;
     append(bits, gpu.index);
     append(bits, gpu.gpu_begin);

@@ -34,7 +34,7 @@ std::string htc_text() {
 RC_GTEST_PROP(NativeTrace, GivesGeneratedTracesBackUnchanged, (std::uint64_t seed)) {
     const std::string text = generated_text(seed);
     std::istringstream in(text);
-    const Expected<Trace> trace = read_trace(in, "generated");
+    const Expected<gaze::GazeTrace> trace = read_trace(in, "generated");
     RC_ASSERT(trace.has_value());
     std::ostringstream again;
     write_native_trace(*trace, again);
@@ -65,9 +65,9 @@ RC_GTEST_PROP(ReadTrace, KeepsItsPromisesForDamagedFiles, (std::uint64_t seed)) 
         }
     }
     std::istringstream in(text);
-    const Expected<Trace> trace = read_trace(in, "damaged");
+    const Expected<gaze::GazeTrace> trace = read_trace(in, "damaged");
     if (!trace) {
-        RC_ASSERT(trace.error().code == ExitCode::BadInput);
+        RC_ASSERT(trace.error().kind == ErrorKind::BadInput);
         RC_ASSERT(trace.error().message.find("damaged") != std::string::npos);
         return;
     }

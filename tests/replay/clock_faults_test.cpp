@@ -48,9 +48,9 @@ TEST(Clock, OfTheDayMayStep) {
     ASSERT_EQ(session.frames.size(), 60U);
     EXPECT_EQ(session.records_dropped, 0U);
     EXPECT_FALSE(slept(session));
-    const latency::FrameStamps* before = nullptr;
+    const frame::FrameStamps* before = nullptr;
     for (const session::RecordedFrame& frame : session.frames) {
-        const latency::FrameStamps& at = frame.frame.stamps;
+        const frame::FrameStamps& at = frame.frame.stamps;
         EXPECT_LE(at.wake_up.ns, at.latch.ns);
         EXPECT_LE(at.latch.ns, at.submit.ns);
         EXPECT_LT(std::abs(at.display.ns - at.wake_up.ns), kMinuteNs);

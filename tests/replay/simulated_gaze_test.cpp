@@ -52,7 +52,7 @@ TEST(SimulatedGaze, RunsInAStandingHeadAndWithoutASample) {
     EXPECT_EQ(still.exit_code, 0) << still.err;
     const ProgramResult lost = run_gazeloop(simulated({"--set", "sim.dropout_percent=100"}));
     EXPECT_EQ(lost.exit_code, 0) << lost.err;
-    EXPECT_NE(lost.out.find("centre 100.0 %"), std::string::npos) << lost.out;
+    EXPECT_NE(lost.out.find("ahead 100.0 %"), std::string::npos) << lost.out;
 }
 
 TEST(SimulatedGaze, WritesTheTraceOfTheSameSource) {

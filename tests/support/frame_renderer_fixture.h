@@ -15,8 +15,8 @@ using Pictures = gaze::PerEye<Picture>;
 /// Renders single frames off screen on one validated device; every test ends with no message.
 class FrameRendererTest : public testing::Test {
   protected:
-    static VulkanContext& context() {
-        static VulkanContext context({.validation = true, .device = ""}, nullptr);
+    static vulkan::Context& context() {
+        static vulkan::Context context({.validation = true, .device = ""}, nullptr);
         return context;
     }
 
@@ -50,8 +50,8 @@ class FrameRendererTest : public testing::Test {
     struct Rendered {
         Pictures pictures;
         gaze::PerEye<std::vector<float>> depths;  ///< where the configuration has a depth format
-        latency::SampleCounts counts;
-        latency::FrameGpuRecord gpu;
+        frame::SampleCounts counts;
+        frame::FrameGpuRecord gpu;
         gaze::SeenDepth seen_depth;
         gaze::PerEye<foveation::SamplingPlan> plans;
     };
@@ -59,15 +59,15 @@ class FrameRendererTest : public testing::Test {
     static Rendered render(const RendererConfig& config, FrameRequest request) {
         FrameRenderer renderer(context(), config);
         const bool depth = config.depth_format != vk::Format::eUndefined;
-        gaze::PerEye<ColorImage> images;
-        gaze::PerEye<DepthImage> depths;
+        gaze::PerEye<vulkan::ColorImage> images;
+        gaze::PerEye<vulkan::DepthImage> depths;
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            images[e] = ColorImage(
+            images[e] = vulkan::ColorImage(
                 context(), config.extents[e], config.format,
                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
             request.targets[e] = {images[e].image(), images[e].view()};
             if (depth) {
-                depths[e] = DepthImage(context(), config.extents[e], config.depth_format);
+                depths[e] = vulkan::DepthImage(context(), config.extents[e], config.depth_format);
                 request.targets[e].depth_image = depths[e].image();
                 request.targets[e].depth_view = depths[e].view();
             }
@@ -78,7 +78,7 @@ class FrameRendererTest : public testing::Test {
         renderer.wait_idle();
         const auto finished = renderer.next_finished();
         EXPECT_TRUE(finished.has_value());
-        rendered.gpu = finished.value_or(latency::FrameGpuRecord{});
+        rendered.gpu = finished.value_or(frame::FrameGpuRecord{});
         rendered.seen_depth = renderer.seen_depth();
         EXPECT_FALSE(renderer.next_finished().has_value());
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {

@@ -4,5 +4,5 @@ gazeloop_test(unit_doctor
     LABELS unit)
 gazeloop_test(unit_preview
     SOURCES preview/stage_bars_test.cpp
-    LINK gazeloop::preview
+    LINK gazeloop::preview gazeloop::report
     LABELS unit)

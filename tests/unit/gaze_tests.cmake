@@ -27,6 +27,6 @@ target_include_directories(unit_sim_draws BEFORE PRIVATE
 target_compile_definitions(unit_sim_draws PRIVATE
     GAZELOOP_UNCOUNTED_RANDOM="${PROJECT_SOURCE_DIR}/sim/random.h")
 gazeloop_test(unit_display_profile
-    SOURCES present/display_profile_test.cpp
-    LINK gazeloop::display_profile
+    SOURCES display/display_profile_test.cpp
+    LINK gazeloop::display
     LABELS unit)

@@ -10,7 +10,7 @@
 #include <exception>
 #include <string_view>
 
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 #include "sim/gaze_generator.h"
 #include "sim/psvr2_packet.h"
 #include "sim/virtual_tracker.h"
@@ -163,13 +163,13 @@ UsbGadget::Device headset() {
 
 /// Like a device: at its rate, whether or not the last one was fetched late.
 std::uint64_t send_gaze(const UsbGadget& gadget, bool is_headset) {
-    const drivers::Trace trace = sim::generate_gaze({}, 60.0);
+    const gaze::GazeTrace trace = sim::generate_gaze({}, 60.0);
     std::uint64_t sent = 0;
-    const std::int64_t begin_ns = latency::monotonic_ns();
+    const std::int64_t begin_ns = time::monotonic_ns();
     for (std::uint32_t i = 0; pulled_out == 0; ++i) {
         const std::int64_t due_ns = begin_ns + i * kPeriod_ns;
-        while (pulled_out == 0 && latency::monotonic_ns() < due_ns) {
-            latency::sleep_until_ns(due_ns);  // a signal ends it early
+        while (pulled_out == 0 && time::monotonic_ns() < due_ns) {
+            time::sleep_until_ns(due_ns);  // a signal ends it early
         }
         if (!asked) {
             continue;

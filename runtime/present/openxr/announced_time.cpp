@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "runtime/latency/span.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::present {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kFarFromNowNs = 10'000'000'000;
 
 std::int64_t difference_ns(std::int64_t to, std::int64_t from) {
-    return latency::saturated(static_cast<__int128>(to) - from);
+    return time::saturated(static_cast<__int128>(to) - from);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ vk::Format choose_color(const std::vector<std::int64_t>& offered,
             }
         }
     }
-    throw SetupError(ExitCode::NoDevice,
+    throw SetupError(ErrorKind::NoDevice,
                      fmt::format("{} offers no 8-bit RGBA swapchain format; use another runtime "
                                  "or --target headless",
                                  instance.runtime_name()));
@@ -54,7 +54,7 @@ gaze::PerEye<vk::Extent2D> picture_extents(const openxr::Instance& instance, dou
                                                                openxr::kStereo, a...);
                   });
     if (sizes.size() != gaze::kEyeCount) {
-        throw SetupError(ExitCode::NoDevice,
+        throw SetupError(ErrorKind::NoDevice,
                          fmt::format("{} offers {} views for stereo, 2 are needed",
                                      instance.runtime_name(), sizes.size()));
     }
@@ -67,7 +67,7 @@ gaze::PerEye<vk::Extent2D> picture_extents(const openxr::Instance& instance, dou
     return extents;
 }
 
-OpenXrPictures::OpenXrPictures(const render::VulkanContext& context, const openxr::Session& session,
+OpenXrPictures::OpenXrPictures(const vulkan::Context& context, const openxr::Session& session,
                                const gaze::PerEye<vk::Extent2D>& extents, bool depth) {
     const auto offered = enumerate(std::int64_t{0}, "xrEnumerateSwapchainFormats", [&](auto... a) {
         return xrEnumerateSwapchainFormats(session.handle(), a...);
@@ -84,8 +84,7 @@ OpenXrPictures::OpenXrPictures(const render::VulkanContext& context, const openx
     }
 }
 
-void OpenXrPictures::make_depths(const render::VulkanContext& context,
-                                 const openxr::Session& session,
+void OpenXrPictures::make_depths(const vulkan::Context& context, const openxr::Session& session,
                                  const gaze::PerEye<vk::Extent2D>& extents) {
     try {
         for (const vk::Extent2D& extent : extents) {
@@ -93,7 +92,7 @@ void OpenXrPictures::make_depths(const render::VulkanContext& context,
                                  SwapchainContent::Depth);
         }
     } catch (const SetupError& error) {
-        if (error.code() == ExitCode::SessionLost) {
+        if (error.kind() == ErrorKind::SessionLost) {
             throw;
         }
         // Pictures without depth are worth more than none.

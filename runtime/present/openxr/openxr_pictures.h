@@ -17,7 +17,7 @@ gaze::PerEye<vk::Extent2D> picture_extents(const openxr::Instance& instance, dou
 class OpenXrPictures {
   public:
     /// With `depth`, depth images where the runtime has a format for them. Throws SetupError.
-    OpenXrPictures(const render::VulkanContext& context, const openxr::Session& session,
+    OpenXrPictures(const vulkan::Context& context, const openxr::Session& session,
                    const gaze::PerEye<vk::Extent2D>& extents, bool depth);
 
     [[nodiscard]] vk::Format format() const { return format_; }
@@ -32,7 +32,7 @@ class OpenXrPictures {
                                                             XrSpace space);
 
   private:
-    void make_depths(const render::VulkanContext& context, const openxr::Session& session,
+    void make_depths(const vulkan::Context& context, const openxr::Session& session,
                      const gaze::PerEye<vk::Extent2D>& extents);
 
     vk::Format format_ = vk::Format::eUndefined;

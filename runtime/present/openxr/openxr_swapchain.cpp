@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "runtime/error.h"
-#include "runtime/render/gpu_memory.h"
+#include "runtime/vulkan/memory.h"
 
 namespace gazeloop::present {
 
@@ -13,7 +13,7 @@ using openxr::typed;
 using openxr::xr_check;
 using openxr::xr_check_session;
 
-OpenXrSwapchain::OpenXrSwapchain(const render::VulkanContext& context, XrSession session,
+OpenXrSwapchain::OpenXrSwapchain(const vulkan::Context& context, XrSession session,
                                  vk::Extent2D extent, vk::Format format, SwapchainContent content)
     : extent_(extent) {
     auto info = typed<XrSwapchainCreateInfo>(XR_TYPE_SWAPCHAIN_CREATE_INFO);
@@ -44,8 +44,8 @@ OpenXrSwapchain::OpenXrSwapchain(const render::VulkanContext& context, XrSession
         "xrEnumerateSwapchainImages");
     for (const XrSwapchainImageVulkan2KHR& image : images) {
         images_.emplace_back(image.image);
-        views_.push_back(depth ? render::make_depth_view(context, image.image, format)
-                               : render::make_color_view(context, image.image, format));
+        views_.push_back(depth ? vulkan::make_depth_view(context, image.image, format)
+                               : vulkan::make_color_view(context, image.image, format));
     }
 }
 
@@ -72,7 +72,7 @@ OpenXrSwapchain::Image OpenXrSwapchain::acquire() {
     wait.timeout = kPatienceNs;
     if (xr_check_session(xrWaitSwapchainImage(swapchain_, &wait), "xrWaitSwapchainImage") ==
         XR_TIMEOUT_EXPIRED) {
-        throw SetupError(ExitCode::SessionLost,
+        throw SetupError(ErrorKind::SessionLost,
                          "OpenXR: the runtime kept a swapchain image for 5 s "
                          "(xrWaitSwapchainImage: XR_TIMEOUT_EXPIRED): it hangs; start it again");
     }

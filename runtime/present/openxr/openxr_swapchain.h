@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "runtime/openxr/xr_check.h"
-#include "runtime/render/frame_renderer.h"
+#include "runtime/render/eye_target.h"
+#include "runtime/vulkan/context.h"
 
 namespace gazeloop::present {
 
@@ -14,7 +15,7 @@ enum class SwapchainContent { Color, Depth };
 /// One eye's swapchain with views of its images.
 class OpenXrSwapchain {
   public:
-    OpenXrSwapchain(const render::VulkanContext& context, XrSession session, vk::Extent2D extent,
+    OpenXrSwapchain(const vulkan::Context& context, XrSession session, vk::Extent2D extent,
                     vk::Format format, SwapchainContent content);
     OpenXrSwapchain(OpenXrSwapchain&& other) noexcept;
     OpenXrSwapchain& operator=(OpenXrSwapchain&&) = delete;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "runtime/latency/clock.h"
 #include "runtime/openxr/enumerate.h"
 #include "runtime/openxr/instance.h"
 #include "runtime/openxr/runtime_choice.h"
@@ -15,6 +14,7 @@
 #include "runtime/present/openxr/openxr_pictures.h"
 #include "runtime/present/openxr/openxr_views.h"
 #include "runtime/present/openxr/visibility_mask.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::present {
 namespace {
@@ -62,9 +62,9 @@ class SessionTarget final : public OpenXrTarget {
                      choice_.manifest);
     }
 
-    render::VulkanFactory* vulkan_factory() override { return &vulkan_; }
+    vulkan::Factory* vulkan_factory() override { return &vulkan_; }
 
-    void start(const render::VulkanContext& context) override {
+    void start(const vulkan::Context& context) override {
         session_.emplace(instance_, clock_, context);
         views_.emplace(*session_, extents_);
         if (instance_.has(XR_KHR_VISIBILITY_MASK_EXTENSION_NAME)) {
@@ -109,12 +109,12 @@ class SessionTarget final : public OpenXrTarget {
         const auto display_ns = clock_.host_ns(display_time_);
         xr_check_session(display_ns ? XR_SUCCESS : XR_ERROR_TIME_INVALID,
                          "the announced display time is none: xrConvertTimeToTimespecTimeKHR");
-        frame.display = {*display_ns, latency::StampKind::Predicted};
+        frame.display = {*display_ns, time::StampKind::Predicted};
         // Some runtimes know no period at first; 0 says so.
         const XrDuration period = state.predictedDisplayPeriod;
         frame.period_ns = period > 0 && period <= kLongestPeriodNs ? period : 0;
         frame.should_render = state.shouldRender == XR_TRUE;
-        if (const auto odd = announced_.next(*display_ns, latency::monotonic_ns())) {
+        if (const auto odd = announced_.next(*display_ns, time::monotonic_ns())) {
             session_->tell(*odd);
         }
     }

@@ -3,14 +3,15 @@
 #include <memory>
 #include <vector>
 
+#include "runtime/display/display_profile.h"
 #include "runtime/openxr/session.h"
-#include "runtime/present/display_profile.h"
 #include "runtime/present/frame_target.h"
 
 namespace gazeloop::present {
 
 struct OpenXrOptions {
-    DisplayProfile display;   ///< what the simulated display is set to, where we simulate it
+    display::DisplayProfile
+        display;              ///< what the simulated display is set to, where we simulate it
     double scale = 1.0;       ///< of the runtime's recommended size
     bool validation = false;  ///< the core validation layer; its findings go to the log
     /// Give depth images along, where the runtime takes them (XR_KHR_composition_layer_depth).

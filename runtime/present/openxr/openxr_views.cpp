@@ -57,7 +57,7 @@ bool OpenXrViews::take_field_of_view(std::size_t eye, const XrFovf& fov) {
         return true;
     }
     if (!gaze::is_valid(views_[eye])) {
-        throw SetupError(ExitCode::NoDevice,
+        throw SetupError(ErrorKind::NoDevice,
                          fmt::format("{} gives the {} eye a field of view that nothing can be "
                                      "rendered for; use another runtime or --target headless",
                                      session_.instance().runtime_name(), gaze::kEyeNames[eye]));

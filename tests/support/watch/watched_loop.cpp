@@ -13,12 +13,12 @@
 
 #include "drivers/openxr/openxr_source.h"
 #include "drivers/trace/trace_source.h"
-#include "runtime/cli/profiles.h"
-#include "runtime/cli/run_observers.h"
 #include "runtime/frame_loop.h"
-#include "runtime/latency/clock.h"
 #include "runtime/present/headless_target.h"
 #include "runtime/present/openxr/openxr_target.h"
+#include "runtime/run/run_observers.h"
+#include "runtime/settings/profiles.h"
+#include "runtime/time/clock.h"
 #include "sim/gaze_generator.h"
 #include "tests/support/watch/watched_call.h"
 #include "tests/support/watch/watched_vulkan.h"
@@ -31,7 +31,7 @@ std::size_t resident_bytes() {
     unsigned long size = 0;
     unsigned long resident = 0;
     if (file == nullptr || std::fscanf(file, "%lu %lu", &size, &resident) != 2) {
-        throw SetupError(ExitCode::NoDevice, "/proc/self/statm cannot be read");
+        throw SetupError(ErrorKind::NoDevice, "/proc/self/statm cannot be read");
     }
     std::fclose(file);
     return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
@@ -46,7 +46,7 @@ class MarkingSource final : public drivers::GazeSource {
         mark_gaze();
         source_->poll(now_ns, samples);
     }
-    void see(const gaze::SeenDepth& seen) override { source_->see(seen); }
+    void take_seen_depth(const gaze::SeenDepth& seen) override { source_->take_seen_depth(seen); }
     [[nodiscard]] std::vector<drivers::SourceEvent> take_events() override {
         return source_->take_events();
     }
@@ -60,12 +60,12 @@ class MarkingSource final : public drivers::GazeSource {
 };
 
 /// Comes last among the observers and draws the line between frames.
-class FrameWatch final : public FrameObserver {
+class FrameWatch final : public frame::FrameObserver {
   public:
     /// Its own memory is there, page by page, from the start.
     explicit FrameWatch(const WatchedLoop& options)
         : every_(options.resident_every), frames_(options.frames) {}
-    void on_frame(const latency::FrameRecord& record) override {
+    void on_frame(const frame::FrameRecord& record) override {
         const Spent now = spent_outside_calls();
         const Spent spent = now - before_;
         WatchedFrame frame{.cpu_ns = spent.cpu_ns,
@@ -91,7 +91,7 @@ class FrameWatch final : public FrameObserver {
 };
 
 std::unique_ptr<present::OpenXrTarget> make_openxr(const WatchedLoop& options,
-                                                   const present::DisplayProfile& display) {
+                                                   const display::DisplayProfile& display) {
     if (!options.openxr) {
         return nullptr;
     }
@@ -103,7 +103,7 @@ std::unique_ptr<present::OpenXrTarget> make_openxr(const WatchedLoop& options,
 }
 
 std::unique_ptr<present::FrameTarget> make_headless(const WatchedLoop& options,
-                                                    const present::DisplayProfile& display) {
+                                                    const display::DisplayProfile& display) {
     const auto scaled = [&](std::uint32_t side) {
         return std::max(2U, static_cast<std::uint32_t>(std::lround(side * options.scale)));
     };
@@ -115,15 +115,14 @@ std::unique_ptr<present::FrameTarget> make_headless(const WatchedLoop& options,
 }  // namespace
 
 std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
-    const present::DisplayProfile display = value_or_throw(cli::load_display("fove0"));
+    const display::DisplayProfile display = value_or_throw(settings::load_display("fove0"));
     // In this order, because the context is the last to go but for the runtime's instance.
-    std::unique_ptr<render::VulkanContext> context;
+    std::unique_ptr<vulkan::Context> context;
     std::unique_ptr<present::OpenXrTarget> openxr = make_openxr(options, display);
     const present::OpenXrTarget* const shared = openxr.get();
     const std::unique_ptr<present::FrameTarget> target =
         openxr != nullptr ? std::move(openxr) : make_headless(options, display);
-    context =
-        std::make_unique<render::VulkanContext>(render::VulkanOptions{}, target->vulkan_factory());
+    context = std::make_unique<vulkan::Context>(vulkan::ContextOptions{}, target->vulkan_factory());
     watch_vulkan(*context);
     target->start(*context);
     render::RendererConfig config;
@@ -137,16 +136,16 @@ std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
 
     latency::LatencySummary summary(
         {.clock = latency::LoopClock::Wall, .period_ns = display.period_ns()});
-    cli::Summing summing(summary);
-    cli::Logging logging;
+    run::SummaryObserver summing(summary);
+    run::LogObserver logging;
     FrameWatch watch(options);
     std::unique_ptr<session::SessionRecorder> recorder;
-    std::optional<cli::Recording> recording;
+    std::optional<run::RecordingObserver> recording;
     LoopParts parts{
         .target = *target,
         .renderer = renderer,
         .gaze = gaze,
-        .make_timeline = [] { return std::make_unique<LiveTimeline>(latency::measured_now().ns); },
+        .make_timeline = [] { return std::make_unique<LiveTimeline>(time::measured_now().ns); },
         .make_source =
             [&](std::int64_t start_ns) {
                 std::unique_ptr<drivers::GazeSource> source;
@@ -171,9 +170,9 @@ std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
     loop.frames = options.frames;
     run_frame_loop(parts, loop);
     if (recorder != nullptr && !recorder->close().complete()) {
-        throw SetupError(ExitCode::RecordingIncomplete, recorder->close().failure +
-                                                            ": the watched loop's recording is "
-                                                            "not complete");
+        throw SetupError(ErrorKind::RecordingIncomplete, recorder->close().failure +
+                                                             ": the watched loop's recording is "
+                                                             "not complete");
     }
     return watch.take();
 }

@@ -35,7 +35,7 @@ void install(Dispatcher& dispatcher) {
 
 }  // namespace
 
-void watch_vulkan(const render::VulkanContext& context) {
+void watch_vulkan(const vulkan::Context& context) {
     // The one place where a device's calls all pass; every object made on it looks here.
     auto& dispatcher = const_cast<Dispatcher&>(*context.device().getDispatcher());
     using D = Dispatcher;

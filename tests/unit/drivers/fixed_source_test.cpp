@@ -40,7 +40,7 @@ TEST(FixedSource, GivesOneFreshSampleAPoll) {
     source.poll(200, samples);
     ASSERT_EQ(samples.size(), 2U);
     EXPECT_EQ(samples[1].sequence, samples[0].sequence + 1);
-    EXPECT_EQ(samples[1].sampled, (latency::Stamp{200, latency::StampKind::Modelled}));
+    EXPECT_EQ(samples[1].sampled, (time::Stamp{200, time::StampKind::Modelled}));
     EXPECT_EQ(samples[1].arrived, samples[1].sampled);
     EXPECT_TRUE(samples[1].eyes[0].valid && samples[1].eyes[1].valid);
     EXPECT_FALSE(samples[1].head.has_value());
@@ -64,7 +64,7 @@ TEST(ParseFixedGaze, RefusesEverythingElse) {
           "0,nan", "inf,0", "1e999,0"}) {
         const Expected<FixedGaze> fixed = parse_fixed_gaze(text);
         ASSERT_FALSE(fixed.has_value()) << text;
-        EXPECT_EQ(fixed.error().code, ExitCode::Usage);
+        EXPECT_EQ(fixed.error().kind, ErrorKind::Usage);
         EXPECT_NE(fixed.error().message.find(text), std::string::npos);
     }
 }

@@ -17,7 +17,7 @@
 namespace gazeloop::drivers {
 namespace {
 
-Trace read_rows(const std::string& rows) {
+gaze::GazeTrace read_rows(const std::string& rows) {
     return value_or_throw(read_text(fmt::format("{}\r\n{}", kHtcHeader, rows)));
 }
 
@@ -74,11 +74,12 @@ TEST(HtcVivePro, TakesOpennessOutsideItsRangeAsUnknown) {
 
 TEST(HtcVivePro, CountsTimeFromTheFirstRowInHundredsOfNanoseconds) {
     // Ticks since the year 1: as nanoseconds they would not fit 64 bits.
-    const Trace trace = read_rows(htc_row(638342794000115346) + htc_row(638342794000195116));
+    const gaze::GazeTrace trace =
+        read_rows(htc_row(638342794000115346) + htc_row(638342794000195116));
     ASSERT_EQ(trace.samples.size(), 2U);
     EXPECT_EQ(trace.samples[0].device_ns, 0);
     EXPECT_EQ(trace.samples[1].device_ns, 7'977'000);
-    EXPECT_EQ(trace.samples[1].sampled, (latency::Stamp{7'977'000, latency::StampKind::Modelled}));
+    EXPECT_EQ(trace.samples[1].sampled, (time::Stamp{7'977'000, time::StampKind::Modelled}));
     EXPECT_FALSE(trace.samples[1].arrived.known());
     EXPECT_EQ(trace.samples[1].sequence, 1U);
 }
@@ -116,15 +117,15 @@ TEST(HtcVivePro, AppliesRollThenPitchThenYaw) {
 const std::filesystem::path kRecordings =
     std::filesystem::path(GAZELOOP_SOURCE_DIR) / ".." / "shared/data/traces/htc_vive_pro";
 
-std::vector<Trace> recorded() {
+std::vector<gaze::GazeTrace> recorded() {
     std::vector<std::string> files;
     for (const auto& entry : std::filesystem::directory_iterator(kRecordings)) {
         files.push_back(entry.path().string());
     }
     std::sort(files.begin(), files.end());
-    std::vector<Trace> traces;
+    std::vector<gaze::GazeTrace> traces;
     for (const std::string& file : files) {
-        Expected<Trace> trace = read_trace(file);
+        Expected<gaze::GazeTrace> trace = read_trace(file);
         if (trace) {
             traces.push_back(std::move(*trace));
         } else {
@@ -169,7 +170,7 @@ struct Velocities {
     std::vector<double> in_head, in_world;    ///< speed of the gaze while the head turns
 };
 
-Velocities velocities(const Trace& trace, std::size_t eye) {
+Velocities velocities(const gaze::GazeTrace& trace, std::size_t eye) {
     constexpr std::size_t kRows = 3;
     constexpr double kSaccade_deg_per_s = 100.0;
     constexpr double kTurning_deg_per_s = 10.0;
@@ -214,9 +215,9 @@ TEST(HtcViveProRecordings, HaveTheEyesOnTheirSidesAndLookForward) {
     if (!std::filesystem::exists(kRecordings)) {
         GTEST_SKIP() << "no recorded data";
     }
-    const std::vector<Trace> traces = recorded();
+    const std::vector<gaze::GazeTrace> traces = recorded();
     ASSERT_FALSE(traces.empty()) << kRecordings << " is there and holds nothing";
-    for (const Trace& trace : traces) {
+    for (const gaze::GazeTrace& trace : traces) {
         std::vector<double> left_x;
         std::vector<double> right_x;
         std::vector<double> vergence;
@@ -243,9 +244,9 @@ TEST(HtcViveProRecordings, ShowTheVestibuloOcularReflex) {
     if (!std::filesystem::exists(kRecordings)) {
         GTEST_SKIP() << "no recorded data";
     }
-    const std::vector<Trace> traces = recorded();
+    const std::vector<gaze::GazeTrace> traces = recorded();
     ASSERT_FALSE(traces.empty()) << kRecordings << " is there and holds nothing";
-    for (const Trace& trace : traces) {
+    for (const gaze::GazeTrace& trace : traces) {
         for (const std::size_t eye : {0U, 1U}) {
             const Velocities v = velocities(trace, eye);
             const double yaw = correlation(v.eye_right, v.head_right);

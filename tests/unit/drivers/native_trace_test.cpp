@@ -27,35 +27,34 @@ using ::testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-Trace read_rows(const std::string& rows) {
+gaze::GazeTrace read_rows(const std::string& rows) {
     return value_or_throw(read_text(fmt::format("{}\n{}", kNativeHeader, rows)));
 }
 
 std::string refusal(const std::string& rows) {
-    const Expected<Trace> trace = read_text(fmt::format("{}\n{}", kNativeHeader, rows));
+    const Expected<gaze::GazeTrace> trace = read_text(fmt::format("{}\n{}", kNativeHeader, rows));
     return trace ? "accepted" : trace.error().message;
 }
 
-std::string written(const Trace& trace) {
+std::string written(const gaze::GazeTrace& trace) {
     std::ostringstream out;
     write_native_trace(trace, out);
     return out.str();
 }
 
 /// Numbers that need all their digits, both eyes in every state, with and without head and arrival.
-Trace awkward_trace() {
-    Trace trace;
+gaze::GazeTrace awkward_trace() {
+    gaze::GazeTrace trace;
     for (std::uint64_t i = 0; i < 6; ++i) {
         const double x = 0.1 * static_cast<double>(i) + 1.0 / 3.0;
         gaze::GazeSample sample;
         sample.sequence = 18'446'744'073'709'551'000U + 2 * i;
         sample.device_ns =
             -5'000'000'000'000'000'001 + static_cast<std::int64_t>(i * i) * 8'333'333;
-        sample.sampled = {static_cast<std::int64_t>(i * i) * 8'333'333,
-                          latency::StampKind::Modelled};
+        sample.sampled = {static_cast<std::int64_t>(i * i) * 8'333'333, time::StampKind::Modelled};
         if (i % 2 == 0) {
             sample.arrived = {sample.sampled.ns + static_cast<std::int64_t>(i) * 12'345,
-                              latency::StampKind::Modelled};
+                              time::StampKind::Modelled};
         }
         if (i % 3 != 0) {
             sample.head =
@@ -85,9 +84,9 @@ void expect_same_bits(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 TEST(NativeTrace, ComesBackBitForBit) {
-    const Trace trace = awkward_trace();
+    const gaze::GazeTrace trace = awkward_trace();
     const std::string text = written(trace);
-    const Expected<Trace> read = read_text(text);
+    const Expected<gaze::GazeTrace> read = read_text(text);
     ASSERT_TRUE(read.has_value()) << read.error().message;
     ASSERT_EQ(read->samples.size(), trace.samples.size());
     for (std::size_t i = 0; i < trace.samples.size(); ++i) {
@@ -118,7 +117,7 @@ TEST(NativeTrace, ComesBackBitForBit) {
 }
 
 TEST(NativeTrace, WritesTheColumnsThatItReads) {
-    EXPECT_EQ(written(Trace{}), std::string{kNativeHeader} + "\n");
+    EXPECT_EQ(written(gaze::GazeTrace{}), std::string{kNativeHeader} + "\n");
 }
 
 TEST(NativeTrace, DoesNotLetTheLocaleIn) {
@@ -140,12 +139,12 @@ TEST(NativeTrace, DoesNotLetTheLocaleIn) {
 }
 
 TEST(NativeTrace, LeavesWhatIsNotFiniteBlankAndReadsItAsUnknown) {
-    Trace trace = awkward_trace();
+    gaze::GazeTrace trace = awkward_trace();
     gaze::EyeRay& invalid = trace.samples[0].eyes[0];
     ASSERT_FALSE(invalid.valid);
     invalid.direction = {kNan, kNan, kNan};
     invalid.openness = kNan;
-    const Expected<Trace> read = read_text(written(trace));
+    const Expected<gaze::GazeTrace> read = read_text(written(trace));
     ASSERT_TRUE(read.has_value()) << read.error().message;
     EXPECT_EQ(read->samples[0].eyes[0].direction, glm::dvec3(0.0, 0.0, -1.0));
     EXPECT_EQ(read->samples[0].eyes[0].openness, -1.0);
@@ -192,19 +191,21 @@ TEST(NativeTrace, RefusesValuesOutOfRange) {
 }
 
 TEST(NativeTrace, CountsGapsInTheSequence) {
-    const Trace trace = read_rows(native_row(10, 100) + native_row(11, 200) + native_row(15, 300) +
-                                  native_row(3, 400) + native_row(5, 500));
+    const gaze::GazeTrace trace =
+        read_rows(native_row(10, 100) + native_row(11, 200) + native_row(15, 300) +
+                  native_row(3, 400) + native_row(5, 500));
     EXPECT_EQ(trace.rows_missing, 4U);
     EXPECT_EQ(trace.samples.size(), 5U);
 }
 
 TEST(NativeTrace, KeepsHowMuchLongerSomeReportsTook) {
     // Device and host clocks share nothing but their rate. Taken to arrived: 5000 + 0, 3, 1, -2.
-    const Trace trace = read_rows(native_row(0, 100, "5100") + native_row(1, 110, "5113") +
-                                  native_row(2, 120, "5121") + native_row(3, 130, "5128"));
+    const gaze::GazeTrace trace =
+        read_rows(native_row(0, 100, "5100") + native_row(1, 110, "5113") +
+                  native_row(2, 120, "5121") + native_row(3, 130, "5128"));
     std::vector<std::int64_t> taken;
     for (const gaze::GazeSample& sample : trace.samples) {
-        EXPECT_EQ(sample.arrived.kind, latency::StampKind::Modelled);
+        EXPECT_EQ(sample.arrived.kind, time::StampKind::Modelled);
         taken.push_back(sample.arrived.ns - sample.sampled.ns);
     }
     EXPECT_EQ(taken, (std::vector<std::int64_t>{2, 5, 3, 0}));
@@ -215,11 +216,11 @@ TEST(NativeTrace, WritesASidecarThatItAccepts) {
                                          fmt::format("gazeloop-native-trace-{}", ::getpid());
     std::filesystem::create_directories(folder);
     const std::string file = (folder / "out.csv").string();
-    Trace trace = awkward_trace();
+    gaze::GazeTrace trace = awkward_trace();
     trace.device = "Tracker \"of\" ours";
     const Expected<void> done = write_native_trace(trace, file);
     ASSERT_TRUE(done.has_value()) << done.error().message;
-    const Expected<Trace> read = read_trace(file);
+    const Expected<gaze::GazeTrace> read = read_trace(file);
     ASSERT_TRUE(read.has_value()) << read.error().message;
     EXPECT_EQ(read->device, trace.device);
     EXPECT_EQ(read->samples.size(), trace.samples.size());
@@ -236,7 +237,7 @@ TEST(NativeTrace, WritesASidecarThatItAccepts) {
 TEST(NativeTrace, SaysWhereItCannotWrite) {
     const Expected<void> done = write_native_trace(awkward_trace(), "/nonexistent/folder/out.csv");
     ASSERT_FALSE(done.has_value());
-    EXPECT_EQ(done.error().code, ExitCode::BadInput);
+    EXPECT_EQ(done.error().kind, ErrorKind::BadInput);
     EXPECT_EQ(done.error().message,
               "/nonexistent/folder/out.csv: cannot be written (No such file or directory)");
 }

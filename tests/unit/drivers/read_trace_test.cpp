@@ -26,9 +26,9 @@ std::string native(const std::string& more) {
     return fmt::format("{}\n{}{}", kNativeHeader, native_row(0, 1000), more);
 }
 
-void expect_refused(const Expected<Trace>& trace, const std::string& message) {
+void expect_refused(const Expected<gaze::GazeTrace>& trace, const std::string& message) {
     ASSERT_FALSE(trace.has_value());
-    EXPECT_EQ(trace.error().code, ExitCode::BadInput);
+    EXPECT_EQ(trace.error().kind, ErrorKind::BadInput);
     EXPECT_THAT(trace.error().message, HasSubstr(message));
 }
 
@@ -49,18 +49,18 @@ class ReadTraceFile : public ::testing::Test {
 };
 
 TEST(ReadTrace, KnowsTheFormatsByTheirHeaders) {
-    const Expected<Trace> from_htc = read_text(htc(""));
+    const Expected<gaze::GazeTrace> from_htc = read_text(htc(""));
     ASSERT_TRUE(from_htc.has_value()) << from_htc.error().message;
     EXPECT_EQ(from_htc->format, "htc-vive-pro");
     EXPECT_EQ(from_htc->device, "HTC Vive Pro");
     EXPECT_EQ(from_htc->file, "gaze.csv");
-    const Expected<Trace> from_native = read_text(native(""));
+    const Expected<gaze::GazeTrace> from_native = read_text(native(""));
     ASSERT_TRUE(from_native.has_value()) << from_native.error().message;
     EXPECT_EQ(from_native->format, "gazeloop");
 }
 
 TEST(ReadTrace, FindsColumnsByNameInAnyOrderAndAmongOthers) {
-    const Expected<Trace> trace = read_text(
+    const Expected<gaze::GazeTrace> trace = read_text(
         "frown_L;gaze_direct_L.z;gaze_direct_L.y;gaze_direct_L.x;gaze_direct_R.x;gaze_direct_R.y;"
         "gaze_direct_R.z;eye_valid_R;eye_valid_L;openness_R;openness_L;gaze_origin_L.x(mm);"
         "gaze_origin_L.y(mm);gaze_origin_L.z(mm);gaze_origin_R.x(mm);gaze_origin_R.y(mm);"
@@ -76,9 +76,9 @@ TEST(ReadTrace, FindsColumnsByNameInAnyOrderAndAmongOthers) {
 }
 
 TEST(ReadTrace, RefusesAFormatThatDoesNotExist) {
-    const Expected<Trace> trace = read_text(htc(""), "csv");
+    const Expected<gaze::GazeTrace> trace = read_text(htc(""), "csv");
     ASSERT_FALSE(trace.has_value());
-    EXPECT_EQ(trace.error().code, ExitCode::Usage);
+    EXPECT_EQ(trace.error().kind, ErrorKind::Usage);
     EXPECT_EQ(trace.error().message,
               "unknown trace format 'csv'; known: auto, gazeloop, htc-vive-pro");
 }
@@ -101,7 +101,7 @@ TEST(ReadTrace, NamesTheColumnsThatTheNearestFormatLacks) {
 }
 
 TEST(ReadTrace, NamesNoNearestFormatWhereNothingFits) {
-    const Expected<Trace> trace = read_text("a,b,c\n1,2,3\n");
+    const Expected<gaze::GazeTrace> trace = read_text("a,b,c\n1,2,3\n");
     ASSERT_FALSE(trace.has_value());
     EXPECT_EQ(trace.error().message,
               "gaze.csv:1: unknown header; known formats: gazeloop, htc-vive-pro");
@@ -115,7 +115,7 @@ TEST(ReadTrace, RefusesAnEmptyFile) {
 
 TEST(ReadTrace, RefusesAFileWithoutRows) {
     expect_refused(read_text(std::string{kHtcHeader}), "gaze.csv: no rows after the header");
-    expect_refused(read_text(std::string{kHtcHeader} + "\r\n\r\n  \r\n"),
+    expect_refused(read_text(fmt::format("{}\r\n\r\n  \r\n", kHtcHeader)),
                    "gaze.csv: no rows after the header");
 }
 
@@ -188,13 +188,13 @@ TEST(ReadTrace, RefusesABinaryFile) {
 
 TEST(ReadTrace, QuotesCellsSafely) {
     expect_refused(read_text(htc(htc_row(2000, "0;\xff\xfe;1"))),
-                   "'" + std::string(2, '?') + "' is not a number");
+                   fmt::format("'{}' is not a number", std::string(2, '?')));
     expect_refused(read_text(htc(htc_row(2000, fmt::format("0;{};1", std::string(500, 'a'))))),
                    fmt::format("'{}...' is not a number", std::string(40, 'a')));
 }
 
 TEST(ReadTrace, DropsAndCountsRowsWhoseTimeDoesNotAdvance) {
-    const Expected<Trace> trace =
+    const Expected<gaze::GazeTrace> trace =
         read_text(htc(htc_row(3000) + htc_row(2000) + htc_row(3000) + htc_row(3001)));
     ASSERT_TRUE(trace.has_value()) << trace.error().message;
     EXPECT_EQ(trace->rows_out_of_order, 2U);
@@ -216,7 +216,7 @@ TEST(ReadTrace, RefusesTimesThatCannotBelongToOneRecording) {
 TEST(ReadTrace, AcceptsAMissingLastLineEnd) {
     std::string text = htc(htc_row(2000));
     text.resize(text.size() - 2);
-    const Expected<Trace> trace = read_text(text);
+    const Expected<gaze::GazeTrace> trace = read_text(text);
     ASSERT_TRUE(trace.has_value()) << trace.error().message;
     EXPECT_EQ(trace->samples.size(), 2U);
 }
@@ -227,7 +227,7 @@ TEST(ReadTrace, IgnoresAByteOrderMark) {
 
 TEST_F(ReadTraceFile, ReadsAFile) {
     const std::string file = write("gaze.csv", htc(htc_row(2000)));
-    const Expected<Trace> trace = read_trace(file);
+    const Expected<gaze::GazeTrace> trace = read_trace(file);
     ASSERT_TRUE(trace.has_value()) << trace.error().message;
     EXPECT_EQ(trace->file, file);
     EXPECT_EQ(trace->samples.size(), 2U);

@@ -27,7 +27,7 @@ sim::GazeSimulation bad_tracker(std::uint64_t seed) {
 
 TEST(SimulatedSource, GivesTheTracesSamples) {
     const sim::GazeSimulation simulation = bad_tracker(7);
-    const drivers::Trace trace = sim::generate_gaze(simulation, 5.0);
+    const gaze::GazeTrace trace = sim::generate_gaze(simulation, 5.0);
     SimulatedSource source(simulation, kStart_ns);
     std::vector<gaze::GazeSample> samples;
     source.poll(kStart_ns + 6'000'000'000, samples);

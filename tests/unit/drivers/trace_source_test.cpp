@@ -11,8 +11,8 @@
 namespace gazeloop::drivers {
 namespace {
 
-using latency::Stamp;
-using latency::StampKind;
+using time::Stamp;
+using time::StampKind;
 
 constexpr std::int64_t kStart_ns = 1'000'000;
 
@@ -25,8 +25,8 @@ gaze::GazeSample sample_at(std::int64_t sampled_ns) {
     return sample;
 }
 
-Trace trace_of(const std::vector<gaze::GazeSample>& samples) {
-    Trace trace;
+gaze::GazeTrace trace_of(const std::vector<gaze::GazeSample>& samples) {
+    gaze::GazeTrace trace;
     trace.file = "gaze.csv";
     trace.device = "HTC Vive Pro";
     trace.samples = samples;
@@ -152,7 +152,7 @@ TEST(TraceSource, GivesTheHeadTrackInHostTime) {
 }
 
 TEST(TraceSource, DescribesItself) {
-    Trace trace = trace_of({sample_at(0), sample_at(100)});
+    gaze::GazeTrace trace = trace_of({sample_at(0), sample_at(100)});
     EXPECT_EQ(TraceSource(trace, 0, 0).description(), "trace gaze.csv (HTC Vive Pro, 2 samples)");
     trace.rows_out_of_order = 3;
     trace.rows_missing = 4;

@@ -10,7 +10,8 @@
 
 namespace gazeloop::drivers {
 
-inline Expected<Trace> read_text(const std::string& text, std::string_view format = "auto") {
+inline Expected<gaze::GazeTrace> read_text(const std::string& text,
+                                           std::string_view format = "auto") {
     std::istringstream in(text);
     return read_trace(in, "gaze.csv", format);
 }

@@ -51,7 +51,7 @@ StereoView views_of(const Pose& head, const PerEye<Pose>& in_head) {
             square_view(compose(head, in_head[kRight]))};
 }
 
-latency::Stamp at_ms(std::int64_t ms) { return {ms * kMs, latency::StampKind::Modelled}; }
+time::Stamp at_ms(std::int64_t ms) { return {ms * kMs, time::StampKind::Modelled}; }
 
 GazeSample invalid_sample(std::int64_t ms) {
     GazeSample sample;
@@ -104,7 +104,7 @@ TEST(GazeToFovea, RestsInTheCentreWithoutAnySample) {
     const FrameFovea frame = gaze.latch(at_ms(5), {}, centred_views());
     EXPECT_EQ(frame.latched, at_ms(5));
     for (const FoveaPoint& point : frame.eyes) {
-        expect_state(point, FoveaState::Centre, LossReason::Never);
+        expect_state(point, FoveaState::Ahead, LossReason::Never);
         EXPECT_DOUBLE_EQ(point.position.x_px, 500.0);
         EXPECT_DOUBLE_EQ(point.position.y_px, 500.0);
         EXPECT_EQ(point.sample_sequence, 0U);
@@ -117,7 +117,7 @@ TEST(GazeToFovea, NeverCountsInvalidSamplesAsGaze) {
     GazeToFovea gaze(policy());
     gaze.add(invalid_sample(0));
     gaze.add(invalid_sample(8));
-    expect_state(left_at(gaze, 9), FoveaState::Centre, LossReason::Never);
+    expect_state(left_at(gaze, 9), FoveaState::Ahead, LossReason::Never);
 }
 
 TEST(GazeToFovea, TracksEachEyeByItself) {
@@ -162,7 +162,7 @@ TEST(GazeToFovea, BelievesOnlyConfidentFiniteDirections) {
         sample.eyes[kRight].valid = true;
         change(sample.eyes[kRight]);
         gaze.add(sample);
-        return left_at(gaze, 1).state != FoveaState::Centre;
+        return left_at(gaze, 1).state != FoveaState::Ahead;
     };
     EXPECT_TRUE(is_taken([](EyeRay&) {}));
     EXPECT_TRUE(is_taken([](EyeRay& ray) { ray.confidence = 0.6; }));
@@ -217,9 +217,9 @@ TEST_F(Blink, GoesThroughEveryStateInTurn) {
 
     EXPECT_LT(angle_deg(after_invalid_until(499).direction, towards(0.0)), 0.01);
     const FoveaPoint centre = after_invalid_until(500);
-    expect_state(centre, FoveaState::Centre, LossReason::Invalid);
+    expect_state(centre, FoveaState::Ahead, LossReason::Invalid);
     EXPECT_DOUBLE_EQ(centre.position.x_px, 500.0);
-    expect_state(after_invalid_until(60'000), FoveaState::Centre, LossReason::Invalid);
+    expect_state(after_invalid_until(60'000), FoveaState::Ahead, LossReason::Invalid);
 }
 
 TEST_F(Blink, EndsWithTheFirstValidSample) {
@@ -237,7 +237,7 @@ TEST(GazeToFovea, GoesStaleWhenSamplesStop) {
     expect_state(left_at(gaze, 151), FoveaState::Held, LossReason::Stale);
     expect_state(left_at(gaze, 350), FoveaState::Held, LossReason::Stale);
     expect_state(left_at(gaze, 351), FoveaState::Returning, LossReason::Stale);
-    expect_state(left_at(gaze, 550), FoveaState::Centre, LossReason::Stale);
+    expect_state(left_at(gaze, 550), FoveaState::Ahead, LossReason::Stale);
 }
 
 TEST(GazeToFovea, SaysStaleWhenATrackerIsUnpluggedDuringABlink) {
@@ -254,7 +254,7 @@ TEST(GazeToFovea, ReturnsAtOnceWhereThePolicyLeavesNoTime) {
     GazeToFovea gaze(abrupt);
     gaze.add(sample_of(0, towards(20.0)));
     expect_state(left_at(gaze, 300), FoveaState::Held, LossReason::Stale);
-    expect_state(left_at(gaze, 301), FoveaState::Centre, LossReason::Stale);
+    expect_state(left_at(gaze, 301), FoveaState::Ahead, LossReason::Stale);
 }
 
 TEST(GazeToFovea, IgnoresWhatGoesBackInTime) {
@@ -331,7 +331,7 @@ TEST(GazeToFovea, TakesASampleOfUnknownAgeForTooOld) {
     sample.sampled = {};
     sample.arrived = {};
     gaze.add(sample);
-    expect_state(left_at(gaze, 0), FoveaState::Centre, LossReason::Stale);
+    expect_state(left_at(gaze, 0), FoveaState::Ahead, LossReason::Stale);
 
     GazeSample arrived = sample_of(10, towards(20.0));
     arrived.sampled = {};
@@ -349,9 +349,9 @@ TEST(GazeToFovea, SurvivesExtremeTimes) {
     sample.sampled.ns = kMin;
     sample.arrived.ns = kMin;
     gaze.add(sample);
-    const FrameFovea late = gaze.latch({kMax, latency::StampKind::Modelled}, {}, centred_views());
-    expect_state(late.eyes[kLeft], FoveaState::Centre, LossReason::Stale);
-    const FrameFovea now = gaze.latch({kMin, latency::StampKind::Modelled}, {}, centred_views());
+    const FrameFovea late = gaze.latch({kMax, time::StampKind::Modelled}, {}, centred_views());
+    expect_state(late.eyes[kLeft], FoveaState::Ahead, LossReason::Stale);
+    const FrameFovea now = gaze.latch({kMin, time::StampKind::Modelled}, {}, centred_views());
     expect_state(now.eyes[kLeft], FoveaState::Tracking, LossReason::None);
 }
 
@@ -461,7 +461,7 @@ TEST(GazeToFovea, ReturnsToStraightAheadOfTheHeadInCantedViews) {
     sample.head = head;
     gaze.add(sample);
     const FrameFovea centre = gaze.latch(at_ms(600), head, views_of(head, in_head));
-    expect_state(centre.eyes[kLeft], FoveaState::Centre, LossReason::Stale);
+    expect_state(centre.eyes[kLeft], FoveaState::Ahead, LossReason::Stale);
     EXPECT_NEAR(angle_deg(centre.eyes[kLeft].direction, towards(8.0)), 0.0, 1e-9);
     EXPECT_NEAR(angle_deg(centre.eyes[kRight].direction, towards(-8.0)), 0.0, 1e-9);
     const FrameFovea half = gaze.latch(at_ms(400), head, views_of(head, in_head));

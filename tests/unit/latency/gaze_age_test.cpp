@@ -11,35 +11,36 @@ namespace {
 
 constexpr std::int64_t kPeriodNs = 10'000'000;
 
-Stamp measured(std::int64_t ns) { return {ns, StampKind::Measured}; }
+time::Stamp measured(std::int64_t ns) { return {ns, time::StampKind::Measured}; }
 
-const Span& stage(const GazeAge& age, Stage stage) {
+const time::Span& stage(const GazeAge& age, Stage stage) {
     return age.stages[static_cast<std::size_t>(stage)];
 }
 
 TEST(Weaker, PicksTheLessCertainKind) {
-    const std::array order{StampKind::Measured, StampKind::Profile, StampKind::Modelled,
-                           StampKind::Predicted, StampKind::Unknown};
+    const std::array order{time::StampKind::Measured, time::StampKind::Profile,
+                           time::StampKind::Modelled, time::StampKind::Predicted,
+                           time::StampKind::Unknown};
     for (std::size_t better = 0; better < order.size(); ++better) {
         for (std::size_t worse = better; worse < order.size(); ++worse) {
-            EXPECT_EQ(weaker(order[better], order[worse]), order[worse]);
-            EXPECT_EQ(weaker(order[worse], order[better]), order[worse]);
+            EXPECT_EQ(time::weaker(order[better], order[worse]), order[worse]);
+            EXPECT_EQ(time::weaker(order[worse], order[better]), order[worse]);
         }
     }
 }
 
 TEST(Between, DoesNotWrapAround) {
-    const Stamp least = measured(std::numeric_limits<std::int64_t>::min());
-    const Stamp greatest = measured(std::numeric_limits<std::int64_t>::max());
-    EXPECT_EQ(between(least, greatest).ns, greatest.ns);
-    EXPECT_EQ(between(greatest, least).ns, least.ns);
-    EXPECT_EQ(between(measured(3), measured(1)), (Span{-2, StampKind::Measured}));
-    EXPECT_FALSE(between(measured(3), Stamp{}).known());
+    const time::Stamp least = measured(std::numeric_limits<std::int64_t>::min());
+    const time::Stamp greatest = measured(std::numeric_limits<std::int64_t>::max());
+    EXPECT_EQ(time::between(least, greatest).ns, greatest.ns);
+    EXPECT_EQ(time::between(greatest, least).ns, least.ns);
+    EXPECT_EQ(time::between(measured(3), measured(1)), (time::Span{-2, time::StampKind::Measured}));
+    EXPECT_FALSE(time::between(measured(3), time::Stamp{}).known());
 }
 
 TEST(ShownFrame, IsShownWhenAnnouncedIfTheGpuWasInTime) {
-    FrameStamps stamps;
-    stamps.display = {100, StampKind::Predicted};
+    frame::FrameStamps stamps;
+    stamps.display = {100, time::StampKind::Predicted};
     stamps.gpu_end = measured(100);
     const ShownFrame shown = shown_frame(stamps, kPeriodNs);
     EXPECT_EQ(shown.at, stamps.display);
@@ -48,8 +49,8 @@ TEST(ShownFrame, IsShownWhenAnnouncedIfTheGpuWasInTime) {
 }
 
 TEST(ShownFrame, IsShownAtTheNextPeriodAfterALateEnd) {
-    FrameStamps stamps;
-    stamps.display = {100, StampKind::Predicted};
+    frame::FrameStamps stamps;
+    stamps.display = {100, time::StampKind::Predicted};
     struct Case {
         std::int64_t late_ns;
         std::uint64_t periods;
@@ -59,21 +60,21 @@ TEST(ShownFrame, IsShownAtTheNextPeriodAfterALateEnd) {
         stamps.gpu_end = measured(stamps.display.ns + late_ns);
         const ShownFrame shown = shown_frame(stamps, kPeriodNs);
         EXPECT_EQ(shown.periods_missed, periods);
-        EXPECT_EQ(shown.at, (Stamp{100 + static_cast<std::int64_t>(periods) * kPeriodNs,
-                                   StampKind::Modelled}));
+        EXPECT_EQ(shown.at, (time::Stamp{100 + static_cast<std::int64_t>(periods) * kPeriodNs,
+                                         time::StampKind::Modelled}));
     }
 }
 
 TEST(ShownFrame, AnUnknownEndLeavesTheAnnouncedTime) {
-    FrameStamps stamps;
-    stamps.display = {100, StampKind::Predicted};
+    frame::FrameStamps stamps;
+    stamps.display = {100, time::StampKind::Predicted};
     const ShownFrame shown = shown_frame(stamps, kPeriodNs);
     EXPECT_EQ(shown.at, stamps.display);
     EXPECT_FALSE(shown.in_time_known);
 }
 
 TEST(ShownFrame, ALateEndWithoutAPeriodIsShownNobodyKnowsWhen) {
-    FrameStamps stamps;
+    frame::FrameStamps stamps;
     stamps.display = measured(100);
     stamps.gpu_end = measured(101);
     const ShownFrame shown = shown_frame(stamps, 0);
@@ -82,7 +83,7 @@ TEST(ShownFrame, ALateEndWithoutAPeriodIsShownNobodyKnowsWhen) {
 }
 
 TEST(ShownFrame, DoesNotWrapAround) {
-    FrameStamps stamps;
+    frame::FrameStamps stamps;
     stamps.display = measured(std::numeric_limits<std::int64_t>::min());
     stamps.gpu_end = measured(std::numeric_limits<std::int64_t>::max());
     EXPECT_EQ(shown_frame(stamps, 2).at.ns, std::numeric_limits<std::int64_t>::max());
@@ -91,39 +92,39 @@ TEST(ShownFrame, DoesNotWrapAround) {
 class GazeAgeOfAFrame : public ::testing::Test {
   protected:
     GazeAgeOfAFrame() {
-        fovea.sampled = {1'000, StampKind::Profile};
+        fovea.sampled = {1'000, time::StampKind::Profile};
         fovea.arrived = measured(6'000);
         stamps.latch = measured(8'000);
         stamps.submit = measured(9'500);
         stamps.gpu_end = measured(15'000);
-        stamps.display = {20'000, StampKind::Predicted};
+        stamps.display = {20'000, time::StampKind::Predicted};
     }
 
     gaze::FoveaPoint fovea;
-    FrameStamps stamps;
+    frame::FrameStamps stamps;
 };
 
 TEST_F(GazeAgeOfAFrame, HasStagesThatAddUp) {
     const GazeAge age = gaze_age(fovea, stamps, stamps.display, 2'000);
-    EXPECT_EQ(age.at_latch, (Span{7'000, StampKind::Profile}));
-    EXPECT_EQ(age.at_display, (Span{21'000, StampKind::Predicted}));
-    EXPECT_EQ(stage(age, Stage::Tracker), (Span{5'000, StampKind::Profile}));
-    EXPECT_EQ(stage(age, Stage::Queue), (Span{2'000, StampKind::Measured}));
-    EXPECT_EQ(stage(age, Stage::Submit), (Span{1'500, StampKind::Measured}));
-    EXPECT_EQ(stage(age, Stage::Gpu), (Span{5'500, StampKind::Measured}));
-    EXPECT_EQ(stage(age, Stage::Wait), (Span{5'000, StampKind::Predicted}));
-    EXPECT_EQ(stage(age, Stage::Switching), (Span{2'000, StampKind::Profile}));
-    EXPECT_EQ(age.unaccounted, (Span{0, StampKind::Predicted}));
+    EXPECT_EQ(age.at_latch, (time::Span{7'000, time::StampKind::Profile}));
+    EXPECT_EQ(age.at_display, (time::Span{21'000, time::StampKind::Predicted}));
+    EXPECT_EQ(stage(age, Stage::Tracker), (time::Span{5'000, time::StampKind::Profile}));
+    EXPECT_EQ(stage(age, Stage::Queue), (time::Span{2'000, time::StampKind::Measured}));
+    EXPECT_EQ(stage(age, Stage::Submit), (time::Span{1'500, time::StampKind::Measured}));
+    EXPECT_EQ(stage(age, Stage::Gpu), (time::Span{5'500, time::StampKind::Measured}));
+    EXPECT_EQ(stage(age, Stage::Wait), (time::Span{5'000, time::StampKind::Predicted}));
+    EXPECT_EQ(stage(age, Stage::Switching), (time::Span{2'000, time::StampKind::Profile}));
+    EXPECT_EQ(age.unaccounted, (time::Span{0, time::StampKind::Predicted}));
 }
 
 TEST_F(GazeAgeOfAFrame, SplitsTheTrackersTimeWhereAClockWasFitted) {
     fovea.ready = measured(5'200);
     fovea.uncertainty_ns = 700;
     const GazeAge age = gaze_age(fovea, stamps, stamps.display, 2'000);
-    EXPECT_EQ(stage(age, Stage::Tracker), (Span{4'200, StampKind::Profile}));
-    EXPECT_EQ(stage(age, Stage::Delivery), (Span{800, StampKind::Measured}));
-    EXPECT_EQ(age.unaccounted, (Span{0, StampKind::Predicted}));
-    EXPECT_EQ(age.uncertainty, (Span{700, StampKind::Profile}));
+    EXPECT_EQ(stage(age, Stage::Tracker), (time::Span{4'200, time::StampKind::Profile}));
+    EXPECT_EQ(stage(age, Stage::Delivery), (time::Span{800, time::StampKind::Measured}));
+    EXPECT_EQ(age.unaccounted, (time::Span{0, time::StampKind::Predicted}));
+    EXPECT_EQ(age.uncertainty, (time::Span{700, time::StampKind::Profile}));
     fovea.sampled = {};
     EXPECT_FALSE(gaze_age(fovea, stamps, stamps.display, 2'000).uncertainty.known());
 }
@@ -150,16 +151,16 @@ TEST_F(GazeAgeOfAFrame, IsUnknownWithoutASampleTime) {
 TEST_F(GazeAgeOfAFrame, EndsAtTheEmissionWhereTheSwitchingTimeIsUnknown) {
     const GazeAge age = gaze_age(fovea, stamps, measured(20'000), std::nullopt);
     EXPECT_FALSE(stage(age, Stage::Switching).known());
-    EXPECT_EQ(age.at_display, (Span{19'000, StampKind::Profile}));
+    EXPECT_EQ(age.at_display, (time::Span{19'000, time::StampKind::Profile}));
     EXPECT_EQ(age.unaccounted.ns, 0);
 }
 
 TEST_F(GazeAgeOfAFrame, CountsTheRowThatIsLookedAt) {
     for (const std::int64_t row_ns : {-3'000, 0, 3'000}) {
         const GazeAge age = gaze_age(fovea, stamps, stamps.display, 2'000, row_ns);
-        EXPECT_EQ(stage(age, Stage::Row), (Span{row_ns, StampKind::Profile}));
-        EXPECT_EQ(age.at_display, (Span{21'000 + row_ns, StampKind::Predicted}));
-        EXPECT_EQ(age.unaccounted, (Span{0, StampKind::Predicted}));
+        EXPECT_EQ(stage(age, Stage::Row), (time::Span{row_ns, time::StampKind::Profile}));
+        EXPECT_EQ(age.at_display, (time::Span{21'000 + row_ns, time::StampKind::Predicted}));
+        EXPECT_EQ(age.unaccounted, (time::Span{0, time::StampKind::Predicted}));
     }
     EXPECT_FALSE(stage(gaze_age(fovea, stamps, stamps.display, 2'000), Stage::Row).known());
 }

@@ -18,11 +18,11 @@ std::uint64_t frames_in(const SummaryReport& report, gaze::FoveaState state) {
     return report.frames.by_state[static_cast<std::size_t>(state)];
 }
 
-double share(const SummaryReport& report, StampKind kind) {
+double share(const SummaryReport& report, time::StampKind kind) {
     return report.share_by_kind_percent->at(static_cast<std::size_t>(kind));
 }
 
-void set_state(FrameRecord& frame, gaze::FoveaState state, gaze::LossReason reason) {
+void set_state(frame::FrameRecord& frame, gaze::FoveaState state, gaze::LossReason reason) {
     for (gaze::FoveaPoint& eye : frame.fovea.eyes) {
         eye.state = state;
         eye.reason = reason;
@@ -34,7 +34,7 @@ TEST(LatencySummary, SaysNothingOfNoFrames) {
     EXPECT_EQ(report.verdict, Verdict::Unknown);
     EXPECT_EQ(report.frames.total, 0U);
     EXPECT_EQ(report.gaze_age_at_display.count, 0U);
-    EXPECT_EQ(report.gaze_age_at_display.kind(), StampKind::Unknown);
+    EXPECT_EQ(report.gaze_age_at_display.kind(), time::StampKind::Unknown);
     EXPECT_EQ(report.gaze_age_at_display.max_ms, std::nullopt);
     EXPECT_EQ(report.share_by_kind_percent, std::nullopt);
     EXPECT_EQ(report.missed_percent(), std::nullopt);
@@ -72,18 +72,18 @@ TEST(LatencySummary, KnowsTheAgesOfALoopThatKeepsUp) {
     EXPECT_EQ(report.frame_interval.p50_ms, 10.0);
     EXPECT_EQ(report.loop_time.max_ms, 4.0);
 
-    EXPECT_EQ(row(report, Stage::Tracker).kind(), StampKind::Profile);
-    EXPECT_EQ(row(report, Stage::Gpu).kind(), StampKind::Measured);
-    EXPECT_EQ(report.gaze_age_at_display.kind(), StampKind::Predicted);
+    EXPECT_EQ(row(report, Stage::Tracker).kind(), time::StampKind::Profile);
+    EXPECT_EQ(row(report, Stage::Gpu).kind(), time::StampKind::Measured);
+    EXPECT_EQ(report.gaze_age_at_display.kind(), time::StampKind::Predicted);
     EXPECT_FALSE(report.gaze_age_at_display.mixed());
-    EXPECT_NEAR(share(report, StampKind::Measured), 100.0 * 7 / 18, 1e-9);
-    EXPECT_NEAR(share(report, StampKind::Profile), 100.0 * 5 / 18, 1e-9);
-    EXPECT_NEAR(share(report, StampKind::Predicted), 100.0 * 6 / 18, 1e-9);
-    EXPECT_EQ(share(report, StampKind::Unknown), 0.0);
+    EXPECT_NEAR(share(report, time::StampKind::Measured), 100.0 * 7 / 18, 1e-9);
+    EXPECT_NEAR(share(report, time::StampKind::Profile), 100.0 * 5 / 18, 1e-9);
+    EXPECT_NEAR(share(report, time::StampKind::Predicted), 100.0 * 6 / 18, 1e-9);
+    EXPECT_EQ(share(report, time::StampKind::Unknown), 0.0);
 
-    EXPECT_EQ(report.passes[static_cast<std::size_t>(Pass::Full)].count, 0U);
-    EXPECT_EQ(report.passes[static_cast<std::size_t>(Pass::PassI)].mean_ms, 3.0);
-    EXPECT_EQ(report.passes[static_cast<std::size_t>(Pass::Resolve)].mean_ms, 1.0);
+    EXPECT_EQ(report.passes[static_cast<std::size_t>(frame::Pass::Full)].count, 0U);
+    EXPECT_EQ(report.passes[static_cast<std::size_t>(frame::Pass::PassI)].mean_ms, 3.0);
+    EXPECT_EQ(report.passes[static_cast<std::size_t>(frame::Pass::Resolve)].mean_ms, 1.0);
     EXPECT_EQ(report.samples.texels_planned, 200'000U);
     EXPECT_EQ(report.samples_saved_factor(), 3.4);
 }
@@ -104,9 +104,9 @@ TEST(LatencySummary, AMissedFrameIsShownAPeriodLaterByAModel) {
     EXPECT_EQ(report.gaze_age_at_display.max_ms, 28.0);
     EXPECT_EQ(row(report, Stage::Wait).max_ms, 9.0);
     EXPECT_TRUE(report.gaze_age_at_display.mixed());
-    EXPECT_EQ(
-        report.gaze_age_at_display.frames_by_kind[static_cast<std::size_t>(StampKind::Modelled)],
-        2U);
+    EXPECT_EQ(report.gaze_age_at_display
+                  .frames_by_kind[static_cast<std::size_t>(time::StampKind::Modelled)],
+              2U);
 }
 
 TEST(LatencySummary, ManyMissedFramesAreNotRealTime) {
@@ -150,14 +150,14 @@ TEST(LatencySummary, UnknownGpuTimesLeaveTheirShareUnaccounted) {
     EXPECT_EQ(row(report, Stage::Gpu).max_ms, std::nullopt);
     EXPECT_EQ(row(report, Stage::Wait).count, 0U);
     EXPECT_EQ(report.unaccounted.mean_ms, 10.0);
-    EXPECT_NEAR(share(report, StampKind::Unknown), 100.0 * 10 / 18, 1e-9);
+    EXPECT_NEAR(share(report, time::StampKind::Unknown), 100.0 * 10 / 18, 1e-9);
 }
 
 TEST(LatencySummary, VirtualTimeUsesTheFramesOwnGpuStamps) {
     LatencySummary summary({.clock = LoopClock::Virtual, .period_ns = kExamplePeriodNs});
     for (std::uint64_t index = 0; index < 100; ++index) {
-        FrameRecord frame = example_frame(index, StampKind::Modelled);
-        frame.stamps.gpu_end = {frame.stamps.submit.ns + 5 * kMs, StampKind::Modelled};
+        frame::FrameRecord frame = example_frame(index, time::StampKind::Modelled);
+        frame.stamps.gpu_end = {frame.stamps.submit.ns + 5 * kMs, time::StampKind::Modelled};
         summary.add(frame);
         summary.add(example_gpu(index, 100));
     }
@@ -165,22 +165,22 @@ TEST(LatencySummary, VirtualTimeUsesTheFramesOwnGpuStamps) {
     EXPECT_EQ(report.verdict, Verdict::VirtualTime);
     EXPECT_EQ(report.frames.missed, 0U);
     EXPECT_EQ(row(report, Stage::Gpu).max_ms, 5.0);
-    EXPECT_EQ(row(report, Stage::Switching).kind(), StampKind::Unknown);
+    EXPECT_EQ(row(report, Stage::Switching).kind(), time::StampKind::Unknown);
     EXPECT_EQ(report.gaze_age_at_display.max_ms, 16.0);
-    EXPECT_EQ(share(report, StampKind::Modelled), 100.0);
-    EXPECT_EQ(report.passes[static_cast<std::size_t>(Pass::PassI)].count, 100U);
+    EXPECT_EQ(share(report, time::StampKind::Modelled), 100.0);
+    EXPECT_EQ(report.passes[static_cast<std::size_t>(frame::Pass::PassI)].count, 100U);
 }
 
 TEST(LatencySummary, GazeThatNeverCameHasNoAge) {
     LatencySummary summary(kWallConfig);
     for (std::uint64_t index = 0; index < 100; ++index) {
-        FrameRecord frame = example_frame(index);
+        frame::FrameRecord frame = example_frame(index);
         frame.fovea = {};
         summary.add(frame);
         summary.add(example_gpu(index));
     }
     const SummaryReport report = summary.report();
-    EXPECT_EQ(frames_in(report, gaze::FoveaState::Centre), 100U);
+    EXPECT_EQ(frames_in(report, gaze::FoveaState::Ahead), 100U);
     EXPECT_EQ(report.gaze_age_at_latch.count, 0U);
     EXPECT_EQ(report.gaze_age_at_display.count, 0U);
     EXPECT_EQ(report.share_by_kind_percent, std::nullopt);
@@ -190,7 +190,7 @@ TEST(LatencySummary, GazeThatNeverCameHasNoAge) {
 TEST(LatencySummary, HeldGazeHasAnAgeOfItsOwn) {
     LatencySummary summary(kWallConfig);
     for (std::uint64_t index = 0; index < 100; ++index) {
-        FrameRecord frame = example_frame(index);
+        frame::FrameRecord frame = example_frame(index);
         if (index >= 90) {
             set_state(frame, index < 95 ? gaze::FoveaState::Held : gaze::FoveaState::Returning,
                       gaze::LossReason::Invalid);
@@ -216,7 +216,7 @@ TEST(LatencySummary, HeldGazeHasAnAgeOfItsOwn) {
 
 TEST(LatencySummary, TheEyeWithTheOlderSampleCounts) {
     LatencySummary summary(kWallConfig);
-    FrameRecord frame = example_frame(0);
+    frame::FrameRecord frame = example_frame(0);
     frame.fovea.eyes[1].sampled.ns -= 7 * kMs;
     summary.add(frame);
     EXPECT_EQ(summary.report().gaze_age_at_latch.max_ms, 12.0);
@@ -225,7 +225,7 @@ TEST(LatencySummary, TheEyeWithTheOlderSampleCounts) {
 TEST(LatencySummary, FramesThatAreNotRenderedOnlyCount) {
     LatencySummary summary(kWallConfig);
     for (std::uint64_t index = 0; index < 10; ++index) {
-        FrameRecord frame = example_frame(index);
+        frame::FrameRecord frame = example_frame(index);
         frame.should_render = index != 3;
         summary.add(frame);
     }
@@ -270,7 +270,7 @@ TEST(LatencySummary, AGpuPartThatComesTooLateStillCountsForThePasses) {
     const SummaryReport report = summary.report();
     EXPECT_EQ(report.frames.rendered, 17U);
     EXPECT_EQ(row(report, Stage::Gpu).count, 0U);
-    EXPECT_EQ(report.passes[static_cast<std::size_t>(Pass::PassI)].count, 1U);
+    EXPECT_EQ(report.passes[static_cast<std::size_t>(frame::Pass::PassI)].count, 1U);
 }
 
 TEST(LatencySummary, AReportDoesNotEndTheGathering) {

@@ -11,7 +11,7 @@ gaze::GazeSample sample(std::uint64_t sequence, std::int64_t time_ns, bool valid
     gaze::GazeSample result;
     result.sequence = sequence;
     result.device_ns = time_ns;
-    result.sampled = {time_ns, StampKind::Measured};
+    result.sampled = {time_ns, time::StampKind::Measured};
     result.eyes[1].valid = valid;
     return result;
 }

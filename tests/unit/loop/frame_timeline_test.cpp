@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "runtime/latency/clock.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop {
 namespace {
@@ -16,7 +16,7 @@ constexpr std::int64_t kStart = 10 * kHour;
 
 present::TargetFrame announced(std::int64_t display_ns) {
     present::TargetFrame frame;
-    frame.display = {display_ns, latency::StampKind::Predicted};
+    frame.display = {display_ns, time::StampKind::Predicted};
     frame.period_ns = 10 * kMs;
     return frame;
 }
@@ -30,7 +30,7 @@ TEST(LiveTimeline, TakesAnnouncedTimesThatStepAsTheyAre) {
          {std::int64_t{0}, 10 * kMs, kHour, 20 * kMs, -5 * kHour, 30 * kMs, 30 * kMs}) {
         timeline.plan(announced(kStart + since_ns), nullptr, frame);
         EXPECT_EQ(frame.display.ns, kStart + since_ns);
-        EXPECT_EQ(frame.display.kind, latency::StampKind::Predicted);
+        EXPECT_EQ(frame.display.kind, time::StampKind::Predicted);
         EXPECT_DOUBLE_EQ(frame.scene_time_s, static_cast<double>(since_ns) * 1e-9);
         EXPECT_EQ(frame.period_ns, 10 * kMs);
     }
@@ -53,7 +53,7 @@ TEST(LiveTimeline, KeepsTheHeadFiniteWhereAnnouncedTimesStep) {
 
 TEST(Timeline, KnowsOfSleepOnlyWhereTimePasses) {
     EXPECT_NEAR(static_cast<double>(LiveTimeline(kStart).slept_ns()),
-                static_cast<double>(latency::slept_ns()), 5e9);
+                static_cast<double>(time::slept_ns()), 5e9);
     EXPECT_EQ(VirtualTimeline({.period_ns = 10 * kMs, .gpu_ns = kMs, .views = {}}).slept_ns(), 0);
 }
 

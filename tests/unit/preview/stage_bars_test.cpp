@@ -6,7 +6,7 @@
 
 #include "runtime/latency/gaze_age.h"
 #include "runtime/latency/latency_summary.h"
-#include "runtime/latency/summary_rows.h"
+#include "runtime/report/summary_rows.h"
 #include "tests/unit/latency/example_frame.h"
 
 namespace gazeloop::preview {
@@ -25,7 +25,7 @@ const DisplayTimes kDisplay{
 
 // The window and the summary say the same of the same frame.
 TEST(StageBars, AreWhatTheSummarySays) {
-    latency::FrameRecord frame = latency::example_frame(0);
+    frame::FrameRecord frame = latency::example_frame(0);
     for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
         frame.views[eye].height_px = 1440;
         frame.fovea.eyes[eye].position.y_px = 1300.0;
@@ -37,13 +37,13 @@ TEST(StageBars, AreWhatTheSummarySays) {
                                          .rolling_ns = kDisplay.rolling_ns});
         summary.set_display_period(period_ns);
         summary.add(frame);
-        const latency::FrameGpuRecord gpu = latency::example_gpu(0);
+        const frame::FrameGpuRecord gpu = latency::example_gpu(0);
         summary.add(gpu);
         const latency::SummaryReport report = summary.report();
         const StageBar photon = stage_bars(frame, gpu, kDisplay).bars[0];
         EXPECT_NEAR(photon.total_ms, report.gaze_age_at_display.mean_ms.value(), 1e-9);
         std::size_t bar = 0;
-        for (const latency::NamedRow& row : latency::rows_of(report)) {
+        for (const report::NamedRow& row : report::rows_of(report)) {
             if (row.key.starts_with("stage_")) {
                 ASSERT_LT(bar, photon.count);
                 const auto& segment = photon.segments[bar++];
@@ -73,18 +73,18 @@ TEST(StageBars, AddUpToTheTotal) {
 }
 
 TEST(StageBars, ShowOnlyThePassesThatRan) {
-    latency::FrameGpuRecord gpu = latency::example_gpu(1);
+    frame::FrameGpuRecord gpu = latency::example_gpu(1);
     gpu.pass_ns.fill(-1);
     gpu.pass_ns[1] = 4'000'000;
     const StageBars bars = stage_bars(latency::example_frame(1), gpu, {});
     ASSERT_EQ(bars.bars[1].count, 1U);
-    EXPECT_EQ(bars.bars[1].segments[0].name.data(), std::string(latency::kPassNames[1]));
+    EXPECT_EQ(bars.bars[1].segments[0].name.data(), std::string(frame::kPassNames[1]));
     EXPECT_DOUBLE_EQ(bars.bars[1].segments[0].ms, 4.0);
 }
 
 TEST(StageBars, NeverShowTheUnknownAsZero) {
-    latency::FrameRecord frame;  // every stamp unknown
-    const StageBars bars = stage_bars(frame, latency::FrameGpuRecord{}, {});
+    frame::FrameRecord frame;  // every stamp unknown
+    const StageBars bars = stage_bars(frame, frame::FrameGpuRecord{}, {});
     EXPECT_FALSE(bars.bars[0].total_known);
     EXPECT_FALSE(bars.bars[1].total_known);
     for (std::uint32_t i = 0; i < bars.bars[0].count; ++i) {

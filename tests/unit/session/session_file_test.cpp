@@ -53,7 +53,7 @@ class ReadSession : public ::testing::Test {
         if (session) {
             return "no error";
         }
-        EXPECT_EQ(session.error().code, ExitCode::BadInput);
+        EXPECT_EQ(session.error().kind, ErrorKind::BadInput);
         EXPECT_THAT(session.error().message, HasSubstr(file.string()));
         return session.error().message;
     }
@@ -260,7 +260,7 @@ TEST_F(ReadSession, SurvivesAnyFlippedByte) {
         std::ofstream(file, std::ios::binary | std::ios::trunc)
             .write(damaged.data(), static_cast<std::streamsize>(damaged.size()));
         const Expected<SessionFile> session = read_session(file);
-        EXPECT_TRUE(session || session.error().code == ExitCode::BadInput);
+        EXPECT_TRUE(session || session.error().kind == ErrorKind::BadInput);
     }
 }
 

@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/latency/clock.h"
 #include "runtime/session/session_file.h"
+#include "runtime/time/clock.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/latency/example_frame.h"
 #include "tests/unit/session/child_process.h"
@@ -39,7 +39,7 @@ int record_until_killed(const std::filesystem::path& file, int report) {
         if (index > 0) {
             recorder->add(latency::example_gpu(index - 1));
         }
-        const HandedOver told{index, latency::monotonic_ns()};
+        const HandedOver told{index, time::monotonic_ns()};
         if (write(report, &told, sizeof told) != sizeof told) {
             return 1;
         }
@@ -66,7 +66,7 @@ Killed record_and_kill(const std::filesystem::path& file, std::chrono::milliseco
     bool alive = read(from, &told, sizeof told) == sizeof told;  // the recorder runs
     std::thread killer([&] {
         std::this_thread::sleep_for(after);
-        killed.at_ns = latency::monotonic_ns();
+        killed.at_ns = time::monotonic_ns();
         kill(child, SIGKILL);
     });
     while (alive) {
@@ -126,9 +126,9 @@ TEST(KilledSession, IsReadableOrNotThereWhenKilledWhileItIsCreatedOrClosed) {
         return SessionRecorder::create(file, header).has_value() ? 0 : 1;
     };
     const tests::TemporaryFolder folder;
-    const std::int64_t start_ns = latency::monotonic_ns();
+    const std::int64_t start_ns = time::monotonic_ns();
     ASSERT_EQ(run_in_child([&] { return create(folder / "whole.session"); }), 0);
-    const std::int64_t whole_ns = latency::monotonic_ns() - start_ns;
+    const std::int64_t whole_ns = time::monotonic_ns() - start_ns;
 
     constexpr int kRounds = 100;
     for (int round = 0; round < kRounds; ++round) {

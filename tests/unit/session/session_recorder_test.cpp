@@ -72,7 +72,7 @@ TEST_F(Recording, HoldsWhatWasAddedInOrder) {
             recorder->add(latency::example_gpu(index - 2));
         }
     }
-    recorder->event({5, latency::StampKind::Measured}, "gaze-lost", "left eye");
+    recorder->event({5, time::StampKind::Measured}, "gaze-lost", "left eye");
     EXPECT_TRUE(recorder->close().complete());
 
     const SessionFile session = read();
@@ -93,7 +93,7 @@ TEST_F(Recording, HoldsWhatWasAddedInOrder) {
         EXPECT_EQ(frame.gpu.pass_ns[1], i < 48 ? 3 * latency::kMs : -1);
     }
     ASSERT_EQ(session.events.size(), 1U);
-    EXPECT_EQ(session.events[0].time, (latency::Stamp{5, latency::StampKind::Measured}));
+    EXPECT_EQ(session.events[0].time, (time::Stamp{5, time::StampKind::Measured}));
     EXPECT_EQ(session.events[0].kind, "gaze-lost");
     EXPECT_EQ(session.events[0].text, "left eye");
 }
@@ -114,7 +114,8 @@ TEST_F(Recording, StatesItsHeader) {
 
 TEST_F(Recording, LongEventTextIsCut) {
     const auto recorder = start();
-    recorder->event({}, std::string(100, 'k'), std::string(239, 't') + "\u00e9 and more");
+    recorder->event({}, std::string(100, 'k'),
+                    fmt::format("{}\u00e9 and more", std::string(239, 't')));
     recorder->close();
     const SessionFile session = read();
     ASSERT_EQ(session.events.size(), 1U);
@@ -191,7 +192,7 @@ TEST_F(Recording, RefusesAFileThatExists) {
     std::ofstream(file) << "precious";
     const auto recorder = SessionRecorder::create(file, kHeader);
     ASSERT_FALSE(recorder);
-    EXPECT_EQ(recorder.error().code, ExitCode::BadInput);
+    EXPECT_EQ(recorder.error().kind, ErrorKind::BadInput);
     EXPECT_THAT(recorder.error().message, HasSubstr(file.string()));
     EXPECT_THAT(recorder.error().message, HasSubstr("exists already"));
     EXPECT_EQ(std::filesystem::file_size(file), 8U);
@@ -234,7 +235,7 @@ TEST_F(Recording, RefusesWhatAnEarlierSessionLeft) {
 TEST_F(Recording, RefusesAMissingFolder) {
     const auto recorder = SessionRecorder::create(folder / "none" / "run.session", kHeader);
     ASSERT_FALSE(recorder);
-    EXPECT_EQ(recorder.error().code, ExitCode::BadInput);
+    EXPECT_EQ(recorder.error().kind, ErrorKind::BadInput);
     EXPECT_THAT(recorder.error().message, HasSubstr("folder must exist"));
 }
 

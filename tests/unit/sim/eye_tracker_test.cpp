@@ -47,7 +47,7 @@ TEST(EyeTracker, ReportsTheTruthWithoutTerms) {
         EXPECT_EQ(sample.sampled.ns, static_cast<std::int64_t>(i) * 4'000'000);
         EXPECT_EQ(sample.device_ns, sample.sampled.ns);
         EXPECT_EQ(sample.arrived, sample.sampled);
-        EXPECT_EQ(sample.sampled.kind, latency::StampKind::Modelled);
+        EXPECT_EQ(sample.sampled.kind, time::StampKind::Modelled);
         ASSERT_TRUE(sample.head.has_value());
         EXPECT_NEAR(angle_deg(sample.head->orientation * glm::dvec3{0.0, 0.0, -1.0},
                               truth.head.orientation * glm::dvec3{0.0, 0.0, -1.0}),

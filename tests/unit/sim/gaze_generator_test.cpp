@@ -10,7 +10,7 @@
 namespace gazeloop::sim {
 namespace {
 
-std::string text_of(const drivers::Trace& trace) {
+std::string text_of(const gaze::GazeTrace& trace) {
     std::ostringstream out;
     drivers::write_native_trace(trace, out);
     return out.str();
@@ -27,8 +27,8 @@ TEST(GazeGenerator, IsTheSameForTheSameSeedOnly) {
 }
 
 TEST(GazeGenerator, GivesAPrefixForLessTime) {
-    const drivers::Trace longer = generate_gaze({}, 10.0);
-    const drivers::Trace shorter = generate_gaze({}, 4.0);
+    const gaze::GazeTrace longer = generate_gaze({}, 10.0);
+    const gaze::GazeTrace shorter = generate_gaze({}, 4.0);
     ASSERT_EQ(shorter.samples.size(), 480U);
     ASSERT_EQ(longer.samples.size(), 1200U);
     EXPECT_EQ(shorter.samples.back().eyes[0].direction, longer.samples[479].eyes[0].direction);
@@ -37,7 +37,7 @@ TEST(GazeGenerator, GivesAPrefixForLessTime) {
 
 TEST(GazeGenerator, TellsArrivalsOfATrackerThatHasADelay) {
     EXPECT_FALSE(generate_gaze({}, 1.0).samples.front().arrived.known());
-    const drivers::Trace late = generate_gaze({.tracker = {.delay_ms = 20.0}}, 1.0);
+    const gaze::GazeTrace late = generate_gaze({.tracker = {.delay_ms = 20.0}}, 1.0);
     EXPECT_EQ(late.samples.front().arrived.ns, 20'000'000);
 }
 

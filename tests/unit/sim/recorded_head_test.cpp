@@ -23,7 +23,7 @@ struct Speeds {
     double blink_percent = 0.0;         ///< samples without a valid eye
 };
 
-Speeds speeds_of(const drivers::Trace& trace) {
+Speeds speeds_of(const gaze::GazeTrace& trace) {
     Speeds speeds;
     double invalid = 0.0;
     for (std::size_t i = 1; i < trace.samples.size(); ++i) {

@@ -54,10 +54,10 @@ TEST(VirtualTracker, HasTheReportsThatItsDescriptorSays) {
 
 /// Looks at a point of the screen, as the generator does at its distance.
 TEST(VirtualTracker, WhatGoesInComesOut) {
-    const drivers::Trace trace = generate_gaze({.seed = 5,
-                                                .eye = {.distance_m = kVirtualDistance_m},
-                                                .head = {.sway_deg = 0.0, .turn_percent = 0.0}},
-                                               20.0);
+    const gaze::GazeTrace trace = generate_gaze({.seed = 5,
+                                                 .eye = {.distance_m = kVirtualDistance_m},
+                                                 .head = {.sway_deg = 0.0, .turn_percent = 0.0}},
+                                                20.0);
     const EyeTrackerLayout tracker = layout();
     int compared = 0;
     for (const gaze::GazeSample& sample : trace.samples) {
@@ -121,7 +121,7 @@ TEST(UhidDevice, IsRefusedWithTheRemedyWhereThereIsNone) {
     const auto device =
         UhidDevice::create({"x", 1, 2}, virtual_tracker_descriptor(), {}, "/nowhere/uhid");
     ASSERT_FALSE(device.has_value());
-    EXPECT_EQ(device.error().code, ExitCode::NoDevice);
+    EXPECT_EQ(device.error().kind, ErrorKind::NoDevice);
     EXPECT_NE(device.error().message.find("modprobe uhid"), std::string::npos);
 }
 

@@ -34,7 +34,7 @@ TEST(DeviceFeed, LosesOnceWhatItHad) {
     std::vector<gaze::GazeSample> kept;
     const auto lose = [&](std::int64_t at_ns) {
         kept.clear();
-        feed.push_loss({at_ns, latency::StampKind::Measured});
+        feed.push_loss({at_ns, time::StampKind::Measured});
         feed.poll(kept);
         return kept.size();
     };
@@ -61,7 +61,7 @@ TEST(DeviceFeed, LosesAgainWhatNobodyHeardOf) {
     while (feed.dropped() == 0) {
         feed.push(sample);
     }
-    const latency::Stamp now{5, latency::StampKind::Measured};
+    const time::Stamp now{5, time::StampKind::Measured};
     feed.push_loss(now);
     std::vector<gaze::GazeSample> kept;
     feed.poll(kept);

@@ -22,7 +22,7 @@ std::string refusal(const Items& items) {
     if (parsed) {
         return "";
     }
-    EXPECT_EQ(parsed.error().code, ExitCode::BadInput);
+    EXPECT_EQ(parsed.error().kind, ErrorKind::BadInput);
     return parsed.error().message;
 }
 

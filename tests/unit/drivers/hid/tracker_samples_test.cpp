@@ -56,11 +56,11 @@ TEST(TrackerSamples, HaveTimesOnceTheClockIsKnownAndTheProfilesDelayBeforeIt) {
         const std::int64_t arrived_ns = taken_ns + 3 * kMs + (i % 5 == 4 ? 2 * kMs : 0);
         last = samples.take(report_at(static_cast<std::uint64_t>(taken_ns / 1000)), arrived_ns);
         ASSERT_TRUE(last.has_value());
-        EXPECT_EQ(last->arrived, (latency::Stamp{arrived_ns, latency::StampKind::Measured}));
+        EXPECT_EQ(last->arrived, (time::Stamp{arrived_ns, time::StampKind::Measured}));
         EXPECT_EQ(last->sampled.known(), last->ready.known());
     }
     ASSERT_TRUE(last->sampled.known());
-    EXPECT_EQ(last->sampled.kind, latency::StampKind::Profile);
+    EXPECT_EQ(last->sampled.kind, time::StampKind::Profile);
     EXPECT_NEAR(static_cast<double>(last->ready.ns), 5990.0 * kMs + 3.0 * kMs, 1e3);
     EXPECT_EQ(last->ready.ns - last->sampled.ns, 5 * kMs);
     EXPECT_GE(*last->uncertainty_ns, 2 * kMs);
@@ -93,7 +93,7 @@ TEST(TrackerSamples, KeepTheClockWhenAReportIsCutOffBeforeItsTimestamp) {
         const auto report = report_at(static_cast<std::uint64_t>(i) * 10'000);
         EXPECT_TRUE(samples.take(report, i * (10 * kMs)).has_value());
     }
-    const latency::ClockFit* const before = samples.clock();
+    const time::ClockFit* const before = samples.clock();
     ASSERT_NE(before, nullptr);
     constexpr std::size_t kCutOff = 5;
     const auto whole = report_at(1'000'000);

@@ -49,7 +49,7 @@ TEST(GazeGates, TellEachChangeOnce) {
     const std::vector<SourceEvent> events = gates.take_events();
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].text, "eye gaze: session focused: no (a menu)");
-    EXPECT_EQ(events[0].time, (latency::Stamp{7, latency::StampKind::Measured}));
+    EXPECT_EQ(events[0].time, (time::Stamp{7, time::StampKind::Measured}));
 }
 
 // Another reason is a change too.

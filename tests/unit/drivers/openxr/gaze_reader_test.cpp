@@ -49,8 +49,8 @@ TEST_F(GazeReaderTest, MakesASampleOfAnAnswer) {
     const auto sample = take(answer(1000));
     ASSERT_TRUE(sample.has_value());
     EXPECT_EQ(sample->sequence, 1U);
-    EXPECT_EQ(sample->sampled, (latency::Stamp{992 * kMs, latency::StampKind::Measured}));
-    EXPECT_EQ(sample->arrived, (latency::Stamp{1000 * kMs, latency::StampKind::Measured}));
+    EXPECT_EQ(sample->sampled, (time::Stamp{992 * kMs, time::StampKind::Measured}));
+    EXPECT_EQ(sample->arrived, (time::Stamp{1000 * kMs, time::StampKind::Measured}));
     EXPECT_EQ(sample->device_ns, 992 * kMs);
     EXPECT_EQ(reader_.pose_time(), 992 * kMs);
     EXPECT_EQ(sample->eyes[0].confidence, -1.0);

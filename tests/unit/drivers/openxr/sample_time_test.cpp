@@ -23,7 +23,7 @@ TEST(SampleTime, IsMeasuredWhereTheRuntimeSaysIt) {
     for (const std::int64_t age_ns : {std::int64_t{1}, 8 * kMs, 9'000 * kMs}) {
         const auto time = sample_time(at(kNow - age_ns));
         EXPECT_EQ(time.trouble, SampleTimeTrouble::None);
-        EXPECT_EQ(time.sampled, (latency::Stamp{kNow - age_ns, latency::StampKind::Measured}));
+        EXPECT_EQ(time.sampled, (time::Stamp{kNow - age_ns, time::StampKind::Measured}));
         EXPECT_EQ(time.pose_ns, kNow - age_ns);
     }
 }

@@ -45,7 +45,7 @@ TEST(Psvr2Samples, AreInTheHeadsAxesAndHaveTimes) {
     EXPECT_NEAR(last->eyes[1].origin_m.y, 0.0015, 1e-9);
     EXPECT_EQ(last->eyes[0].openness, 1.0);
     ASSERT_TRUE(last->sampled.known());
-    EXPECT_EQ(last->sampled.kind, latency::StampKind::Profile);
+    EXPECT_EQ(last->sampled.kind, time::StampKind::Profile);
     EXPECT_EQ(last->ready.ns - last->sampled.ns, 5 * kMs);
     const auto lines = changes(samples);
     ASSERT_EQ(lines.size(), 3U);

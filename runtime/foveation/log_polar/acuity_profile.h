@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/error.h"
+#include "runtime/foveation/eye/mar_line.h"
+#include "runtime/foveation/log_polar/lp_size.h"
+#include "runtime/gaze/view.h"
+
+namespace gazeloop::foveation {
+
+/// The parameters of acuity-derived foveated rendering.
+struct AcuityParameters {
+    static constexpr double kMinPixelsPerDegree = 0.01;
+    static constexpr double kMaxPixelsPerDegree = 1e5;
+
+    MarLine mar{};
+    /// Of the display, where the map takes the display for the limit; 0: the most in view, so that
+    /// no gaze needs another map.
+    double pixels_per_degree = 0.0;
+    std::uint32_t lp_width = 0;   ///< the LP-buffer's; 0: the columns that the line asks for
+    std::uint32_t lp_height = 0;  ///< likewise, rows
+    bool disc = true;             ///< shade pixels directly where a texel a pixel is offered
+    double border_px = 6.0;  ///< width of the blend at the gaze from disc to LP-buffer, [0, 64]
+};
+
+/// The radial function that a display and a MAR line ask for (the gaze-independent part of the
+/// acuity-derived map), Nyquist sampled. With p = pixels per degree and e_c = (2/p - omega0) / m,
+/// the eccentricity up to which the display, not the eye, is the limit, the columns out to an
+/// eccentricity are
+///     U(e) = p e                                             up to e_c,
+///     U(e) = p e_c + (2/m) ln[(omega0 + m e) / (2/p)]        beyond;
+/// with e_c <= 0, the logarithm alone with omega0 in place of 2/p. U is continuously
+/// differentiable. (The idea is also published as VaFR, arXiv 2503.23410.)
+class AcuityProfile {
+  public:
+    /// Where the map ends; a gaze within 90 degrees of the view's axis sees less.
+    static constexpr double kMaxEccentricityDeg = 179.0;
+
+    /// Errors (Usage), each with the value and the valid range: a parameter out of range or not a
+    /// number; a picture under 2 x 2 px or over 16384 a side, or with a field of view that is none.
+    static Expected<AcuityProfile> create(const AcuityParameters& parameters,
+                                          const gaze::EyeView& view);
+
+    [[nodiscard]] double columns(double eccentricity_deg) const;
+    [[nodiscard]] double eccentricity_deg(double columns) const;
+    [[nodiscard]] double columns_per_degree(double eccentricity_deg) const;
+
+    /// e_c; 0 where the eye is the limit everywhere.
+    [[nodiscard]] double display_limit_deg() const { return display_limit_deg_; }
+    [[nodiscard]] double pixels_per_degree() const { return pixels_per_degree_; }
+    [[nodiscard]] const MarLine& mar() const { return mar_; }
+
+    /// The LP-buffer that holds every eccentricity: stated, or U(kMaxEccentricityDeg) columns and
+    /// the most rows that any eccentricity asks for, max of 360 sin e min(p, 2 / omega(e)).
+    [[nodiscard]] LpSize lp() const { return lp_; }
+
+    /// The share of the LP-buffer's width within an eccentricity, and its inverse: U and U^-1
+    /// stretched to the buffer.
+    [[nodiscard]] double u(double eccentricity_deg) const;
+    [[nodiscard]] double eccentricity_of_u_deg(double u) const;
+
+  private:
+    AcuityProfile(const MarLine& mar, double pixels_per_degree);
+
+    MarLine mar_;
+    double pixels_per_degree_;
+    double display_limit_deg_;
+    double omega_at_limit_deg_;  ///< of a cycle: 2/p, or omega0 where the eye is the limit
+    double max_columns_;
+    LpSize lp_;
+};
+
+}  // namespace gazeloop::foveation

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "runtime/foveation/picture/band_tiles.h"
+#include "runtime/foveation/picture/image_size.h"
+#include "runtime/foveation/picture/tile.h"
+#include "runtime/gaze/hidden_mesh.h"
+#include "runtime/gaze/view.h"
+
+namespace gazeloop::foveation {
+
+/// Which pixels of one eye's picture nobody can see, so that nothing need be shaded for them.
+///
+/// A compositor reads a picture bilinearly: what an eye sees at a position depends on the pixels
+/// less than 1 px away on each axis. So a pixel is hidden if everything that close to its centre,
+/// as far as it lies on the picture, lies inside the mesh. Every error is on the side of drawing:
+///  - a pixel near an edge that two triangles do not share counts as visible, even where further
+///    triangles overlap that edge;
+///  - what lies between two visible pixels of a row or of a column is visible: masks surround the
+///    picture (and Monado 25's is displaced where up and down differ);
+///  - rows stand and fall in groups of kGroupRows, and columns in blocks of kBlockColumns: few
+///    rectangles are quick to draw, and a block that two of them share would be shaded twice;
+///  - triangles that are not finite, or lie farther from the picture than 2^20 px, are left out.
+/// The outermost 1/64 px of the picture are not asked about, because meshes end there with
+/// rounding.
+class HiddenArea {
+  public:
+    static constexpr std::uint32_t kGroupRows = 8;
+    static constexpr std::uint32_t kBlockColumns = 4;
+    static_assert(kGroupRows % kBandRows == 0);
+
+    /// Precondition: gaze::is_valid(view). Takes time in proportion to triangles times rows.
+    HiddenArea(const gaze::HiddenMesh& mesh, const gaze::EyeView& view);
+
+    /// The visible pixels as few rectangles, one below the other.
+    [[nodiscard]] std::span<const Tile> visible_tiles() const { return tiles_; }
+    [[nodiscard]] std::uint64_t hidden_pixels() const { return hidden_pixels_; }
+
+    /// The columns that any visible pixel of a band of rows has. Precondition: the band lies within
+    /// a multiple of kBandRows and the next, and in the picture.
+    [[nodiscard]] Columns visible_columns(std::uint32_t first_row) const {
+        return groups_[first_row / kGroupRows];
+    }
+
+    /// The convex hull of the visible pixels' centres, px: its corners in the order in which angles
+    /// from x to y grow. For what is bounded by it (screen_wedge.h, GazeFrame::rho_in_wedge).
+    [[nodiscard]] std::span<const glm::dvec2> outline() const { return outline_; }
+
+  private:
+    void add_tile(const Tile& tile);
+    void fill_columns();
+
+    std::vector<Columns> groups_;
+    std::vector<Tile> tiles_;
+    std::vector<glm::dvec2> outline_;
+    std::uint64_t hidden_pixels_ = 0;
+};
+
+/// What an eye's picture may leave out; null: nothing.
+using HiddenAreas = gaze::PerEye<std::shared_ptr<const HiddenArea>>;
+
+/// The areas of both eyes' views. Null where there is no mesh, or it hides no pixel, or all of
+/// them, which no runtime can mean.
+HiddenAreas hidden_areas(const gaze::HiddenMeshes& meshes, const gaze::StereoView& views);
+
+}  // namespace gazeloop::foveation

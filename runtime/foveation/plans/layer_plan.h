@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "runtime/foveation/picture/gaze_field.h"
+#include "runtime/foveation/picture/offered_density.h"
+#include "runtime/foveation/picture/tile.h"
+#include "runtime/foveation/plans/eccentricity_layers.h"
+
+namespace gazeloop::foveation {
+
+/// One layer of an eye's picture: what is rendered, and how finely.
+struct PlannedLayer {
+    double radius_deg = 0.0;  ///< shown up to this eccentricity; of the last layer 180
+    double factor = 1.0;      ///< picture pixels a sample, each way
+    Tile covers;              ///< pixels of the picture
+    std::uint32_t width = 0;  ///< samples
+    std::uint32_t height = 0;
+    double weight = 1.0;  ///< work of a sample: .5 for a layer at half rate
+};
+
+/// Eccentricity layers of one picture at one gaze. Each layer is the rectangle around its cone of
+/// eccentricity, cut by the picture; the last one is the whole picture. A layer wholly outside the
+/// picture has no samples.
+struct LayerPlan {
+    std::vector<PlannedLayer> layers;  ///< inner first
+
+    /// Samples if every layer is rendered for every frame.
+    [[nodiscard]] std::uint64_t samples() const;
+    /// ... and with the layers' weights.
+    [[nodiscard]] double weighted_samples() const;
+};
+
+/// The display as the optimiser sees it: the axis with the coarser pixels, so that its sharpness
+/// angle holds for both.
+[[nodiscard]] LayerDisplay layer_display(const gaze::EyeView& view);
+
+/// Radii and factors are those that the optimiser finds for a gaze at the picture's centre, whose
+/// pixels are the coarsest of the picture: elsewhere they are more than enough. Eccentricity is the
+/// true angle, also off axis, where the published circle in pixels falls short. Errors: as
+/// optimise_layers.
+Expected<LayerPlan> plan_layers(const GazeField& field, const MarLine& line,
+                                const LayerOptions& options);
+
+/// What the layers offer: each one's grid up to its radius. The published blend, over the outer 40
+/// % of a layer's radius, mixes the next coarser layer in before that; it is not counted here.
+class LayerDensity final : public OfferedDensity {
+  public:
+    explicit LayerDensity(LayerPlan plan) : plan_(std::move(plan)) {}
+
+    [[nodiscard]] SampleGrid at(const FieldPoint& at) const override;
+
+  private:
+    LayerPlan plan_;
+};
+
+}  // namespace gazeloop::foveation

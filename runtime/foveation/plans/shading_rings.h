@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "runtime/error.h"
+#include "runtime/foveation/eye/acuity_model.h"
+#include "runtime/foveation/picture/gaze_field.h"
+#include "runtime/foveation/picture/offered_density.h"
+
+namespace gazeloop::foveation {
+
+/// Foveation as variable-rate shading offers it today: one sample a pixel near the gaze, one for
+/// 2 x 2 and 4 x 4 pixels further out, chosen tile by tile.
+struct RingParameters {
+    static constexpr std::uint32_t kMinTilePx = 4;
+    static constexpr std::uint32_t kMaxTilePx = 64;
+
+    double inner_deg = 0.0;      ///< a sample a pixel within this eccentricity; [0, 180]
+    double outer_deg = 0.0;      ///< 2 x 2 from there to this one; [inner_deg, 180]
+    std::uint32_t tile_px = 16;  ///< side of a tile; a multiple of 4 in [kMinTilePx, kMaxTilePx]
+};
+
+/// The narrowest rings that satisfy a model wherever the gaze is: pixels of the picture are
+/// coarsest on its axis, and they are taken for all. `nasal` as for AcuityModel; 1 for a model that
+/// knows directions, so that the rings suffice on both sides.
+[[nodiscard]] RingParameters sufficient_rings(const gaze::EyeView& view, const AcuityModel& model,
+                                              double nasal, std::uint32_t tile_px);
+
+/// The rates of one picture at one gaze.
+struct RingPlan {
+    std::uint32_t tile_px = 0;
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    /// log2 of a tile's rate, row by row: 0, 1 or 2.
+    std::vector<std::uint8_t> log2_rate;
+    /// Samples by log2 of their rate. A sample whose pixels lie partly outside the picture counts.
+    std::array<std::uint64_t, 3> samples_at{};
+
+    [[nodiscard]] std::uint64_t samples() const {
+        return samples_at[0] + samples_at[1] + samples_at[2];
+    }
+};
+
+/// A tile takes the rate of its point nearest to the gaze: no pixel gets less than its eccentricity
+/// asks for. Errors (Usage): a parameter out of range or not a number.
+Expected<RingPlan> plan_rings(const GazeField& field, const RingParameters& parameters);
+
+class RingDensity final : public OfferedDensity {
+  public:
+    explicit RingDensity(RingPlan plan) : plan_(std::move(plan)) {}
+
+    [[nodiscard]] SampleGrid at(const FieldPoint& at) const override;
+
+  private:
+    RingPlan plan_;
+};
+
+}  // namespace gazeloop::foveation

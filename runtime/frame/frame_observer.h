@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string_view>
+
+#include "runtime/frame/frame_record.h"
+#include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/hidden_mesh.h"
+
+namespace gazeloop::render {
+struct FrameRequest;
+}  // namespace gazeloop::render
+
+namespace gazeloop::frame {
+
+/// Is told what the loop does, on the loop's thread: must not block and, in steady state, not
+/// allocate.
+class FrameObserver {
+  public:
+    FrameObserver() = default;
+    FrameObserver(const FrameObserver&) = delete;
+    FrameObserver& operator=(const FrameObserver&) = delete;
+    virtual ~FrameObserver() = default;
+
+    /// A gaze sample that the frame has consumed, head pose filled in where it is known.
+    virtual void on_sample(const gaze::GazeSample&, std::uint64_t /*frame*/) {}
+    /// From the frame on, its pictures leave out these parts.
+    virtual void on_hidden(const gaze::HiddenChange&) {}
+    /// A frame whose passes have been submitted. Its pictures still belong to the loop and lie in
+    /// COLOR_ATTACHMENT_OPTIMAL; who reads them submits that to the context's queue, here, and
+    /// leaves them as they are.
+    virtual void on_rendered(const render::FrameRequest&) {}
+    /// A frame that was handed to the target.
+    virtual void on_frame(const FrameRecord&) {}
+    /// The GPU has finished a frame.
+    virtual void on_gpu(const FrameGpuRecord&) {}
+    /// `kind` is one word: session, gaze, tracker, loop.
+    virtual void on_event(time::Stamp, std::string_view /*kind*/, std::string_view /*text*/) {}
+};
+
+}  // namespace gazeloop::frame

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/gaze/gaze_sample.h"
+
+namespace gazeloop::gaze {
+
+/// A recorded gaze stream in our axes and units, whatever file it came from.
+///
+/// `sampled` of each sample is its time since the trace's first sample, Modelled. `arrived` is
+/// unknown unless the file has host times; then it is Modelled, on the same time line, and shifted
+/// so that the quickest report took no time at all (TraceSource adds the tracker's delay). Times
+/// increase: samples whose time did not advance were dropped and counted. At least one sample has a
+/// valid eye.
+///
+/// A recorded session's gaze is in the order of its arrival, the first of it at 0, as it was:
+/// `sampled` may be unknown or go back, `ready` may be known.
+struct GazeTrace {
+    std::string file;
+    std::string format;  ///< "gazeloop", "htc-vive-pro"
+    std::string device;  ///< as the file states it, else the format's device
+    std::vector<gaze::GazeSample> samples;
+    std::uint64_t rows_out_of_order = 0;
+    std::uint64_t rows_missing = 0;  ///< by gaps in the sequence numbers, where the file has them
+};
+
+}  // namespace gazeloop::gaze

@@ -1,0 +1,90 @@
+#include "runtime/report/summary_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+
+#include "runtime/report/summary_rows.h"
+
+namespace gazeloop::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+template <typename T, std::size_t N>
+Json by_name(const std::array<T, N>& values, const std::array<std::string_view, N>& names) {
+    Json object = Json::object();
+    for (std::size_t i = 0; i < N; ++i) {
+        object[std::string(names[i])] = values[i];
+    }
+    return object;
+}
+
+Json row_json(const latency::DurationRow& row) {
+    return {{"frames", row.count},
+            {"kind", time::name(row.kind())},
+            {"frames_by_kind", by_name(row.frames_by_kind, time::kStampKindNames)},
+            {"min_ms", or_null(row.min_ms)},
+            {"mean_ms", or_null(row.mean_ms)},
+            {"p50_ms", or_null(row.p50_ms)},
+            {"p95_ms", or_null(row.p95_ms)},
+            {"p99_ms", or_null(row.p99_ms)},
+            {"max_ms", or_null(row.max_ms)}};
+}
+
+}  // namespace
+
+Json summary_json(const latency::SummaryReport& report) {
+    Json durations = Json::object();
+    for (const NamedRow& named : rows_of(report)) {
+        durations[named.key] = row_json(*named.row);
+    }
+    const latency::SummaryConfig& config = report.config;
+    const latency::FrameCounts& frames = report.frames;
+    const bool missed_known = frames.in_time_unknown < frames.rendered;
+    const frame::SampleCounts& samples = report.samples;
+    return {{"verdict", latency::kVerdictNames[static_cast<std::size_t>(report.verdict)]},
+            {"clock", config.clock == latency::LoopClock::Wall ? "wall" : "virtual"},
+            {"display_period_ns", config.period_ns > 0 ? Json(config.period_ns) : Json(nullptr)},
+            {"switching_ns", or_null(config.switching_ns)},
+            {"rolling_ns", or_null(config.rolling_ns)},
+            {"persistence_ns", or_null(config.persistence_ns)},
+            {"assumed_of_display", config.assumed},
+            {"eye_to_photon_percent_by_kind",
+             report.share_by_kind_percent
+                 ? by_name(*report.share_by_kind_percent, time::kStampKindNames)
+                 : Json(nullptr)},
+            {"eye_to_photon_frames",
+             {{"known", report.gaze_age_at_display.count}, {"of", frames.with_gaze()}}},
+            {"durations", durations},
+            {"frames",
+             {{"total", frames.total},
+              {"rendered", frames.rendered},
+              {"missed", missed_known ? Json(frames.missed) : Json(nullptr)},
+              {"missed_percent", or_null(report.missed_percent())},
+              {"periods_missed", missed_known ? Json(frames.periods_missed) : Json(nullptr)},
+              {"in_time_unknown", frames.in_time_unknown},
+              {"by_gaze_state", by_name(frames.by_state, gaze::kFoveaStateNames)}}},
+            {"gaze",
+             {{"received", report.gaze.received},
+              {"invalid", report.gaze.invalid},
+              {"lost", report.gaze.lost},
+              {"out_of_order", report.gaze.out_of_order}}},
+            {"samples",
+             {{"texels_planned", samples.texels_planned},
+              {"texels_shaded", samples.texels_shaded},
+              {"texels_off_screen", samples.texels_off_screen},
+              {"texels_under_disc", samples.texels_under_disc},
+              {"texels_hidden", samples.texels_hidden},
+              {"pixels_direct", samples.pixels_direct},
+              {"pixels_output", samples.pixels_output},
+              {"pixels_hidden", samples.pixels_hidden},
+              {"times_fewer_than_full", or_null(report.samples_saved_factor())}}}};
+}
+
+}  // namespace gazeloop::report

@@ -1,0 +1,204 @@
+#include "runtime/report/summary_text.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include "runtime/report/summary_rows.h"
+#include "runtime/time/milliseconds.h"
+
+namespace gazeloop::report {
+namespace {
+
+/// A column holds 8 characters and a blank: longer figures give up decimals, then digits.
+std::string milliseconds(const std::optional<double>& ms) {
+    if (!ms) {
+        return "-";
+    }
+    constexpr std::size_t kColumn = 8;
+    for (const int decimals : {2, 0}) {
+        std::string text = fmt::format("{:.{}f}", *ms, decimals);
+        if (text.size() <= kColumn) {
+            return text;
+        }
+    }
+    return fmt::format("{:.1e}", *ms);
+}
+
+std::string count(std::uint64_t value) {
+    constexpr std::uint64_t kWidest = 99'999'999;
+    return value <= kWidest ? fmt::format("{}", value)
+                            : fmt::format("{:.2e}", static_cast<double>(value));
+}
+
+std::string percent(std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? "-"
+                      : fmt::format("{:.1f} %",
+                                    100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+std::string share_line(const latency::SummaryReport& report) {
+    if (!report.share_by_kind_percent) {
+        return "eye-to-photon: unknown (no frame has both a gaze sample and a display time)\n";
+    }
+    const auto& share = *report.share_by_kind_percent;
+    std::string line = "eye-to-photon:";
+    for (const time::StampKind kind :
+         {time::StampKind::Measured, time::StampKind::Profile, time::StampKind::Modelled,
+          time::StampKind::Predicted, time::StampKind::Unknown}) {
+        fmt::format_to(std::back_inserter(line), "{} {:.1f} % {}",
+                       kind == time::StampKind::Measured ? "" : ",",
+                       share[static_cast<std::size_t>(kind)], time::name(kind));
+    }
+    const std::uint64_t with_gaze = report.frames.with_gaze();
+    const std::uint64_t known = report.gaze_age_at_display.count;
+    if (known < with_gaze) {
+        fmt::format_to(std::back_inserter(line),
+                       ", in the {} of {} frames with gaze whose age is known", known, with_gaze);
+    }
+    return line + "\n";
+}
+
+/// "median interval 11.11 ms, display period 11.11 ms, missed 0.3 %".
+std::string pace(const latency::SummaryReport& report) {
+    const std::optional<double> period_ms =
+        report.config.period_ns > 0
+            ? std::optional(static_cast<double>(report.config.period_ns) / time::kNsPerMs)
+            : std::nullopt;
+    const std::optional<double> missed = report.missed_percent();
+    const auto with_unit = [](const std::optional<double>& ms) {
+        return ms ? milliseconds(ms) + " ms" : "unknown";
+    };
+    return fmt::format("median interval {}, display period {}, missed {}",
+                       with_unit(report.frame_interval.p50_ms), with_unit(period_ms),
+                       missed ? fmt::format("{:.1f} %", *missed) : "unknown");
+}
+
+std::string verdict_line(const latency::SummaryReport& report) {
+    switch (report.verdict) {
+        case latency::Verdict::RealTime:
+            return "real time: " + pace(report) + "\n";
+        case latency::Verdict::NotRealTime:
+            return "NOT REAL TIME: " + pace(report) + "; no latency verdict\n";
+        case latency::Verdict::VirtualTime:
+            return "virtual time: durations of the loop are modelled\n";
+        case latency::Verdict::Unknown:
+            break;
+    }
+    return "no latency verdict: " + pace(report) + "\n";
+}
+
+/// The kind of a row: the least certain one of its frames, with '+' where there are better ones.
+std::string kind_cell(const latency::DurationRow& row) {
+    return std::string(time::name(row.kind())) + (row.mixed() ? "+" : "");
+}
+
+void append_table(std::string& text, const latency::SummaryReport& report) {
+    auto out = std::back_inserter(text);
+    constexpr std::string_view kRow = "{:<24}{:<11}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}\n";
+    fmt::format_to(out, kRow, "milliseconds", "kind", "frames", "min", "mean", "p50", "p95", "p99",
+                   "max");
+    bool withheld = false;
+    bool mixed = false;
+    for (const NamedRow& named : rows_of(report)) {
+        const latency::DurationRow& row = *named.row;
+        fmt::format_to(out, kRow, named.label, kind_cell(row), count(row.count),
+                       milliseconds(row.min_ms), milliseconds(row.mean_ms),
+                       milliseconds(row.p50_ms), milliseconds(row.p95_ms), milliseconds(row.p99_ms),
+                       milliseconds(row.max_ms));
+        withheld = withheld || !row.p99_ms;
+        mixed = mixed || row.mixed();
+    }
+    if (withheld) {
+        text += "-: unknown, or withheld because a percentile p needs 1 / (1 - p) frames\n";
+    }
+    if (mixed) {
+        text += "+: the least certain kind of several\n";
+    }
+    if (!report.config.switching_ns) {
+        text += "The display's switching time is unknown and in none of these ages.\n";
+    }
+    if (!report.config.rolling_ns) {
+        text +=
+            "Which rows the display lights when is unknown: ages are those of its middle row.\n";
+    }
+    if (report.config.persistence_ns) {
+        fmt::format_to(std::back_inserter(text),
+                       "A pixel is lit for {:.2f} ms, half of it before these ages (profile).\n",
+                       static_cast<double>(*report.config.persistence_ns) / 1e6);
+    }
+    if (!report.config.assumed.empty()) {
+        fmt::format_to(std::back_inserter(text),
+                       "Assumed, not published, in the display's profile: {}.\n",
+                       report.config.assumed);
+    }
+}
+
+/// "2 (0.1 %) by 3 periods, unknown of 4 frames".
+std::string missed(const latency::SummaryReport& report) {
+    const latency::FrameCounts& frames = report.frames;
+    const std::optional<double> percent_missed = report.missed_percent();
+    if (!percent_missed) {
+        return "unknown";
+    }
+    std::string text = fmt::format("{} ({:.1f} %) by {} periods", count(frames.missed),
+                                   *percent_missed, count(frames.periods_missed));
+    if (frames.in_time_unknown > 0) {
+        text += fmt::format(", unknown of {} frames", count(frames.in_time_unknown));
+    }
+    return text;
+}
+
+/// Said only where there is a mask.
+std::string hidden(const frame::SampleCounts& samples, std::uint64_t of_them) {
+    return samples.pixels_hidden > 0 ? fmt::format(", hidden {}", count(of_them)) : "";
+}
+
+void append_counts(std::string& text, const latency::SummaryReport& report) {
+    auto out = std::back_inserter(text);
+    const latency::FrameCounts& frames = report.frames;
+    fmt::format_to(out, "frames   {}, rendered {}\nmissed   {}", count(frames.total),
+                   count(frames.rendered), missed(report));
+    text += "\ngaze    ";
+    for (std::size_t state = 0; state < frames.by_state.size(); ++state) {
+        fmt::format_to(out, "{} {} {}", state == 0 ? "" : ",", gaze::kFoveaStateNames[state],
+                       percent(frames.by_state[state], frames.rendered));
+    }
+    fmt::format_to(out, "\nsamples  received {}, invalid {}, lost {}, out of order {}\n",
+                   count(report.gaze.received), count(report.gaze.invalid), count(report.gaze.lost),
+                   count(report.gaze.out_of_order));
+    const frame::SampleCounts& samples = report.samples;
+    fmt::format_to(out, "texels   shaded {} of {}, off screen {}, under the disc {}{}\n",
+                   count(samples.texels_shaded), count(samples.texels_planned),
+                   count(samples.texels_off_screen), count(samples.texels_under_disc),
+                   hidden(samples, samples.texels_hidden));
+    fmt::format_to(out, "pixels   shaded directly {} of {}{}\n", count(samples.pixels_direct),
+                   count(samples.pixels_output), hidden(samples, samples.pixels_hidden));
+    if (const std::optional<double> fewer = report.samples_saved_factor()) {
+        const std::string compared =
+            *fewer > 1.0   ? fmt::format("{:.1f}x fewer samples than", *fewer)
+            : *fewer < 1.0 ? fmt::format("{:.1f}x more samples than", 1.0 / *fewer)
+                           : "as many samples as";
+        text += "shading  " + compared + " full resolution\n";
+    }
+}
+
+}  // namespace
+
+std::string summary_text(const latency::SummaryReport& report) {
+    std::string text;
+    if (report.verdict == latency::Verdict::NotRealTime) {
+        text += verdict_line(report) + share_line(report);
+    } else {
+        text += share_line(report) + verdict_line(report);
+    }
+    text += "\n";
+    append_table(text, report);
+    text += "\n";
+    append_counts(text, report);
+    return text;
+}
+
+}  // namespace gazeloop::report

@@ -1,0 +1,493 @@
+#include "runtime/run/frame_run.h"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "runtime/latency/latency_summary.h"
+#include "runtime/methods/acuity_settings.h"
+#include "runtime/methods/kfr_settings.h"
+#include "runtime/preview/preview_feed.h"
+#include "runtime/preview/window_process.h"
+#include "runtime/render/snapshot.h"
+#include "runtime/report/output_file.h"
+#include "runtime/report/session_summary.h"
+#include "runtime/report/summary_json.h"
+#include "runtime/report/summary_text.h"
+#include "runtime/run/interrupt.h"
+#include "runtime/run/run_checks.h"
+#include "runtime/run/run_observers.h"
+#include "runtime/run/run_target.h"
+#include "runtime/session/replay_check.h"
+#include "runtime/session/session_recorder.h"
+#include "runtime/time/clock.h"
+#include "runtime/time/milliseconds.h"
+#include "runtime/version.h"
+
+namespace gazeloop::run {
+namespace {
+
+gaze::FoveaPolicy fovea_policy(const settings::SettingValues& values) {
+    return {.stale_ns = time::ms_to_ns(values.gaze.stale_ms),
+            .hold_ns = time::ms_to_ns(values.gaze.hold_ms),
+            .return_ns = time::ms_to_ns(values.gaze.return_ms),
+            .minimum_confidence = values.gaze.minimum_confidence,
+            .fixation_distance_m = values.gaze.fixation_distance_m};
+}
+
+render::Method method_named(std::string_view text) {
+    const auto at = std::ranges::find(render::kMethodNames, text);
+    return static_cast<render::Method>(at - render::kMethodNames.begin());
+}
+
+/// The profile's eyes at the target's picture sizes, head at the origin.
+gaze::StereoView profile_views(const display::DisplayProfile& display,
+                               const gaze::PerEye<vk::Extent2D>& extents) {
+    gaze::StereoView views;
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const std::size_t e = gaze::index(eye);
+        views[e] = display::profile_view(display, eye, extents[e].width, extents[e].height);
+    }
+    return views;
+}
+
+/// First draws compile shaders; in wall-clock runs that is not to look like a slow first frame.
+void warm_up(const vulkan::Context& context, const render::RendererConfig& config,
+             const gaze::StereoView& views) {
+    render::FrameRequest request;
+    request.views = views;
+    gaze::PerEye<vulkan::ColorImage> images;
+    gaze::PerEye<vulkan::DepthImage> depths;
+    render::FrameRenderer renderer(context, config);
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const std::size_t e = gaze::index(eye);
+        images[e] = vulkan::ColorImage(
+            context, config.extents[e], config.format,
+            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
+        request.targets[e] = {images[e].image(), images[e].view()};
+        if (config.depth_format != vk::Format::eUndefined) {
+            depths[e] = vulkan::DepthImage(context, config.extents[e], config.depth_format);
+            request.targets[e].depth_image = depths[e].image();
+            request.targets[e].depth_view = depths[e].view();
+        }
+        request.foveae[e] = {views[e].width_px / 2.0, views[e].height_px / 2.0};
+        request.gaze_directions[e] = {0.0, 0.0, -1.0};
+    }
+    renderer.wait_for_slot();
+    renderer.render(request);
+    renderer.wait_idle();
+}
+
+std::string_view end_text(LoopEnd end) {
+    switch (end) {
+        case LoopEnd::Limit:
+            return "limit reached";
+        case LoopEnd::SourceEnd:
+            return "gaze source ended";
+        case LoopEnd::Interrupted:
+            return "interrupted";
+        case LoopEnd::Closed:
+            return "the preview was closed";
+        case LoopEnd::TargetEnd:
+            return "ended by the runtime";
+    }
+    return "";
+}
+
+class FrameRun {
+  public:
+    explicit FrameRun(const FrameRunRequest& request)
+        : request_(request), values_(request.settings->values()), display_(display_of(request)) {}
+
+    std::optional<ErrorKind> run() {
+        check_request(request_);
+        if (request_.snapshot) {
+            value_or_throw(render::make_snapshot_folder(*request_.snapshot));
+        }
+        if (request_.preview_eyes != 0) {
+            window_ = std::make_unique<preview::WindowProcess>(request_.preview_eyes);
+        }
+        present::OpenXrTarget* openxr = nullptr;
+        if (values_.target.name == "openxr") {
+            auto target = make_openxr_target(request_, display_);
+            openxr = target.get();
+            target_ = std::move(target);
+        } else {
+            target_ = make_headless_target(request_, display_);
+        }
+        context_ = std::make_unique<vulkan::Context>(
+            vulkan::ContextOptions{.validation = values_.vulkan.validation,
+                                   .device = values_.vulkan.device,
+                                   .device_origin = request_.settings->origin("vulkan.device")},
+            target_->vulkan_factory());
+        target_->start(*context_);
+        if (request_.openxr_gaze) {
+            openxr_gaze_ =
+                std::make_unique<drivers::OpenXrSource>(openxr->session(), *request_.openxr_gaze);
+        }
+        config_ = renderer_config();
+        check_recorded_target(request_, config_);
+        check_map(request_, config_);
+        render::FrameRenderer renderer(*context_, config_);
+        spdlog::info("Vulkan: {} ({})", context_->device_name(), context_->driver());
+        spdlog::info("{}x{} per eye, method {}, scene {}, {} samples, target {}",
+                     config_.extents[0].width, config_.extents[0].height, values_.render.method,
+                     values_.render.scene, values_.render.spp, values_.target.name);
+        if (request_.clock == RunClock::Wall) {
+            warm_up(*context_, config_, profile_views(display_, target_->extents()));
+        }
+        open_recording();
+        if (!display_.assumed.empty()) {
+            spdlog::info("display {}: assumed, not published: {}", display_.name,
+                         fmt::join(display_.assumed, ", "));
+        }
+
+        latency::LatencySummary summary(report::summary_config(display_, loop_clock()));
+        run_loop(renderer, summary);
+        preview_.reset();
+        window_.reset();
+        finish(summary);
+        return failure_;
+    }
+
+  private:
+    [[nodiscard]] latency::LoopClock loop_clock() const {
+        if (request_.clock == RunClock::Recorded) {
+            return report::summary_config(*request_.session).clock;
+        }
+        return request_.clock == RunClock::Virtual ? latency::LoopClock::Virtual
+                                                   : latency::LoopClock::Wall;
+    }
+
+    [[nodiscard]] render::RendererConfig renderer_config() const {
+        return {.method = method_named(values_.render.method),
+                .scene = values_.render.scene,
+                .samples = static_cast<std::uint32_t>(values_.render.spp),
+                .kfr = value_or_throw(methods::kfr_parameters(*request_.settings)),
+                .acuity = methods::acuity_parameters(values_),
+                .extents = target_->extents(),
+                .format = target_->format(),
+                .depth_format = target_->depth_format().value_or(vk::Format::eUndefined),
+                .profile = values_.render.profile,
+                .hash = request_.hash,
+                .seen_depth = request_.openxr_gaze && request_.openxr_gaze->from_depth,
+                .frames_in_flight = static_cast<std::uint32_t>(values_.render.frames_in_flight),
+                .lp_background = std::nullopt};
+    }
+
+    void open_recording() {
+        if (!request_.record) {
+            return;
+        }
+        session::SessionHeader header;
+        header.meta = {{"program", fmt::format("gazeloop {}", kVersion)},
+                       {"command_line", request_.command_line},
+                       {"started_utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                                                   fmt::gmtime(std::chrono::system_clock::to_time_t(
+                                                       std::chrono::system_clock::now())))},
+                       {"clock", loop_clock() == latency::LoopClock::Virtual ? "virtual" : "wall"},
+                       {"target", values_.target.name},
+                       {"target_format", vk::to_string(target_->format())}};
+        const auto display_meta = report::meta_of(display_);
+        header.meta.insert(header.meta.end(), display_meta.begin(), display_meta.end());
+        header.config = request_.settings->list();
+        for (const auto& [name, value] : target_->properties()) {
+            header.device.push_back({name, value});
+        }
+        header.device.push_back({"vulkan device", context_->device_name()});
+        header.device.push_back({"vulkan driver", context_->driver()});
+        recorder_ = value_or_throw(session::SessionRecorder::create(*request_.record, header));
+        recording_ = std::make_unique<RecordingObserver>(*recorder_);
+    }
+
+    [[nodiscard]] std::unique_ptr<FrameTimeline> make_timeline() const {
+        switch (request_.clock) {
+            case RunClock::Wall:
+                break;
+            case RunClock::Virtual:
+                return std::make_unique<VirtualTimeline>(
+                    VirtualTimeline::Model{.period_ns = display_.period_ns(),
+                                           .gpu_ns = time::ms_to_ns(values_.virtual_time.gpu_ms),
+                                           .views = profile_views(display_, target_->extents())});
+            case RunClock::Recorded: {
+                std::vector<RecordedTimeline::Frame> frames;
+                frames.reserve(request_.session->frames.size());
+                for (const session::RecordedFrame& recorded : request_.session->frames) {
+                    frames.push_back({recorded.frame, recorded.gpu});
+                }
+                return std::make_unique<RecordedTimeline>(std::move(frames),
+                                                          request_.session->hidden);
+            }
+        }
+        return std::make_unique<LiveTimeline>(time::measured_now().ns);
+    }
+
+    void run_loop(render::FrameRenderer& renderer, latency::LatencySummary& summary) {
+        gaze::GazeToFovea gaze(fovea_policy(values_));
+        SummaryObserver summing(summary);
+        LogObserver logging;
+        if (request_.session != nullptr && request_.clock == RunClock::Recorded) {
+            check_.emplace(*request_.session, request_.same_gaze, request_.same_rendering);
+        }
+        LoopParts parts{
+            .target = *target_,
+            .renderer = renderer,
+            .gaze = gaze,
+            .make_timeline = [this] { return make_timeline(); },
+            .make_source =
+                [this](std::int64_t start_ns) {
+                    auto source = openxr_gaze_ != nullptr ? std::move(openxr_gaze_)
+                                                          : request_.make_source(start_ns);
+                    spdlog::info("gaze: {}", source->description());
+                    if (recorder_ != nullptr) {
+                        recorder_->event(time::Stamp{}, "gaze-source", source->description());
+                    }
+                    return source;
+                },
+            .observers = {&summing, &logging}};
+        if (recording_ != nullptr) {
+            parts.observers.push_back(recording_.get());
+        }
+        if (request_.hash) {
+            parts.observers.push_back(&hash_);
+        }
+        if (check_) {
+            parts.observers.push_back(&*check_);
+        }
+        open_preview(renderer);
+        if (preview_ != nullptr) {
+            parts.observers.push_back(preview_.get());
+        }
+        LoopOptions options = request_.loop;
+        options.stop = [this] { return why_stop(); };
+        options.hidden_area = values_.render.hidden_area;
+        try {
+            result_ = run_frame_loop(parts, options);
+            if (result_.end == LoopEnd::Interrupted) {
+                failure_ = ErrorKind::Interrupted;
+            }
+            spdlog::info("{} frames, {}", result_.frames, end_text(result_.end));
+            if (preview_ != nullptr) {
+                spdlog::info("preview: {} frames shown, {} dropped", preview_->frames_shown(),
+                             preview_->frames_dropped());
+            }
+            compare_with_profile();
+            if (recorder_ != nullptr) {
+                recorder_->event(time::measured_now(), "gpu-clock",
+                                 fmt::format("related to CLOCK_MONOTONIC within {} ns",
+                                             renderer.clock_deviation_ns()));
+            }
+        } catch (const SetupError& error) {
+            fail(error.kind(), error.what());
+        } catch (const vk::DeviceLostError& error) {
+            fail(ErrorKind::SessionLost,
+                 fmt::format("the Vulkan device was lost ({}): the kernel's log (dmesg) may say "
+                             "why; start again",
+                             error.what()));
+        } catch (const vk::SystemError& error) {
+            fail(
+                ErrorKind::SessionLost,
+                fmt::format("Vulkan failed ({}): use a smaller picture (--set render.scale=0.5) or "
+                            "close what else uses the device",
+                            error.what()));
+        }
+    }
+
+    void open_preview(const render::FrameRenderer& renderer) {
+        if (window_ == nullptr) {
+            return;
+        }
+        preview_ = std::make_unique<preview::PreviewFeed>(
+            *context_,
+            preview::PreviewFeed::Options{
+                .extents = config_.extents,
+                .format = config_.format,
+                .display = {.period_ns = display_.period_ns(),
+                            .switching_ns = display_.switching_ns,
+                            .rolling_ns = display_.rolling_ns()},
+                .ring_radius_px =
+                    [&renderer](gaze::Eye eye) { return renderer.last_plan(eye).disc_radius_px; }},
+            window_->memory());
+    }
+
+    /// A preview that breaks is no reason to end: the headset is what counts.
+    [[nodiscard]] std::optional<LoopEnd> why_stop() {
+        if (interrupted()) {
+            return LoopEnd::Interrupted;
+        }
+        if (window_ == nullptr || window_broken_) {
+            return std::nullopt;
+        }
+        const preview::WindowState state = window_->state();
+        if (state == preview::WindowState::Broken) {
+            window_broken_ = true;
+            spdlog::warn("the preview's window broke (the display went away?): the run goes on");
+        }
+        return state == preview::WindowState::Closed ? std::optional(LoopEnd::Closed)
+                                                     : std::nullopt;
+    }
+
+    /// The runtime's display counts; the profile then supplies only what the runtime cannot say.
+    void compare_with_profile() {
+        const double announced = static_cast<double>(result_.period_ns);
+        const double expected = static_cast<double>(display_.period_ns());
+        if (request_.clock != RunClock::Wall || result_.period_ns <= 0 ||
+            std::abs(announced - expected) <= 0.01 * expected) {
+            return;
+        }
+        const std::string text = fmt::format(
+            "the runtime's display has a period of {:.2f} ms, the profile '{}' {:.2f} ms: the "
+            "runtime's is used{}",
+            announced * 1e-6, display_.name, expected * 1e-6,
+            latency::may_be_of_period(result_.period_ns, display_.period_ns())
+                ? ""
+                : ", and when its rows light up and its pixels switch is unknown (--display names "
+                  "another profile)");
+        spdlog::warn("{}", text);
+        if (recorder_ != nullptr) {
+            recorder_->event(time::measured_now(), "display", text);
+        }
+    }
+
+    /// The first failure decides the exit code, also of a run that was ended by hand.
+    void fail(ErrorKind kind, const std::string& message) {
+        spdlog::error("{}", message);
+        if (recorder_ != nullptr) {
+            recorder_->event(time::measured_now(), "error", message);
+        }
+        if (!failure_ || failure_ == ErrorKind::Interrupted) {
+            failure_ = kind;
+        }
+    }
+
+    void finish(const latency::LatencySummary& summary) {
+        if (recorder_ != nullptr) {
+            const session::RecordingStatus status = recorder_->close();
+            if (!status.failure.empty()) {
+                fail(ErrorKind::RecordingIncomplete, status.failure);
+            } else if (status.dropped > 0) {
+                fail(ErrorKind::RecordingIncomplete,
+                     fmt::format("{}: {} records were dropped: the disk was too slow",
+                                 request_.record->string(), status.dropped));
+            } else {
+                spdlog::info("recorded to {}", request_.record->string());
+            }
+            recorder_.reset();
+        }
+        const latency::SummaryReport report = summary.report();
+        if (request_.clock == RunClock::Wall && !result_.fixed_in_head &&
+            report.gaze.received <= report.gaze.invalid + report.gaze.out_of_order &&
+            report.frames.total > 0) {
+            spdlog::warn("no gaze in all {} frames{}", report.frames.total,
+                         request_.from_device
+                             ? ": gazeloop devices says why a tracker gives none"
+                             : ": the run ended before any had arrived, or all of it was lost");
+        }
+        std::string text;
+        if (request_.clock == RunClock::Recorded && !request_.quiet) {
+            text += "replay of a recording: times are the recorded ones, passes are of this run\n";
+        }
+        if (result_.fixed_in_head && request_.clock == RunClock::Wall && !request_.quiet) {
+            text += "fixed gaze: no tracker; ages count from the latch\n";
+        }
+        if (!request_.quiet) {
+            text += report::summary_text(report);
+        }
+        if (check_) {
+            text += check_->text();
+            if (!check_->equal()) {
+                fail(ErrorKind::GateFailed, "the replay differs from the recording");
+            }
+        }
+        if (request_.hash) {
+            text += hash_.text();
+        }
+        // JSON on stdout stays alone there.
+        std::FILE* const out = request_.json == "-" ? stderr : stdout;
+        std::fputs(text.c_str(), out);
+        if (request_.json) {
+            nlohmann::ordered_json json = report::summary_json(report);
+            if (request_.hash) {
+                json["hash"] = hash_.json();
+            }
+            if (check_) {
+                json["replay"] = check_->json();
+            }
+            if (const auto written = report::write_text(*request_.json, json.dump(2) + "\n");
+                !written) {
+                fail(written.error().kind, written.error().message);
+            }
+        }
+        take_snapshot(out);
+        if (context_->validation_messages() > 0) {
+            fail(ErrorKind::GateFailed,
+                 fmt::format("Vulkan validation: {} messages", context_->validation_messages()));
+        }
+    }
+
+    void take_snapshot(std::FILE* out) {
+        if (!request_.snapshot) {
+            return;
+        }
+        if (!result_.last) {
+            fail(ErrorKind::GateFailed,
+                 "--snapshot: no frame was rendered (a runtime asks for none at first): use more "
+                 "--frames");
+            return;
+        }
+        try {
+            const auto files = value_or_throw(render::write_snapshot(
+                *context_, config_, *result_.last,
+                {.folder = *request_.snapshot, .mark_fovea = request_.mark_fovea}));
+            for (const auto& file : files) {
+                fmt::print(out, "snapshot {}\n", file.string());
+            }
+        } catch (const SetupError& error) {
+            fail(error.kind(), error.what());
+        } catch (const vk::SystemError& error) {
+            fail(ErrorKind::SessionLost,
+                 fmt::format("--snapshot: Vulkan failed ({})", error.what()));
+        }
+    }
+
+    const FrameRunRequest& request_;
+    const settings::SettingValues& values_;
+    display::DisplayProfile display_;
+    // The target's swapchains live on the context's device: they go first.
+    std::unique_ptr<vulkan::Context> context_;
+    std::unique_ptr<present::FrameTarget> target_;
+    std::unique_ptr<drivers::GazeSource> openxr_gaze_;  // of the target's session; until the loop's
+    std::unique_ptr<preview::WindowProcess> window_;
+    std::unique_ptr<preview::PreviewFeed> preview_;  // writes into the window's memory
+    bool window_broken_ = false;
+    render::RendererConfig config_;
+    std::unique_ptr<session::SessionRecorder> recorder_;
+    std::unique_ptr<RecordingObserver> recording_;
+    session::ReplayHash hash_;
+    std::optional<session::ReplayCheck> check_;
+    LoopResult result_;
+    std::optional<ErrorKind> failure_;  ///< the first one; none: the run went well
+};
+
+}  // namespace
+
+std::optional<ErrorKind> frame_run(const FrameRunRequest& request) {
+    try {
+        return FrameRun(request).run();
+    } catch (const vk::SystemError& error) {
+        throw SetupError(
+            ErrorKind::NoDevice,
+            fmt::format("Vulkan failed during set-up ({}): use a smaller picture (--set "
+                        "render.scale=0.5) or another device",
+                        error.what()));
+    }
+}
+
+}  // namespace gazeloop::run

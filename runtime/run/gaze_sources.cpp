@@ -1,0 +1,111 @@
+#include "runtime/run/gaze_sources.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drivers/fixed/fixed_source.h"
+#include "drivers/hid/hid_source.h"
+#include "drivers/psvr2/psvr2_source.h"
+#include "drivers/simulated/simulated_source.h"
+#include "drivers/trace/read_trace.h"
+#include "drivers/trace/trace_source.h"
+#include "runtime/session/session_file.h"
+#include "runtime/settings/nearest_name.h"
+
+namespace gazeloop::run {
+
+bool is_device(std::string_view gaze) {
+    return gaze == "openxr" || gaze == "psvr2" || gaze == "hid" || gaze.starts_with("hid:");
+}
+
+drivers::hid::HidOptions hid_options(const settings::TrackerProfile& tracker,
+                                     const settings::SettingValues& values) {
+    return {.path = "",
+            .delay = {tracker.delay_ns, tracker.delay_uncertainty_ns},
+            .geometry = {values.hid.screen_width_m, values.hid.screen_height_m,
+                         values.hid.viewing_distance_m, values.hid.eye_distance_m}};
+}
+
+drivers::psvr2::Psvr2Options psvr2_options(const settings::TrackerProfile& tracker) {
+    return {.delay = {tracker.delay_ns, tracker.delay_uncertainty_ns}};
+}
+
+Expected<void> default_tracker(std::string_view gaze, settings::Settings& settings) {
+    return gaze == "psvr2" ? settings.set_default("profile.tracker", "psvr2", "--gaze psvr2")
+                           : Expected<void>();
+}
+
+Expected<MakeSource> gaze_source_named(std::string_view text,
+                                       const settings::TrackerProfile& tracker,
+                                       const settings::SettingValues& values) {
+    const std::size_t colon = text.find(':');
+    const std::string_view kind = text.substr(0, colon);
+    const std::string_view argument =
+        colon == std::string_view::npos ? std::string_view{} : text.substr(colon + 1);
+    if (kind == "trace" && !argument.empty()) {
+        if (session::looks_like_session(argument)) {
+            return std::unexpected(
+                Error{ErrorKind::BadInput,
+                      fmt::format("{0}: a recorded session, not a trace: gazeloop replay {0} "
+                                  "(--clock wall plays it in real time)",
+                                  argument)});
+        }
+        auto trace = drivers::read_trace(std::string(argument));
+        if (!trace) {
+            return std::unexpected(std::move(trace.error()));
+        }
+        return trace_player(std::move(*trace), tracker.delay_ns, 1.0);
+    }
+    if (kind == "fixed" && !argument.empty()) {
+        const auto gaze = drivers::parse_fixed_gaze(argument);
+        if (!gaze) {
+            return std::unexpected(gaze.error());
+        }
+        return
+            [gaze = *gaze](std::int64_t) { return std::make_unique<drivers::FixedSource>(gaze); };
+    }
+    if (text == "sim") {
+        return [simulation = values.sim](std::int64_t start_ns) {
+            return std::make_unique<drivers::SimulatedSource>(simulation, start_ns);
+        };
+    }
+    if (kind == "hid" && (colon == std::string_view::npos || !argument.empty())) {
+        drivers::hid::HidOptions options = hid_options(tracker, values);
+        options.path = argument;
+        return [options = std::move(options)](std::int64_t) {
+            return std::make_unique<drivers::hid::HidSource>(options);
+        };
+    }
+    if (text == "psvr2") {
+        return [options = psvr2_options(tracker)](std::int64_t) {
+            return std::make_unique<drivers::psvr2::Psvr2Source>(options);
+        };
+    }
+    const std::vector<std::string> known{"hid",        "hid:/dev/hidrawN", "psvr2", "openxr",
+                                         "trace:FILE", "fixed:AZ,EL",      "sim"};
+    return std::unexpected(
+        Error{ErrorKind::Usage, "--gaze: " + settings::unknown_name("source", text, known)});
+}
+
+MakeSource trace_player(gaze::GazeTrace trace, std::int64_t delay_ns, double speed) {
+    for (gaze::GazeSample& sample : trace.samples) {
+        const auto quicker = [speed](std::int64_t ns) {
+            return std::llround(static_cast<double>(ns) / speed);
+        };
+        for (time::Stamp* const stamp : {&sample.sampled, &sample.ready, &sample.arrived}) {
+            stamp->ns = quicker(stamp->ns);
+        }
+        if (sample.uncertainty_ns) {
+            sample.uncertainty_ns = quicker(*sample.uncertainty_ns);
+        }
+    }
+    return [trace = std::move(trace), delay_ns](std::int64_t start_ns) {
+        return std::make_unique<drivers::TraceSource>(trace, start_ns, delay_ns);
+    };
+}
+
+}  // namespace gazeloop::run

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace gazeloop::run {
+
+/// From here on SIGINT and SIGTERM only set a flag; a second one of the same kind kills as usual.
+void catch_interrupts();
+
+/// Whether one of them came.
+[[nodiscard]] bool interrupted();
+
+}  // namespace gazeloop::run

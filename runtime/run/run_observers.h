@@ -1,0 +1,63 @@
+#pragma once
+
+#include <spdlog/spdlog.h>
+
+#include "runtime/frame/frame_observer.h"
+#include "runtime/latency/latency_summary.h"
+#include "runtime/session/session_recorder.h"
+
+namespace gazeloop::run {
+
+/// Passes on to the session's recorder, and says at once when it stops recording.
+class RecordingObserver final : public frame::FrameObserver {
+  public:
+    explicit RecordingObserver(session::SessionRecorder& recorder) : recorder_(recorder) {}
+    void on_sample(const gaze::GazeSample& sample, std::uint64_t frame) override {
+        recorder_.add(sample, frame);
+    }
+    void on_hidden(const gaze::HiddenChange& change) override { recorder_.add(change); }
+    void on_frame(const frame::FrameRecord& record) override {
+        recorder_.add(record);
+        if (!trouble_reported_ && recorder_.in_trouble()) {
+            trouble_reported_ = true;
+            spdlog::warn("{}; the run goes on", recorder_.trouble());
+        }
+    }
+    void on_gpu(const frame::FrameGpuRecord& record) override { recorder_.add(record); }
+    void on_event(time::Stamp time, std::string_view kind, std::string_view text) override {
+        recorder_.event(time, kind, text);
+    }
+
+  private:
+    session::SessionRecorder& recorder_;
+    bool trouble_reported_ = false;
+};
+
+/// Passes on to the summary.
+class SummaryObserver final : public frame::FrameObserver {
+  public:
+    explicit SummaryObserver(latency::LatencySummary& summary) : summary_(summary) {}
+    void on_sample(const gaze::GazeSample& sample, std::uint64_t) override { summary_.add(sample); }
+    void on_frame(const frame::FrameRecord& record) override {
+        if (record.period_ns > 0) {
+            summary_.set_display_period(record.period_ns);
+        }
+        summary_.add(record);
+    }
+    void on_gpu(const frame::FrameGpuRecord& record) override { summary_.add(record); }
+
+  private:
+    latency::LatencySummary& summary_;
+};
+
+/// Says what happens as it happens.
+class LogObserver final : public frame::FrameObserver {
+  public:
+    void on_event(time::Stamp, std::string_view kind, std::string_view text) override {
+        // Whoever runs with a device wants to know what it does.
+        spdlog::log(kind == "tracker" ? spdlog::level::info : spdlog::level::debug, "{}: {}", kind,
+                    text);
+    }
+};
+
+}  // namespace gazeloop::run

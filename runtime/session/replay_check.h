@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "runtime/frame/frame_observer.h"
+#include "runtime/session/session_file.h"
+
+namespace gazeloop::session {
+
+/// Folds everything a replay must reproduce into two numbers: every frame's fovea points bit by
+/// bit, and every frame's pixel hash.
+class ReplayHash final : public frame::FrameObserver {
+  public:
+    void on_frame(const frame::FrameRecord& record) override;
+    void on_gpu(const frame::FrameGpuRecord& record) override;
+
+    /// "foveae HEX over N frames" and, where pixels were hashed, "pixels HEX over N frames".
+    [[nodiscard]] std::string text() const;
+    /// The same for programs: numbers of 64 bits as 16 hexadecimal digits; pixels are null where
+    /// none were hashed.
+    [[nodiscard]] nlohmann::ordered_json json() const;
+
+  private:
+    std::uint64_t foveae_ = 0;
+    std::uint64_t pixels_ = 0;
+    std::uint64_t fovea_frames_ = 0;
+    std::uint64_t pixel_frames_ = 0;
+};
+
+/// Compares a replay with the recorded frames: fovea points bit by bit, and pixel hashes where both
+/// have them.
+class ReplayCheck final : public frame::FrameObserver {
+  public:
+    /// `session` must outlive this. Foveae are compared only if `same_gaze`, pixels only if
+    /// `same_rendering` as well.
+    ReplayCheck(const session::SessionFile& session, bool same_gaze, bool same_rendering)
+        : session_(session), same_gaze_(same_gaze), same_rendering_(same_gaze && same_rendering) {}
+
+    void on_frame(const frame::FrameRecord& record) override;
+    void on_gpu(const frame::FrameGpuRecord& record) override;
+
+    [[nodiscard]] bool equal() const;
+    [[nodiscard]] std::string text() const;
+    /// The same for programs: null is what was not compared.
+    [[nodiscard]] nlohmann::ordered_json json() const;
+
+  private:
+    const session::SessionFile& session_;
+    bool same_gaze_;
+    bool same_rendering_;
+    std::uint64_t foveae_equal_ = 0;
+    std::uint64_t foveae_compared_ = 0;
+    std::uint64_t pixels_equal_ = 0;
+    std::uint64_t pixels_compared_ = 0;
+    std::optional<std::uint64_t> first_difference_;
+};
+
+}  // namespace gazeloop::session

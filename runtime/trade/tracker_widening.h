@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "runtime/display/display_profile.h"
+#include "runtime/error.h"
+#include "runtime/settings/settings.h"
+
+namespace gazeloop::trade {
+
+/// By how much a fovea must be wider for what a tracker does not know.
+struct TrackerWidening {
+    double deg = 0.0;
+    std::string terms;  ///< "bias 1.10, noise .27, pursuit .76"
+};
+
+/// The tracker in force (sim.*: bias of which 95 % of fixations have less, noise), looking
+/// `off_axis_deg` away from straight ahead, while the eye follows something at
+/// sim.pursuit_deg_per_s for as long as its gaze is old when the display shows it: the tracker's
+/// delay and jitter, half a sample's period and one of the display's. The head's pose is known.
+/// Errors (Usage): nobody has stated the tracker's bias or noise. Precondition:
+/// simulate_tracker_in_force().
+Expected<TrackerWidening> tracker_widening(const settings::Settings& settings,
+                                           const display::DisplayProfile& display,
+                                           double off_axis_deg);
+
+}  // namespace gazeloop::trade

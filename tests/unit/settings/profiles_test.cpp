@@ -1,0 +1,194 @@
+#include "runtime/settings/profiles.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glm/trigonometric.hpp>
+
+#include "config/built_in_files.h"
+#include "runtime/settings/profiles_in_force.h"
+#include "tests/support/run_program.h"
+
+namespace gazeloop::settings {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kDisplay =
+    "width_px = 64\nheight_px = 64\nrefresh_hz = 100\n[fov_deg]\nleft = [-40, 40, 40, -40]\n"
+    "right = [-40, 40, 40, -40]\n[optics]\nipd_mm = 63\n";
+
+std::string refusal(const tests::ScratchFolder& folder, const std::string& text) {
+    const auto loaded = load_display(folder.write("display.toml", text));
+    EXPECT_FALSE(loaded.has_value());
+    return loaded ? "" : loaded.error().message;
+}
+
+TEST(Profiles, BuiltInOnesAreComplete) {
+    std::size_t displays = 0;
+    std::size_t trackers = 0;
+    for (const config::BuiltInFile& file : config::built_in_files()) {
+        if (file.folder == "displays") {
+            ++displays;
+            const auto display = load_display(file.name);
+            ASSERT_TRUE(display.has_value()) << display.error().message;
+            EXPECT_FALSE(display->description.empty()) << file.name;
+            EXPECT_TRUE(display->illumination && display->persistence_ns && display->scan_out_ns &&
+                        display->switching_ns)
+                << file.name;
+            EXPECT_TRUE(display->rolling_ns().has_value());
+            // What no maker publishes is never passed off as published.
+            EXPECT_THAT(display->assumed, testing::Contains("optics.ipd_mm")) << file.name;
+        } else if (file.folder == "trackers") {
+            ++trackers;
+            const auto tracker = load_tracker(file.name);
+            ASSERT_TRUE(tracker.has_value()) << tracker.error().message;
+            EXPECT_GT(tracker->delay_ns, 0) << file.name;
+            EXPECT_GE(tracker->terms.size(), 4U) << file.name;
+        }
+    }
+    EXPECT_GE(displays, 7U);
+    EXPECT_GE(trackers, 6U);
+}
+
+// Held against the sources that the files name; a slip of the pen shows here.
+TEST(Profiles, HaveTheFiguresOfTheirSources) {
+    struct Figures {
+        const char* name;
+        std::uint32_t width_px;
+        std::uint32_t height_px;
+        double refresh_hz;
+        gaze::PerEye<std::array<double, 4>> fov_deg;  ///< left, right, up, down
+    };
+    constexpr Figures kFigures[] = {
+        {"fove0", 1280, 1440, 70.0, {{{-50.0, 50.0, 50.0, -50.0}, {-50.0, 50.0, 50.0, -50.0}}}},
+        {"generic_2160",
+         2160,
+         2160,
+         90.0,
+         {{{-52.0, 48.0, 50.0, -50.0}, {-48.0, 52.0, 50.0, -50.0}}}},
+        {"psvr2",
+         2000,
+         2040,
+         120.0,
+         {{{-61.5, 43.45, 53.04, -53.04}, {-43.45, 61.5, 53.04, -53.04}}}},
+        {"quest_pro", 1800, 1920, 90.0, {{{-54.0, 40.0, 42.0, -54.0}, {-40.0, 54.0, 42.0, -54.0}}}},
+        {"varjo_xr4",
+         3840,
+         3744,
+         90.0,
+         {{{-57.14, 45.19, 51.53, -51.76}, {-45.19, 57.14, 51.53, -51.76}}}},
+        {"vive_pro_eye",
+         1440,
+         1600,
+         90.0,
+         {{{-53.57, 50.41, 54.99, -54.91}, {-50.38, 53.64, 54.92, -54.98}}}}};
+    for (const Figures& figures : kFigures) {
+        const auto display = load_display(figures.name);
+        ASSERT_TRUE(display.has_value()) << figures.name;
+        EXPECT_EQ(display->width_px, figures.width_px) << figures.name;
+        EXPECT_EQ(display->height_px, figures.height_px) << figures.name;
+        EXPECT_DOUBLE_EQ(display->refresh_hz, figures.refresh_hz) << figures.name;
+        for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
+            const gaze::FieldOfView& fov = display->fov[eye];
+            const auto& [left, right, up, down] = figures.fov_deg[eye];
+            EXPECT_DOUBLE_EQ(fov.left_rad, glm::radians(left)) << figures.name;
+            EXPECT_DOUBLE_EQ(fov.right_rad, glm::radians(right)) << figures.name;
+            EXPECT_DOUBLE_EQ(fov.up_rad, glm::radians(up)) << figures.name;
+            EXPECT_DOUBLE_EQ(fov.down_rad, glm::radians(down)) << figures.name;
+        }
+    }
+}
+
+TEST(Profiles, KnowTheCantingOfTheValveIndex) {
+    const auto index = load_display("valve_index");
+    ASSERT_TRUE(index.has_value());
+    EXPECT_DOUBLE_EQ(index->cant_outward_rad[0], glm::radians(5.0));
+    EXPECT_DOUBLE_EQ(index->cant_outward_rad[1], glm::radians(5.0));
+    EXPECT_EQ(index->illumination, display::Illumination::Global);
+}
+
+TEST(Profiles, LeaveUnsaidFiguresUnknown) {
+    const tests::ScratchFolder folder;
+    const auto display = load_display(folder.write("plain.toml", kDisplay));
+    ASSERT_TRUE(display.has_value()) << display.error().message;
+    EXPECT_FALSE(display->illumination || display->persistence_ns || display->scan_out_ns ||
+                 display->switching_ns);
+    EXPECT_EQ(display->cant_outward_rad[0], 0.0);
+}
+
+TEST(Profiles, RefuseWhatTheyDoNotKnow) {
+    const tests::ScratchFolder folder;
+    const std::string good = kDisplay;
+    EXPECT_THAT(refusal(folder, good + "cant_outwards_deg = [1, 1]\n"),
+                testing::AllOf(HasSubstr("display.toml:9"),
+                               HasSubstr("unknown key 'optics.cant_outwards_deg'; did you mean "
+                                         "'optics.cant_outward_deg'?")));
+    EXPECT_THAT(refusal(folder, good + "[photons]\nillumination = \"roling\"\n"),
+                testing::AllOf(HasSubstr("display.toml:10"), HasSubstr("did you mean 'rolling'?")));
+    EXPECT_THAT(refusal(folder, good + "[photons]\nillumination = 3\n"), HasSubstr("text"));
+    EXPECT_THAT(refusal(folder, good + "cant_outward_deg = [1]\n"), HasSubstr("2 angles"));
+    EXPECT_THAT(refusal(folder, good + "cant_outward_deg = [1, 46]\n"),
+                HasSubstr("must lie in [-45, 45]"));
+    EXPECT_THAT(refusal(folder, good + "cant_outward_deg = [1, nan]\n"), HasSubstr("must lie in"));
+    EXPECT_THAT(refusal(folder, good + "[photons]\nswitching_ms = -1\n"),
+                HasSubstr("must lie in [0, 1000]"));
+    EXPECT_THAT(refusal(folder, good + "[photons]\nscan_out_ms = 11\n"), HasSubstr("period"));
+    EXPECT_THAT(refusal(folder, "assumed = [\"optics.ipd\"]\n" + good),
+                HasSubstr("'optics.ipd' is no key"));
+    EXPECT_THAT(refusal(folder, "assumed = 3\n" + good), HasSubstr("a list of keys"));
+    EXPECT_THAT(refusal(folder, "width_px = 64\n"), HasSubstr("height_px: a number is needed"));
+}
+
+TEST(Profiles, RefuseATrackerWithoutItsDelay) {
+    const tests::ScratchFolder folder;
+    const auto loaded = load_tracker(folder.write("tracker.toml", "rate_hz = 100\n"));
+    ASSERT_FALSE(loaded.has_value());
+    EXPECT_THAT(loaded.error().message, HasSubstr("delay_ms: a number is needed"));
+    EXPECT_EQ(loaded.error().kind, ErrorKind::BadInput);
+    const auto slow = load_tracker(folder.write("slow.toml", "delay_ms = 1001\n"));
+    ASSERT_FALSE(slow.has_value());
+    EXPECT_THAT(slow.error().message, HasSubstr("slow.toml:1: delay_ms = 1001: must lie in"));
+    // A person's terms are none of a tracker's.
+    const auto eye = load_tracker(folder.write("eye.toml", "delay_ms = 1\nblinks_per_min = 3\n"));
+    ASSERT_FALSE(eye.has_value());
+    EXPECT_THAT(eye.error().message, HasSubstr("eye.toml:2: unknown key 'blinks_per_min'"));
+}
+
+TEST(Profiles, NameAllThatThereAre) {
+    const auto unknown = load_display("fove1");
+    ASSERT_FALSE(unknown.has_value());
+    EXPECT_THAT(unknown.error().message,
+                testing::AllOf(HasSubstr("did you mean 'fove0'?"), HasSubstr("psvr2"),
+                               HasSubstr("quest_pro"), HasSubstr("valve_index"),
+                               HasSubstr("varjo_xr4"), HasSubstr("vive_pro_eye")));
+}
+
+TEST(SimulateTrackerInForce, FillsInWhatNobodyHasSet) {
+    Settings settings;
+    ASSERT_TRUE(settings.set("profile.tracker", "vive_pro_eye", "--tracker").has_value());
+    ASSERT_TRUE(settings.set("sim.noise_deg", "1", "--set").has_value());
+    ASSERT_TRUE(simulate_tracker_in_force(settings).has_value());
+    const sim::GazeSimulation& simulation = settings.values().sim;
+    EXPECT_EQ(simulation.tracker.noise_deg, 1.0);
+    EXPECT_EQ(simulation.tracker.delay_ms, 50.0);
+    EXPECT_EQ(simulation.tracker.rate_hz, 120.0);
+    EXPECT_EQ(simulation.eye.blinks_per_min, 15.0);
+    EXPECT_THAT(settings.describe(), HasSubstr("vive_pro_eye"));
+}
+
+TEST(Settings, TakeAnySeed) {
+    Settings settings;
+    EXPECT_TRUE(settings.set("sim.seed", "18446744073709551615", "--seed").has_value());
+    EXPECT_EQ(settings.values().sim.seed, ~std::uint64_t{0});
+    for (const char* text : {"-1", "18446744073709551616", "1.5", "", "x"}) {
+        EXPECT_FALSE(settings.set("sim.seed", text, "--seed").has_value()) << text;
+    }
+    EXPECT_FALSE(settings.set("sim.rate_hz", "nan", "--set").has_value());
+    EXPECT_FALSE(settings.set("sim.rate_hz", "0.5", "--set").has_value());
+    EXPECT_TRUE(settings.set("sim.rate_hz", "10000", "--set").has_value());
+    EXPECT_FALSE(settings.set("sim.noise_deg", "91", "--set").has_value());
+}
+
+}  // namespace
+}  // namespace gazeloop::settings
