@@ -34,17 +34,6 @@ std::array<DurationRow, N> rows(const std::array<SpanSeries, N>& series) {
     return result;
 }
 
-void add_to(frame::SampleCounts& sum, const frame::SampleCounts& frame) {
-    sum.texels_planned += frame.texels_planned;
-    sum.texels_shaded += frame.texels_shaded;
-    sum.texels_off_screen += frame.texels_off_screen;
-    sum.texels_under_disc += frame.texels_under_disc;
-    sum.texels_hidden += frame.texels_hidden;
-    sum.pixels_direct += frame.pixels_direct;
-    sum.pixels_output += frame.pixels_output;
-    sum.pixels_hidden += frame.pixels_hidden;
-}
-
 }  // namespace
 
 std::optional<double> SummaryReport::missed_percent() const {
@@ -56,7 +45,7 @@ std::optional<double> SummaryReport::missed_percent() const {
 }
 
 std::optional<double> SummaryReport::samples_saved_factor() const {
-    const std::uint64_t shaded = samples.texels_shaded + samples.pixels_direct;
+    const std::uint64_t shaded = samples.shaded();
     if (shaded == 0) {
         return std::nullopt;
     }
@@ -96,9 +85,9 @@ void LatencySummary::add(const frame::FrameRecord& record) {
 }
 
 void LatencySummary::add(const frame::FrameGpuRecord& record) {
-    for (std::size_t pass = 0; pass < frame::kPassCount; ++pass) {
-        if (record.pass_ns[pass] >= 0) {
-            passes_[pass].add({record.pass_ns[pass], time::StampKind::Measured});
+    for (std::size_t pass = 0; pass < frame::kMostPasses; ++pass) {
+        if (const auto ns = record.passes[pass]) {
+            passes_[pass].add({*ns, time::StampKind::Measured});
         }
     }
     std::optional<frame::FrameRecord>& slot = pending_[record.index % kPendingFrames];
@@ -115,7 +104,7 @@ void LatencySummary::add(const frame::FrameGpuRecord& record) {
 
 void LatencySummary::complete(const frame::FrameRecord& record) {
     ++frames_.rendered;
-    add_to(samples_, record.samples);
+    samples_ += record.samples;
 
     const std::int64_t period_ns = record.period_ns > 0 ? record.period_ns : config_.period_ns;
     const ShownFrame shown = shown_frame(record.stamps, period_ns);

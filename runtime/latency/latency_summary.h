@@ -31,7 +31,9 @@ struct SummaryConfig {
     std::optional<std::int64_t> rolling_ns = std::nullopt;
     /// For how long a pixel is lit, about the middle of its emission, from the profile.
     std::optional<std::int64_t> persistence_ns = std::nullopt;
-    std::string assumed{};  ///< those of the profile's figures that are assumed, not published
+    frame::PassList passes{};  ///< of the run
+    frame::GridList grids{};   ///< of the run's method
+    std::string assumed{};     ///< those of the profile's figures that are assumed, not published
 };
 
 /// Whether the latencies are those of a headset that keeps up.
@@ -76,7 +78,7 @@ struct SummaryReport {
     DurationRow held_gaze_age_at_display;  ///< in held and returning frames: of the held sample
     DurationRow frame_interval;            ///< from wake_up to wake_up of neighbouring frames
     DurationRow loop_time;                 ///< wake_up -> end_frame
-    std::array<DurationRow, frame::kPassCount> passes;
+    std::array<DurationRow, frame::kMostPasses> passes;  ///< as config.passes names them
 
     /// How the gaze age at display was obtained, percent of its length over all frames that know
     /// it, by stamp kind; what is unaccounted for is unknown. Absent if no frame knows it.
@@ -135,7 +137,7 @@ class LatencySummary {
     SpanSeries held_gaze_age_at_display_;
     SpanSeries frame_interval_;
     SpanSeries loop_time_;
-    std::array<SpanSeries, frame::kPassCount> passes_;
+    std::array<SpanSeries, frame::kMostPasses> passes_;
     std::array<double, time::kStampKindCount> length_by_kind_ns_{};
     FrameCounts frames_;
     SampleCounter gaze_;

@@ -171,7 +171,7 @@ void PreviewFeed::on_frame(const frame::FrameRecord& record) {
 void PreviewFeed::on_gpu(const frame::FrameGpuRecord& record) {
     const frame::FrameRecord& frame = frames_[record.index % frames_.size()];
     if (frame.index == record.index) {
-        bars_ = stage_bars(frame, record, options_.display);
+        bars_ = stage_bars(frame, record, options_.passes, options_.display);
     }
 }
 

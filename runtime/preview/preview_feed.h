@@ -25,6 +25,7 @@ class PreviewFeed final : public frame::FrameObserver {
         gaze::PerEye<vk::Extent2D> extents;
         vk::Format format = vk::Format::eUndefined;  ///< 8 bits a channel
         DisplayTimes display;
+        frame::PassList passes;  ///< of the run
         /// Radius of the fovea's ring in the frame that was rendered last; 0: none is known.
         std::function<double(gaze::Eye)> ring_radius_px;
     };

@@ -33,11 +33,12 @@ constexpr ImU32 kShade = IM_COL32(0, 0, 0, 190);
 constexpr ImU32 kRing = IM_COL32(255, 32, 32, 255);
 constexpr ImU32 kBudget = IM_COL32(255, 255, 255, 255);
 /// Okabe and Ito's colours, which colour-blind people tell apart, but for the one too dark to read.
-// One for each segment of a bar.
-constexpr std::array<ImU32, 8> kColours{IM_COL32(86, 180, 233, 255),  IM_COL32(230, 159, 0, 255),
-                                        IM_COL32(0, 158, 115, 255),   IM_COL32(204, 121, 167, 255),
-                                        IM_COL32(213, 94, 0, 255),    IM_COL32(240, 228, 66, 255),
-                                        IM_COL32(150, 150, 255, 255), IM_COL32(190, 190, 190, 255)};
+// One for each segment of a bar; after those eight, lighter ones of the first four.
+constexpr std::array<ImU32, 12> kColours{
+    IM_COL32(86, 180, 233, 255),  IM_COL32(230, 159, 0, 255),   IM_COL32(0, 158, 115, 255),
+    IM_COL32(204, 121, 167, 255), IM_COL32(213, 94, 0, 255),    IM_COL32(240, 228, 66, 255),
+    IM_COL32(150, 150, 255, 255), IM_COL32(190, 190, 190, 255), IM_COL32(170, 218, 244, 255),
+    IM_COL32(247, 210, 130, 255), IM_COL32(120, 210, 185, 255), IM_COL32(232, 190, 214, 255)};
 static_assert(kColours.size() >= kBarSegments);
 
 std::string last_error;

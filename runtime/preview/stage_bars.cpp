@@ -16,9 +16,6 @@ BarText text(std::string_view from) {
 }
 
 void add(StageBar& bar, std::string_view name, const time::Span& span) {
-    if (bar.count == kBarSegments) {
-        return;
-    }
     bar.segments[bar.count++] = {text(name),
                                  span.known() ? static_cast<double>(span.ns) / time::kNsPerMs : 0.0,
                                  span.known()};
@@ -32,8 +29,7 @@ void set_total(StageBar& bar, const time::Span& span) {
 }  // namespace
 
 StageBars stage_bars(const frame::FrameRecord& frame, const frame::FrameGpuRecord& gpu,
-                     const DisplayTimes& display) {
-    static_assert(latency::kStageCount <= kBarSegments);
+                     const frame::PassList& passes, const DisplayTimes& display) {
     StageBars result{.frame = frame.index,
                      .any = true,
                      .budget_ms = static_cast<double>(frame.period_ns) / time::kNsPerMs,
@@ -56,14 +52,14 @@ StageBars stage_bars(const frame::FrameRecord& frame, const frame::FrameGpuRecor
     }
     set_total(photon, age.at_display);
 
-    StageBar& passes = result.bars[1];
-    passes.title = text("GPU");
-    for (std::size_t pass = 0; pass < frame::kPassCount; ++pass) {
-        if (gpu.pass_ns[pass] >= 0) {
-            add(passes, frame::kPassNames[pass], {gpu.pass_ns[pass], time::StampKind::Measured});
+    StageBar& work = result.bars[1];
+    work.title = text("GPU");
+    for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+        if (const auto ns = gpu.passes[pass]) {
+            add(work, passes[pass], {*ns, time::StampKind::Measured});
         }
     }
-    set_total(passes, time::between(gpu.gpu_begin, gpu.gpu_end));
+    set_total(work, time::between(gpu.gpu_begin, gpu.gpu_end));
     return result;
 }
 

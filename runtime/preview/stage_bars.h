@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 
 #include "runtime/frame/frame_record.h"
+#include "runtime/latency/gaze_age.h"
 
 namespace gazeloop::preview {
 
@@ -19,7 +21,8 @@ struct BarSegment {
     bool known = false;
 };
 
-inline constexpr std::size_t kBarSegments = 8;
+/// As many as the longest bar can have: none is left out.
+inline constexpr std::size_t kBarSegments = std::max(latency::kStageCount, frame::kMostPasses);
 
 /// Stages that follow each other.
 struct StageBar {
@@ -45,9 +48,11 @@ struct DisplayTimes {
     std::optional<std::int64_t> rolling_ns;
 };
 
-/// The bars of a frame that the GPU has finished. Precondition: both records are of the same frame.
+/// The bars of a frame that the GPU has finished. `passes` are those of the run.
+/// Precondition: both records are of the same frame.
 [[nodiscard]] StageBars stage_bars(const frame::FrameRecord& frame,
-                                   const frame::FrameGpuRecord& gpu, const DisplayTimes& display);
+                                   const frame::FrameGpuRecord& gpu, const frame::PassList& passes,
+                                   const DisplayTimes& display);
 
 /// How far the scale of both bars reaches: past the longest bar and the budget. At least 1 ms.
 [[nodiscard]] double bar_scale_ms(const StageBars& bars);

@@ -21,7 +21,6 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 using Layout = vk::ImageLayout;
-using frame::Pass;
 
 constexpr std::uint32_t kMaxSegments = 4;  // pass I, resolve, disc, copies
 constexpr std::uint32_t kBytesPerPixel = 4;
@@ -116,7 +115,7 @@ struct FrameRenderer::Slot {
     vk::raii::CommandBuffers buffers{nullptr};
     vk::raii::QueryPool queries{nullptr};
     std::uint32_t segments = 0;
-    std::array<std::optional<Pass>, kMaxSegments> segment_pass;
+    std::array<std::optional<std::size_t>, kMaxSegments> segment_pass;
     std::uint32_t timed_segments = 0;  ///< what is read back is no part of the frame's time
     std::uint64_t frame_index = 0;
 
@@ -131,6 +130,8 @@ FrameRenderer::FrameRenderer(const vulkan::Context& context, const RendererConfi
     }
     const vk::raii::Device& device = context.device();
     const bool log_polar = config.method != Method::Full;
+    passes_ = log_polar ? frame::PassList{"pass_i", "disc", "resolve"} : frame::PassList{"full"};
+    grids_ = log_polar ? frame::GridList{"lp", "picture"} : frame::GridList{"picture"};
     set_layout_ = vulkan::make_set_layout(
         device, log_polar ? vulkan::Inputs::UniformsAndLpMap : vulkan::Inputs::Uniforms);
     layout_ = vulkan::make_pipeline_layout(device, set_layout_);
@@ -317,6 +318,7 @@ frame::SampleCounts FrameRenderer::render(const FrameRequest& request) {
     slot.frame_index = request.index;
 
     frame::SampleCounts counts;
+    counts.grid_count = static_cast<std::uint32_t>(grids_.size());
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
         const gaze::EyeView& view = request.views[e];
@@ -334,14 +336,12 @@ frame::SampleCounts FrameRenderer::render(const FrameRequest& request) {
             at.bands.write(std::span<const foveation::Columns>(plan->lp_bands));
             at.bands.write(std::span<const foveation::Columns>(plan->disc_bands),
                            plan->lp_bands.size() * sizeof(foveation::Columns));
-            counts.texels_planned += std::uint64_t{plan->lp.width} * plan->lp.height;
-            counts.texels_shaded += plan->texels_shaded;
-            counts.texels_off_screen += plan->texels_off_screen;
-            counts.texels_under_disc += plan->texels_under_disc;
-            counts.texels_hidden += plan->texels_hidden;
-            counts.pixels_direct += plan->pixels_direct;
+            counts.grids[0] +=
+                {std::uint64_t{plan->lp.width} * plan->lp.height, plan->texels_shaded,
+                 plan->texels_off_screen, plan->texels_under_disc, plan->texels_hidden};
+            counts.grids[1] += {plan->pixels_direct, plan->pixels_direct, 0, 0, 0};
         } else {
-            counts.pixels_direct += pixels - hidden;
+            counts.grids[0] += {pixels, pixels - hidden, 0, 0, hidden};
         }
         at.uniforms.write(eye_uniforms(view, request.scene_time_s, config_.samples, plan));
     }
@@ -359,12 +359,12 @@ frame::SampleCounts FrameRenderer::render(const FrameRequest& request) {
     return counts;
 }
 
-void FrameRenderer::begin_segment(Slot& slot, std::optional<Pass> pass) {
-    if (slot.segments > 0 && pass && !config_.profile) {
+void FrameRenderer::begin_segment(Slot& slot, std::string_view pass) {
+    if (slot.segments > 0 && !pass.empty() && !config_.profile) {
         return;  // one segment for all passes
     }
     const std::uint32_t segment = slot.segments++;
-    slot.segment_pass[segment] = config_.profile ? pass : std::nullopt;
+    slot.segment_pass[segment] = config_.profile ? passes_.find(pass) : std::nullopt;
     const vk::raii::CommandBuffer& commands = slot.commands();
     commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
     commands.resetQueryPool(*slot.queries, 2 * segment, 2);
@@ -430,7 +430,7 @@ void FrameRenderer::draw_pictures(const Slot& slot, const FrameRequest& request,
 }
 
 void FrameRenderer::record_full(Slot& slot, const FrameRequest& request) {
-    begin_segment(slot, Pass::Full);
+    begin_segment(slot, "full");
     const vk::raii::CommandBuffer& commands = slot.commands();
     draw_pictures(slot, request, [&](std::size_t e) {
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *full_);
@@ -454,14 +454,14 @@ void FrameRenderer::record_log_polar(Slot& slot, const FrameRequest& request) {
         }
     };
     if (any_lp) {
-        begin_segment(slot, Pass::PassI);
+        begin_segment(slot, "pass_i");
         lp_pass();
     }
     if (any_disc) {
-        begin_segment(slot, Pass::Disc);
+        begin_segment(slot, "disc");
         disc_pass();
     }
-    begin_segment(slot, Pass::Resolve);
+    begin_segment(slot, "resolve");
     if (!any_lp) {
         lp_pass();
     }
@@ -486,7 +486,7 @@ void FrameRenderer::draw_resolve(const Slot& slot, const foveation::SamplingPlan
 
 /// What the host reads of the frame.
 void FrameRenderer::record_copies(Slot& slot, const FrameRequest& request) {
-    begin_segment(slot, std::nullopt);
+    begin_segment(slot, {});
     if (config_.hash) {
         record_picture_copies(slot, request);
     }
@@ -557,8 +557,9 @@ frame::FrameGpuRecord FrameRenderer::collect(Slot& slot) {
     if (result == vk::Result::eSuccess) {
         for (std::uint32_t segment = 0; segment < slot.timed_segments; ++segment) {
             if (const auto pass = slot.segment_pass[segment]) {
-                record.pass_ns[static_cast<std::size_t>(*pass)] = std::llround(clock_.elapsed_ns(
-                    ticks[std::size_t{2} * segment], ticks[std::size_t{2} * segment + 1]));
+                record.passes.set(
+                    *pass, std::llround(clock_.elapsed_ns(ticks[std::size_t{2} * segment],
+                                                          ticks[std::size_t{2} * segment + 1])));
             }
         }
         record.gpu_begin = clock_.host_time(ticks[0]);

@@ -85,6 +85,8 @@ class FrameRenderer {
     void wait_idle();
 
     [[nodiscard]] const RendererConfig& config() const { return config_; }
+    [[nodiscard]] const frame::PassList& passes() const { return passes_; }
+    [[nodiscard]] const frame::GridList& grids() const { return grids_; }
     /// The LP-buffer as the last frame left it (SHADER_READ_ONLY_OPTIMAL); null for Method::Full,
     /// and for Method::Acuity before the first frame, and texels that the plan left out hold
     /// anything.
@@ -105,7 +107,7 @@ class FrameRenderer {
     }
     void make_slots();
     void attach_eye(std::size_t eye, std::unique_ptr<LogPolarEye> made);
-    void begin_segment(Slot& slot, std::optional<frame::Pass> pass);
+    void begin_segment(Slot& slot, std::string_view pass);
     void end_segments(Slot& slot);
     void shade_tiles(Slot& slot, std::size_t eye, const vulkan::ColorImage& target,
                      std::span<const foveation::Tile> tiles, bool direct);
@@ -123,6 +125,8 @@ class FrameRenderer {
 
     const vulkan::Context* context_;
     RendererConfig config_;
+    frame::PassList passes_;
+    frame::GridList grids_;
     vulkan::GpuClock clock_;
     vk::raii::DescriptorSetLayout set_layout_{nullptr};
     vk::raii::PipelineLayout layout_{nullptr};

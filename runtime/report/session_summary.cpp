@@ -83,6 +83,8 @@ latency::SummaryConfig summary_config(const session::SessionFile& session) {
         recorded_display(session), session.meta("clock") == "virtual" ? latency::LoopClock::Virtual
                                                                       : latency::LoopClock::Wall);
     config.period_ns = meta_ns(session, "display_period_ns").value_or(0);
+    config.passes = session.header.passes;
+    config.grids = session.header.grids;
     return config;
 }
 

@@ -25,6 +25,19 @@ Json by_name(const std::array<T, N>& values, const std::array<std::string_view, 
     return object;
 }
 
+Json grids_json(const frame::GridList& names, const frame::SampleCounts& samples) {
+    Json grids = Json::object();
+    for (std::size_t grid = 0; grid < names.size(); ++grid) {
+        const frame::GridCounts& counts = samples.grids[grid];
+        grids[names[grid]] = {{"planned", counts.planned},
+                              {"shaded", counts.shaded},
+                              {"off_screen", counts.off_screen},
+                              {"covered", counts.covered},
+                              {"hidden", counts.hidden}};
+    }
+    return grids;
+}
+
 Json row_json(const latency::DurationRow& row) {
     return {{"frames", row.count},
             {"kind", time::name(row.kind())},
@@ -76,12 +89,7 @@ Json summary_json(const latency::SummaryReport& report) {
               {"lost", report.gaze.lost},
               {"out_of_order", report.gaze.out_of_order}}},
             {"samples",
-             {{"texels_planned", samples.texels_planned},
-              {"texels_shaded", samples.texels_shaded},
-              {"texels_off_screen", samples.texels_off_screen},
-              {"texels_under_disc", samples.texels_under_disc},
-              {"texels_hidden", samples.texels_hidden},
-              {"pixels_direct", samples.pixels_direct},
+             {{"grids", grids_json(config.grids, samples)},
               {"pixels_output", samples.pixels_output},
               {"pixels_hidden", samples.pixels_hidden},
               {"times_fewer_than_full", or_null(report.samples_saved_factor())}}}};

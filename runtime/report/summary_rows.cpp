@@ -27,10 +27,10 @@ std::vector<NamedRow> rows_of(const latency::SummaryReport& report) {
     }
     rows.push_back({"frame_interval", "frame interval", &report.frame_interval});
     rows.push_back({"loop_time", "loop (cpu)", &report.loop_time});
-    for (std::size_t pass = 0; pass < frame::kPassCount; ++pass) {
+    for (std::size_t pass = 0; pass < report.config.passes.size(); ++pass) {
         if (report.passes[pass].count > 0) {
-            rows.push_back({"pass_" + std::string(frame::kPassNames[pass]),
-                            "pass " + std::string(frame::kPassNames[pass]), &report.passes[pass]});
+            const std::string& name = report.config.passes[pass];
+            rows.push_back({"pass_" + name, "pass " + name, &report.passes[pass]});
         }
     }
     return rows;

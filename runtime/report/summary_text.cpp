@@ -170,12 +170,20 @@ void append_counts(std::string& text, const latency::SummaryReport& report) {
                    count(report.gaze.received), count(report.gaze.invalid), count(report.gaze.lost),
                    count(report.gaze.out_of_order));
     const frame::SampleCounts& samples = report.samples;
-    fmt::format_to(out, "texels   shaded {} of {}, off screen {}, under the disc {}{}\n",
-                   count(samples.texels_shaded), count(samples.texels_planned),
-                   count(samples.texels_off_screen), count(samples.texels_under_disc),
-                   hidden(samples, samples.texels_hidden));
-    fmt::format_to(out, "pixels   shaded directly {} of {}{}\n", count(samples.pixels_direct),
-                   count(samples.pixels_output), hidden(samples, samples.pixels_hidden));
+    for (std::size_t grid = 0; grid < report.config.grids.size(); ++grid) {
+        const frame::GridCounts& counts = samples.grids[grid];
+        fmt::format_to(out, "{:<8} shaded {} of {}", report.config.grids[grid],
+                       count(counts.shaded), count(counts.planned));
+        if (counts.off_screen > 0) {
+            fmt::format_to(out, ", off screen {}", count(counts.off_screen));
+        }
+        if (counts.covered > 0) {
+            fmt::format_to(out, ", covered by another grid {}", count(counts.covered));
+        }
+        text += hidden(samples, counts.hidden) + "\n";
+    }
+    fmt::format_to(out, "pixels   {}{}\n", count(samples.pixels_output),
+                   hidden(samples, samples.pixels_hidden));
     if (const std::optional<double> fewer = report.samples_saved_factor()) {
         const std::string compared =
             *fewer > 1.0   ? fmt::format("{:.1f}x fewer samples than", *fewer)

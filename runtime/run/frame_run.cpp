@@ -143,13 +143,16 @@ class FrameRun {
         if (request_.clock == RunClock::Wall) {
             warm_up(*context_, config_, profile_views(display_, target_->extents()));
         }
-        open_recording();
+        open_recording(renderer);
         if (!display_.assumed.empty()) {
             spdlog::info("display {}: assumed, not published: {}", display_.name,
                          fmt::join(display_.assumed, ", "));
         }
 
-        latency::LatencySummary summary(report::summary_config(display_, loop_clock()));
+        latency::SummaryConfig config = report::summary_config(display_, loop_clock());
+        config.passes = renderer.passes();
+        config.grids = renderer.grids();
+        latency::LatencySummary summary(config);
         run_loop(renderer, summary);
         preview_.reset();
         window_.reset();
@@ -182,11 +185,13 @@ class FrameRun {
                 .lp_background = std::nullopt};
     }
 
-    void open_recording() {
+    void open_recording(const render::FrameRenderer& renderer) {
         if (!request_.record) {
             return;
         }
         session::SessionHeader header;
+        header.passes = renderer.passes();
+        header.grids = renderer.grids();
         header.meta = {{"program", fmt::format("gazeloop {}", kVersion)},
                        {"command_line", request_.command_line},
                        {"started_utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
@@ -312,6 +317,7 @@ class FrameRun {
                 .display = {.period_ns = display_.period_ns(),
                             .switching_ns = display_.switching_ns,
                             .rolling_ns = display_.rolling_ns()},
+                .passes = renderer.passes(),
                 .ring_radius_px =
                     [&renderer](gaze::Eye eye) { return renderer.last_plan(eye).disc_radius_px; }},
             window_->memory());

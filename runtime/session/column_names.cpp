@@ -28,11 +28,12 @@ std::string ColumnNames::update(std::string_view table, std::string_view key) co
 }
 
 std::string ColumnNames::select_from(std::string_view table, std::string_view key,
-                                     std::span<const std::string_view> absent) const {
+                                     std::span<const ColumnSource> sources) const {
     std::vector<std::string> names = names_;
     for (std::string& name : names) {
-        if (std::ranges::find(absent, name) != absent.end()) {
-            name.insert(0, "NULL AS ");
+        const auto at = std::ranges::find(sources, name, &ColumnSource::name);
+        if (at != sources.end()) {
+            name.insert(0, at->source + " AS ");
         }
     }
     return fmt::format("SELECT {2}, {0} FROM {1} ORDER BY {2}", fmt::join(names, ", "), table, key);

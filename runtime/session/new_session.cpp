@@ -102,7 +102,9 @@ void write_header(const std::filesystem::path& file, const SessionHeader& header
     insert_named_values(database, "meta",
                         {{std::string(kMetaSchemaVersion), std::to_string(kSchemaVersion)},
                          {std::string(kMetaRecordsDropped), "0"},
-                         {std::string(kMetaClosed), std::string(kNotClosed)}});
+                         {std::string(kMetaClosed), std::string(kNotClosed)},
+                         {std::string(kMetaPasses), header.passes.text()},
+                         {std::string(kMetaGrids), header.grids.text()}});
     insert_named_values(database, "meta", header.meta);
     insert_named_values(database, "config", header.config);
     insert_named_values(database, "device", header.device);

@@ -17,6 +17,23 @@ namespace gazeloop::session {
 // called as visit(head, tail, field) for the column named head + tail, always in the same order.
 // Fields are const when a record is written, and are assigned to when one is read.
 
+// A record that gets a new member changes its size, and does not compile here until somebody has
+// decided whether a session keeps it (SCHEMA.md) and the property test draws it.
+static_assert(sizeof(gaze::GazeSample) == 304, "a new member: see above");
+static_assert(sizeof(gaze::FoveaPoint) == 136, "a new member: see above");
+static_assert(sizeof(gaze::EyeView) == 96, "a new member: see above");
+static_assert(sizeof(frame::FrameStamps) == 128, "a new member: see above");
+static_assert(sizeof(frame::GridCounts) == 40, "a new member: see above");
+static_assert(sizeof(frame::FrameRecord) == 1040, "a new member: see above");
+static_assert(sizeof(frame::FrameGpuRecord) == 152, "a new member: see above");
+
+/// By the places in the run's list, which meta keeps.
+inline constexpr std::array<std::string_view, 8> kGridColumns{
+    "grid_0", "grid_1", "grid_2", "grid_3", "grid_4", "grid_5", "grid_6", "grid_7"};
+inline constexpr std::array<std::string_view, 12> kPassColumns{
+    "pass_0", "pass_1", "pass_2", "pass_3", "pass_4",  "pass_5",
+    "pass_6", "pass_7", "pass_8", "pass_9", "pass_10", "pass_11"};
+
 template <typename Visitor, typename Stamp>
 void visit_stamp(Visitor& visit, std::string_view column, Stamp& stamp) {
     visit(column, "_ns", stamp.ns);
@@ -83,14 +100,39 @@ void visit_sample(Visitor& visit, Frame& frame, Sample& sample) {
     visit("parallax", "_rad", sample.parallax_rad);  // files have it not that were written before
 }
 
-/// A count that the first files of this schema version lack: 0 there (see kLaterColumns).
+/// A count that is NULL where there is none: 0.
 template <typename Visitor, typename Count>
-void visit_later(Visitor& visit, std::string_view column, Count& count) {
-    std::optional<std::uint64_t> stored = count;
-    visit(column, "", stored);
+void visit_count(Visitor& visit, std::string_view head, std::string_view tail, bool there,
+                 Count& count) {
+    std::optional<std::uint64_t> stored = there ? std::optional(count) : std::nullopt;
+    visit(head, tail, stored);
     if constexpr (!std::is_const_v<Count>) {
         count = stored.value_or(0);
     }
+}
+
+/// Columns of grids that the run's method does not have are NULL.
+template <typename Visitor, typename Samples>
+void visit_samples(Visitor& visit, Samples& samples) {
+    static_assert(kGridColumns.size() == frame::kMostGrids);
+    for (std::size_t grid = 0; grid < frame::kMostGrids; ++grid) {
+        auto& counts = samples.grids[grid];
+        const std::string_view name = kGridColumns[grid];
+        const bool there = grid < samples.grid_count;
+        std::optional<std::uint64_t> planned = there ? std::optional(counts.planned) : std::nullopt;
+        visit(name, "_planned", planned);
+        if constexpr (!std::is_const_v<Samples>) {
+            counts.planned = planned.value_or(0);
+            samples.grid_count =
+                planned ? static_cast<std::uint32_t>(grid + 1) : samples.grid_count;
+        }
+        visit_count(visit, name, "_shaded", there, counts.shaded);
+        visit_count(visit, name, "_off_screen", there, counts.off_screen);
+        visit_count(visit, name, "_covered", there, counts.covered);
+        visit_count(visit, name, "_hidden", there, counts.hidden);
+    }
+    visit("pixels_output", "", samples.pixels_output);
+    visit_count(visit, "pixels_hidden", "", true, samples.pixels_hidden);
 }
 
 template <typename Visitor, typename Record>
@@ -109,14 +151,7 @@ void visit_frame(Visitor& visit, Record& record) {
     visit("scene_time", "_s", record.scene_time_s);
     visit_pose(visit, "head", record.head);
     visit_stamp(visit, "fovea_latched", record.fovea.latched);
-    visit("texels_planned", "", record.samples.texels_planned);
-    visit("texels_shaded", "", record.samples.texels_shaded);
-    visit("texels_off_screen", "", record.samples.texels_off_screen);
-    visit("texels_under_disc", "", record.samples.texels_under_disc);
-    visit("pixels_direct", "", record.samples.pixels_direct);
-    visit("pixels_output", "", record.samples.pixels_output);
-    visit_later(visit, "texels_hidden", record.samples.texels_hidden);
-    visit_later(visit, "pixels_hidden", record.samples.pixels_hidden);
+    visit_samples(visit, record.samples);
 }
 
 /// The columns of `frame` that are NULL until the GPU has finished it.
@@ -124,13 +159,12 @@ template <typename Visitor, typename Record>
 void visit_gpu(Visitor& visit, Record& record) {
     visit_stamp(visit, "reported_gpu_begin", record.gpu_begin);
     visit_stamp(visit, "reported_gpu_end", record.gpu_end);
-    constexpr std::int64_t kDidNotRun = -1;
-    for (std::size_t pass = 0; pass < frame::kPassCount; ++pass) {
-        auto& ns = record.pass_ns[pass];
-        std::optional<std::int64_t> ran = ns == kDidNotRun ? std::nullopt : std::optional(ns);
-        visit(frame::kPassNames[pass], "_ns", ran);
+    static_assert(kPassColumns.size() == frame::kMostPasses);
+    for (std::size_t pass = 0; pass < frame::kMostPasses; ++pass) {
+        std::optional<std::int64_t> ns = record.passes[pass];
+        visit(kPassColumns[pass], "_ns", ns);
         if constexpr (!std::is_const_v<Record>) {
-            ns = ran.value_or(kDidNotRun);
+            record.passes.set(pass, ns);
         }
     }
     visit("pixel_hash", "", record.pixel_hash);

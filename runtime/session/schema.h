@@ -6,7 +6,7 @@
 namespace gazeloop::session {
 
 /// The number in `meta.schema_version`; a change that an older reader cannot cope with raises it.
-inline constexpr int kSchemaVersion = 1;
+inline constexpr int kSchemaVersion = 2;
 
 /// The oldest version that is still read.
 inline constexpr int kOldestSchemaVersion = 1;
@@ -14,15 +14,37 @@ inline constexpr int kOldestSchemaVersion = 1;
 /// Creates the tables in an empty database. SCHEMA.md says what their columns mean.
 extern const char* const kCreateTables;
 
-/// Columns and tables that the first files of this version lack, in whichever table they are.
+/// Columns and tables that the first files of version 1 lack, in whichever table they are.
 inline constexpr std::array<std::string_view, 5> kLaterColumns{
     "texels_hidden", "pixels_hidden", "ready_ns", "uncertainty_ns", "parallax_rad"};
 inline constexpr std::string_view kHiddenTable = "hidden_area";
+
+/// Version 1 named the columns of `frame` for the two methods that it knew: what a column of today
+/// is read from. Columns of grids and passes that are not among them are NULL there.
+struct FormerColumn {
+    std::string_view name;
+    std::string_view before;
+};
+inline constexpr std::array kFormerColumns{FormerColumn{"grid_0_planned", "texels_planned"},
+                                           FormerColumn{"grid_0_shaded", "texels_shaded"},
+                                           FormerColumn{"grid_0_off_screen", "texels_off_screen"},
+                                           FormerColumn{"grid_0_covered", "texels_under_disc"},
+                                           FormerColumn{"grid_0_hidden", "texels_hidden"},
+                                           FormerColumn{"grid_1_planned", "pixels_direct"},
+                                           FormerColumn{"grid_1_shaded", "pixels_direct"},
+                                           FormerColumn{"pass_0_ns", "full_ns"},
+                                           FormerColumn{"pass_1_ns", "pass_i_ns"},
+                                           FormerColumn{"pass_2_ns", "resolve_ns"},
+                                           FormerColumn{"pass_3_ns", "disc_ns"}};
+inline constexpr std::string_view kFormerPasses = "full pass_i resolve disc";
+inline constexpr std::string_view kFormerGrids = "lp picture";
 
 /// Names in `meta` that the recorder itself keeps.
 inline constexpr std::string_view kMetaSchemaVersion = "schema_version";
 inline constexpr std::string_view kMetaRecordsDropped = "records_dropped";
 inline constexpr std::string_view kMetaClosed = "closed";
+inline constexpr std::string_view kMetaPasses = "passes";
+inline constexpr std::string_view kMetaGrids = "grids";
 
 /// Values of kMetaClosed.
 inline constexpr std::string_view kNotClosed = "no";

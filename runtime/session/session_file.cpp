@@ -35,7 +35,7 @@ std::optional<std::string_view> value_of(const std::vector<NamedValue>& values,
 
 std::vector<NamedValue> read_named_values(const Database& database, std::string_view table) {
     std::vector<NamedValue> values;
-    TableReader reader(database, table, "position", named_value_columns());
+    TableReader reader(database, table, "position", named_value_columns(), kSchemaVersion);
     while (reader.next()) {
         NamedValue& value = values.emplace_back();
         visit_named_value(reader, value.name, value.value);
@@ -66,9 +66,17 @@ T take_number(std::vector<NamedValue>& meta, std::string_view name) {
     return number;
 }
 
-std::vector<RecordedSample> read_samples(const Database& database) {
+frame::NameList take_names(const std::string& text, std::string_view name, std::size_t most) {
+    auto names = frame::NameList::parse(text, most);
+    if (!names) {
+        throw FormatError(fmt::format("table meta: {} is {}", name, names.error().message));
+    }
+    return *std::move(names);
+}
+
+std::vector<RecordedSample> read_samples(const Database& database, int version) {
     std::vector<RecordedSample> samples;
-    TableReader reader(database, "gaze", "position", sample_columns());
+    TableReader reader(database, "gaze", "position", sample_columns(), version);
     while (reader.next()) {
         RecordedSample sample;
         visit_sample(reader, sample.frame, sample.sample);
@@ -95,11 +103,11 @@ void read_eye(TableReader& reader, std::uint64_t frame, gaze::Eye eye, const Vis
     }
 }
 
-std::vector<RecordedFrame> read_frames(const Database& database) {
+std::vector<RecordedFrame> read_frames(const Database& database, int version) {
     std::vector<RecordedFrame> frames;
-    TableReader rows(database, "frame", "number", whole_frame_columns());
-    TableReader views(database, "view", "frame, eye", view_columns());
-    TableReader foveae(database, "fovea", "frame, eye", fovea_columns());
+    TableReader rows(database, "frame", "number", whole_frame_columns(), version);
+    TableReader views(database, "view", "frame, eye", view_columns(), version);
+    TableReader foveae(database, "fovea", "frame, eye", fovea_columns(), version);
     while (rows.next()) {
         auto& [frame, gpu] = frames.emplace_back();
         visit_frame(rows, frame);
@@ -130,9 +138,9 @@ std::vector<RecordedFrame> read_frames(const Database& database) {
     return frames;
 }
 
-std::vector<RecordedEvent> read_events(const Database& database) {
+std::vector<RecordedEvent> read_events(const Database& database, int version) {
     std::vector<RecordedEvent> events;
-    TableReader reader(database, "event", "position", event_columns());
+    TableReader reader(database, "event", "position", event_columns(), version);
     while (reader.next()) {
         RecordedEvent& event = events.emplace_back();
         visit_event(reader, event.time, event.kind, event.text);
@@ -140,13 +148,13 @@ std::vector<RecordedEvent> read_events(const Database& database) {
     return events;
 }
 
-std::vector<gaze::HiddenChange> read_hidden(const Database& database) {
+std::vector<gaze::HiddenChange> read_hidden(const Database& database, int version) {
     std::vector<gaze::HiddenChange> changes;
     if (!has_table(database, kHiddenTable)) {
         return changes;
     }
     std::shared_ptr<gaze::PerEye<gaze::HiddenMesh>> meshes;
-    TableReader reader(database, kHiddenTable, "position", hidden_columns());
+    TableReader reader(database, kHiddenTable, "position", hidden_columns(), version);
     while (reader.next()) {
         std::uint64_t frame = 0;
         gaze::Eye eye{};
@@ -200,16 +208,21 @@ SessionFile read_tables(const Database& database) {
             "gazeloop",
             version, kOldestSchemaVersion));
     }
+    const bool named = version > 1;  // before, all runs had the same passes and grids
+    session.header.passes = take_names(named ? take(meta, kMetaPasses) : std::string(kFormerPasses),
+                                       kMetaPasses, frame::kMostPasses);
+    session.header.grids = take_names(named ? take(meta, kMetaGrids) : std::string(kFormerGrids),
+                                      kMetaGrids, frame::kMostGrids);
     session.records_dropped = take_number<std::uint64_t>(meta, kMetaRecordsDropped);
     const std::string closed = take(meta, kMetaClosed);
     session.closed_cleanly = closed == kClosed;
     session.writing_failed = closed == kWritingFailed;
     session.header.config = read_named_values(database, "config");
     session.header.device = read_named_values(database, "device");
-    session.samples = read_samples(database);
-    session.frames = read_frames(database);
-    session.events = read_events(database);
-    session.hidden = read_hidden(database);
+    session.samples = read_samples(database, version);
+    session.frames = read_frames(database, version);
+    session.events = read_events(database, version);
+    session.hidden = read_hidden(database, version);
     return session;
 }
 

@@ -16,8 +16,10 @@
 namespace gazeloop::session {
 
 /// What a session states about itself before its first frame. Names are unique within each list;
-/// in `meta` the recorder keeps schema_version, records_dropped and closed for itself.
+/// in `meta` the recorder keeps schema_version, records_dropped, closed, passes and grids itself.
 struct SessionHeader {
+    frame::PassList passes{};          ///< what the passes of its frames are called
+    frame::GridList grids{};           ///< and their grids
     std::vector<NamedValue> meta{};    ///< program version, command line, start, target, clock
     std::vector<NamedValue> config{};  ///< every setting in force, by key
     std::vector<NamedValue> device{};  ///< Vulkan device and driver, OpenXR runtime, gaze source

@@ -12,27 +12,47 @@
 namespace gazeloop::session {
 namespace {
 
-/// Those of kLaterColumns that this file's table is too old for.
-std::vector<std::string_view> absent_columns(const Database& database, std::string_view table) {
-    std::vector<std::string_view> absent;
-    for (const std::string_view column : kLaterColumns) {
-        Statement find(database, "SELECT 1 FROM pragma_table_info(?) WHERE name = ?");
-        find.bind(0, table);
-        find.bind(1, column);
-        if (!find.next()) {
-            absent.push_back(column);
+bool has_column(const Database& database, std::string_view table, std::string_view column) {
+    Statement find(database, "SELECT 1 FROM pragma_table_info(?) WHERE name = ?");
+    find.bind(0, table);
+    find.bind(1, column);
+    return find.next();
+}
+
+/// The name that a column of `frame` had in version 1; empty: there was none.
+std::string_view former_name(std::string_view name) {
+    const auto at = std::ranges::find(kFormerColumns, name, &FormerColumn::name);
+    if (at != kFormerColumns.end()) {
+        return at->before;
+    }
+    return name.starts_with("grid_") || name.starts_with("pass_") ? std::string_view{} : name;
+}
+
+/// What is read from elsewhere in a file of this version: former names, and NULL for columns that
+/// it lacks.
+std::vector<ColumnSource> sources(const Database& database, std::string_view table,
+                                  const ColumnNames& columns, int version) {
+    std::vector<ColumnSource> sources;
+    for (const std::string& name : columns.names()) {
+        const std::string_view before = version == 1 ? former_name(name) : name;
+        const bool later = std::ranges::find(kLaterColumns, before) != kLaterColumns.end();
+        if (before.empty() || (later && !has_column(database, table, before))) {
+            sources.push_back({name, "NULL"});
+        } else if (before != name) {
+            sources.push_back({name, std::string(before)});
         }
     }
-    return absent;
+    return sources;
 }
 
 Statement select(const Database& database, std::string_view table, std::string_view key,
-                 const ColumnNames& columns) {
+                 const ColumnNames& columns, int version) {
     try {
         if (!has_table(database, table)) {
             throw FormatError(fmt::format("not a session: has no table {}", table));
         }
-        return {database, columns.select_from(table, key, absent_columns(database, table))};
+        return {database,
+                columns.select_from(table, key, sources(database, table, columns, version))};
     } catch (const DatabaseError& error) {
         throw FormatError(fmt::format("table {}: {}", table, error.what()));
     }
@@ -48,10 +68,10 @@ bool has_table(const Database& database, std::string_view table) {
 }
 
 TableReader::TableReader(const Database& database, std::string_view table, std::string_view key,
-                         const ColumnNames& columns)
+                         const ColumnNames& columns, int version)
     : table_(table),
       key_columns_(1 + static_cast<int>(std::count(key.begin(), key.end(), ','))),
-      statement_(select(database, table, key, columns)) {}
+      statement_(select(database, table, key, columns, version)) {}
 
 bool TableReader::next() {
     ++row_;

@@ -30,9 +30,9 @@ bool has_table(const Database& database, std::string_view table);
 /// FormatError.
 class TableReader {
   public:
-    /// The key is one integer column or two, given as "a" or "a, b".
+    /// The key is one integer column or two, given as "a" or "a, b". `version`: the file's schema.
     TableReader(const Database& database, std::string_view table, std::string_view key,
-                const ColumnNames& columns);
+                const ColumnNames& columns, int version);
 
     /// Moves to the next row; false after the last one.
     bool next();

@@ -74,9 +74,9 @@ void Contender::round(const render::FrameRequest& request, bool keep) {
         return;
     }
     double total = 0.0;
-    for (std::size_t pass = 0; pass < frame::kPassCount; ++pass) {
-        if (finished->pass_ns[pass] >= 0) {
-            const double ms = static_cast<double>(finished->pass_ns[pass]) * 1e-6;
+    for (std::size_t pass = 0; pass < frame::kMostPasses; ++pass) {
+        if (const auto ns = finished->passes[pass]) {
+            const double ms = static_cast<double>(*ns) * 1e-6;
             pass_ms_[pass].push_back(ms);
             total += ms;
         }
@@ -93,14 +93,12 @@ void Contender::reset() {
 
 double Contender::median_ms() const { return median(total_ms_); }
 
-double Contender::median_ms(frame::Pass pass) const {
-    const std::vector<double>& rounds = pass_ms_[static_cast<std::size_t>(pass)];
-    return rounds.empty() ? 0.0 : median(rounds);
+double Contender::median_ms(std::string_view pass) const {
+    const auto at = renderer_->passes().find(pass);
+    return !at || pass_ms_[*at].empty() ? 0.0 : median(pass_ms_[*at]);
 }
 
-double Contender::cells() const {
-    return static_cast<double>(counts_.texels_shaded + counts_.pixels_direct);
-}
+double Contender::cells() const { return static_cast<double>(counts_.shaded()); }
 
 CostMap::CostMap(const vulkan::Context& context, const RaycastSetup& setup,
                  render::RendererConfig config, double yaw_deg, double whole_ms)

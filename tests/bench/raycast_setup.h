@@ -53,7 +53,7 @@ class Contender {
 
     [[nodiscard]] double median_ms() const;
     /// 0 for a pass that the method does not have.
-    [[nodiscard]] double median_ms(frame::Pass pass) const;
+    [[nodiscard]] double median_ms(std::string_view pass) const;
     /// Of the last round: cells that were shaded, of both eyes.
     [[nodiscard]] double cells() const;
     [[nodiscard]] const foveation::SamplingPlan& plan() const {
@@ -63,7 +63,7 @@ class Contender {
   private:
     std::unique_ptr<render::FrameRenderer> renderer_;
     std::vector<double> total_ms_;
-    std::array<std::vector<double>, frame::kPassCount> pass_ms_;
+    std::array<std::vector<double>, frame::kMostPasses> pass_ms_;
     frame::SampleCounts counts_;
 };
 

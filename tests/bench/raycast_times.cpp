@@ -8,8 +8,6 @@
 namespace gazeloop::bench {
 namespace {
 
-using frame::Pass;
-
 double sum(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -20,9 +18,9 @@ void RaycastTimes::keep(const Contender& full, const Contender& method, const Co
                         const foveation::RadialMap& map) {
     full_ms_.push_back(full.median_ms());
     ms_.push_back(method.median_ms());
-    pass_i_ms_.push_back(method.median_ms(Pass::PassI));
-    disc_ms_.push_back(method.median_ms(Pass::Disc));
-    resolve_ms_.push_back(method.median_ms(Pass::Resolve));
+    pass_i_ms_.push_back(method.median_ms("pass_i"));
+    disc_ms_.push_back(method.median_ms("disc"));
+    resolve_ms_.push_back(method.median_ms("resolve"));
     predicted_ms_.push_back(resolve_ms_.back() + costs.predicted_ms(method.plan(), map));
     cells_.push_back(method.cells());
     full_cells_ = full.cells();

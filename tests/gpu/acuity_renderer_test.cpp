@@ -76,8 +76,7 @@ TEST_P(AcuityRenderer, IsFullResolutionInTheDiscAndTheSameSceneOutside) {
         // A filtered picture of this view, not of another one.
         EXPECT_LT(outside_error, 0.6 * mirrored_error);
     }
-    EXPECT_LT(foveated.counts.texels_shaded + foveated.counts.pixels_direct,
-              foveated.counts.pixels_output);
+    EXPECT_LT(foveated.counts.shaded(), foveated.counts.pixels_output);
 }
 
 TEST_P(AcuityRenderer, ReadsNoTexelThatWasLeftOut) {

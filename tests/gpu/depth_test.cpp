@@ -120,7 +120,7 @@ TEST_F(Depth, OfALogPolarPictureIsThatOfFullResolution) {
                 }
             }
             EXPECT_LT(median(errors), 0.02);
-            if (rendered.counts.pixels_direct > 0) {
+            if (rendered.counts.grids.at(1).shaded > 0) {
                 EXPECT_LT(median(errors_in_disc), 1.0 / 2048.0) << "half floats hold 11 bits";
             }
         }

@@ -84,8 +84,8 @@ TEST_F(RuntimeWishes, AnotherMaskIsFollowedAndReplayed) {
     EXPECT_GT(corners.pixels_hidden, 0U);
     EXPECT_GT(half.pixels_hidden, corners.pixels_hidden);
     EXPECT_LE(half.pixels_hidden, half.pixels_output / 2);
-    EXPECT_GT(half.texels_hidden, corners.texels_hidden);
-    EXPECT_LT(half.texels_shaded, corners.texels_shaded);
+    EXPECT_GT(half.grids[0].hidden, corners.grids[0].hidden);
+    EXPECT_LT(half.grids[0].shaded, corners.grids[0].shaded);
 
     const ProgramResult replayed = run_gazeloop({"replay", RuntimeWishes::session(), "--hash"});
     EXPECT_EQ(replayed.exit_code, 0) << replayed.out;
@@ -111,7 +111,7 @@ TEST_F(RuntimeWishes, EveryMethodLeavesOutTheSame) {
     ASSERT_EQ(run("", {"--method", "full"}).exit_code, 0);
     const frame::SampleCounts full = recorded().frames.back().frame.samples;
     EXPECT_GT(full.pixels_hidden, 0U);
-    EXPECT_EQ(full.pixels_direct, full.pixels_output - full.pixels_hidden);
+    EXPECT_EQ(full.shaded(), full.pixels_output - full.pixels_hidden);
     std::filesystem::remove(session());
     ASSERT_EQ(run("", {"--method", "kfr"}).exit_code, 0);
     EXPECT_EQ(recorded().frames.back().frame.samples.pixels_hidden, full.pixels_hidden);

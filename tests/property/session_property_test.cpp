@@ -19,6 +19,11 @@ namespace {
 
 using Bits = std::vector<std::uint64_t>;
 
+// A new member is drawn and compared below, or it is not tested.
+static_assert(sizeof(gaze::GazeSample) == 304 && sizeof(gaze::FoveaPoint) == 136 &&
+              sizeof(gaze::EyeView) == 96 && sizeof(frame::FrameRecord) == 1040 &&
+              sizeof(frame::FrameGpuRecord) == 152);
+
 /// Draws any content of a record from a seed. Not-a-number is the quiet one, which is what a
 /// session keeps of it.
 class AnyRecord {
@@ -67,8 +72,12 @@ class AnyRecord {
             clocked(fovea);
         }
         frame.fovea.latched = stamp();
-        frame.samples = {integer(), integer(), integer(), integer(),
-                         integer(), integer(), integer(), integer()};
+        frame.samples.grid_count = static_cast<std::uint32_t>(below(frame::kMostGrids + 1));
+        for (std::size_t grid = 0; grid < frame.samples.grid_count; ++grid) {
+            frame.samples.grids[grid] = {integer(), integer(), integer(), integer(), integer()};
+        }
+        frame.samples.pixels_output = integer();
+        frame.samples.pixels_hidden = integer();
         return frame;
     }
 
@@ -77,8 +86,8 @@ class AnyRecord {
         gpu.index = index;
         gpu.gpu_begin = stamp();
         gpu.gpu_end = stamp();
-        for (std::int64_t& ns : gpu.pass_ns) {
-            ns = coin() ? signed_integer() : -1;
+        for (std::size_t pass = 0; pass < frame::kMostPasses; ++pass) {
+            gpu.passes.set(pass, coin() ? std::optional(signed_integer()) : std::nullopt);
         }
         if (coin()) {
             gpu.pixel_hash = integer();
@@ -243,12 +252,15 @@ Bits bits_of(const frame::FrameRecord& frame) {
         append_clocked(bits, fovea);
     }
     const frame::SampleCounts& samples = frame.samples;
-    for (const std::uint64_t count :
-         {samples.texels_planned, samples.texels_shaded, samples.texels_off_screen,
-          samples.texels_under_disc, samples.texels_hidden, samples.pixels_direct,
-          samples.pixels_output, samples.pixels_hidden}) {
-        append(bits, count);
+    append(bits, std::uint64_t{samples.grid_count});
+    for (const frame::GridCounts& grid : samples.grids) {
+        for (const std::uint64_t count :
+             {grid.planned, grid.shaded, grid.off_screen, grid.covered, grid.hidden}) {
+            append(bits, count);
+        }
     }
+    append(bits, samples.pixels_output);
+    append(bits, samples.pixels_hidden);
     return bits;
 }
 
@@ -257,8 +269,9 @@ Bits bits_of(const frame::FrameGpuRecord& gpu) {
     append(bits, gpu.index);
     append(bits, gpu.gpu_begin);
     append(bits, gpu.gpu_end);
-    for (const std::int64_t ns : gpu.pass_ns) {
-        append(bits, ns);
+    for (std::size_t pass = 0; pass < frame::kMostPasses; ++pass) {
+        append(bits, std::uint64_t{gpu.passes[pass].has_value()});
+        append(bits, gpu.passes[pass].value_or(0));
     }
     append(bits, std::uint64_t{gpu.pixel_hash.has_value()});
     append(bits, gpu.pixel_hash.value_or(0));

@@ -52,6 +52,7 @@ class FrameRendererTest : public testing::Test {
         gaze::PerEye<std::vector<float>> depths;  ///< where the configuration has a depth format
         frame::SampleCounts counts;
         frame::FrameGpuRecord gpu;
+        frame::PassList passes;  ///< as they name those of gpu
         gaze::SeenDepth seen_depth;
         gaze::PerEye<foveation::SamplingPlan> plans;
     };
@@ -73,6 +74,7 @@ class FrameRendererTest : public testing::Test {
             }
         }
         Rendered rendered;
+        rendered.passes = renderer.passes();
         renderer.wait_for_slot();
         rendered.counts = renderer.render(request);
         renderer.wait_idle();

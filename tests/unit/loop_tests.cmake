@@ -1,4 +1,4 @@
 gazeloop_test(unit_loop VULKAN
-    SOURCES loop/frame_timeline_test.cpp loop/spsc_queue_test.cpp
+    SOURCES frame/passes_test.cpp loop/frame_timeline_test.cpp loop/spsc_queue_test.cpp
     LINK gazeloop::frame_loop
     LABELS unit)

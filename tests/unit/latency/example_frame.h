@@ -9,6 +9,10 @@ namespace gazeloop::latency {
 inline constexpr std::int64_t kMs = 1'000'000;
 inline constexpr std::int64_t kExamplePeriodNs = 10 * kMs;
 
+/// What the examples were rendered by.
+inline const frame::PassList kExamplePasses{"pass_i", "disc", "resolve"};
+inline const frame::GridList kExampleGrids{"lp", "picture"};
+
 /// Frame `index` of a loop that keeps up with a 100 Hz display: woken at index x 10 ms, its gaze
 /// 5 ms old at the latch (3 ms tracker, 2 ms queue), submitted 1 ms later, 4 ms on the GPU (to be
 /// told by example_gpu), shown 6 ms later: 16 ms after the eye was seen.
@@ -35,12 +39,10 @@ inline frame::FrameRecord example_frame(std::uint64_t index,
                                                                      : time::StampKind::Modelled};
         eye.arrived = at(0);
     }
-    frame.samples = {.texels_planned = 1000,
-                     .texels_shaded = 800,
-                     .texels_off_screen = 150,
-                     .texels_under_disc = 50,
-                     .pixels_direct = 200,
-                     .pixels_output = 3400};
+    frame.samples.grid_count = 2;
+    frame.samples.grids[0] = {.planned = 1000, .shaded = 800, .off_screen = 150, .covered = 50};
+    frame.samples.grids[1] = {.planned = 200, .shaded = 200};
+    frame.samples.pixels_output = 3400;
     return frame;
 }
 
@@ -50,7 +52,8 @@ inline frame::FrameGpuRecord example_gpu(std::uint64_t index, std::int64_t gpu_m
     gpu.index = index;
     gpu.gpu_begin = submit;
     gpu.gpu_end = {submit.ns + gpu_ms * kMs, time::StampKind::Measured};
-    gpu.pass_ns = {-1, 3 * kMs, kMs, -1};
+    gpu.passes.set(0, 3 * kMs);
+    gpu.passes.set(2, kMs);  // there was no disc
     return gpu;
 }
 

@@ -81,10 +81,11 @@ TEST(LatencySummary, KnowsTheAgesOfALoopThatKeepsUp) {
     EXPECT_NEAR(share(report, time::StampKind::Predicted), 100.0 * 6 / 18, 1e-9);
     EXPECT_EQ(share(report, time::StampKind::Unknown), 0.0);
 
-    EXPECT_EQ(report.passes[static_cast<std::size_t>(frame::Pass::Full)].count, 0U);
-    EXPECT_EQ(report.passes[static_cast<std::size_t>(frame::Pass::PassI)].mean_ms, 3.0);
-    EXPECT_EQ(report.passes[static_cast<std::size_t>(frame::Pass::Resolve)].mean_ms, 1.0);
-    EXPECT_EQ(report.samples.texels_planned, 200'000U);
+    EXPECT_EQ(report.passes[0].mean_ms, 3.0);
+    EXPECT_EQ(report.passes[1].count, 0U);
+    EXPECT_EQ(report.passes[2].mean_ms, 1.0);
+    EXPECT_EQ(report.samples.grid_count, 2U);
+    EXPECT_EQ(report.samples.grids[0].planned, 200'000U);
     EXPECT_EQ(report.samples_saved_factor(), 3.4);
 }
 
@@ -168,7 +169,7 @@ TEST(LatencySummary, VirtualTimeUsesTheFramesOwnGpuStamps) {
     EXPECT_EQ(row(report, Stage::Switching).kind(), time::StampKind::Unknown);
     EXPECT_EQ(report.gaze_age_at_display.max_ms, 16.0);
     EXPECT_EQ(share(report, time::StampKind::Modelled), 100.0);
-    EXPECT_EQ(report.passes[static_cast<std::size_t>(frame::Pass::PassI)].count, 100U);
+    EXPECT_EQ(report.passes[0].count, 100U);
 }
 
 TEST(LatencySummary, GazeThatNeverCameHasNoAge) {
@@ -270,7 +271,7 @@ TEST(LatencySummary, AGpuPartThatComesTooLateStillCountsForThePasses) {
     const SummaryReport report = summary.report();
     EXPECT_EQ(report.frames.rendered, 17U);
     EXPECT_EQ(row(report, Stage::Gpu).count, 0U);
-    EXPECT_EQ(report.passes[static_cast<std::size_t>(frame::Pass::PassI)].count, 1U);
+    EXPECT_EQ(report.passes[0].count, 1U);
 }
 
 TEST(LatencySummary, AReportDoesNotEndTheGathering) {

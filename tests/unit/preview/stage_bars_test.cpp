@@ -40,7 +40,7 @@ TEST(StageBars, AreWhatTheSummarySays) {
         const frame::FrameGpuRecord gpu = latency::example_gpu(0);
         summary.add(gpu);
         const latency::SummaryReport report = summary.report();
-        const StageBar photon = stage_bars(frame, gpu, kDisplay).bars[0];
+        const StageBar photon = stage_bars(frame, gpu, latency::kExamplePasses, kDisplay).bars[0];
         EXPECT_NEAR(photon.total_ms, report.gaze_age_at_display.mean_ms.value(), 1e-9);
         std::size_t bar = 0;
         for (const report::NamedRow& row : report::rows_of(report)) {
@@ -60,7 +60,8 @@ TEST(StageBars, AreWhatTheSummarySays) {
 }
 
 TEST(StageBars, AddUpToTheTotal) {
-    const StageBars bars = stage_bars(latency::example_frame(7), latency::example_gpu(7), kDisplay);
+    const StageBars bars = stage_bars(latency::example_frame(7), latency::example_gpu(7),
+                                      latency::kExamplePasses, kDisplay);
     EXPECT_TRUE(bars.any);
     EXPECT_EQ(bars.frame, 7U);
     const StageBar& photon = bars.bars[0];
@@ -74,17 +75,31 @@ TEST(StageBars, AddUpToTheTotal) {
 
 TEST(StageBars, ShowOnlyThePassesThatRan) {
     frame::FrameGpuRecord gpu = latency::example_gpu(1);
-    gpu.pass_ns.fill(-1);
-    gpu.pass_ns[1] = 4'000'000;
-    const StageBars bars = stage_bars(latency::example_frame(1), gpu, {});
+    gpu.passes = {};
+    gpu.passes.set(1, 4'000'000);
+    const StageBars bars = stage_bars(latency::example_frame(1), gpu, latency::kExamplePasses, {});
     ASSERT_EQ(bars.bars[1].count, 1U);
-    EXPECT_EQ(bars.bars[1].segments[0].name.data(), std::string(frame::kPassNames[1]));
+    EXPECT_EQ(bars.bars[1].segments[0].name.data(), latency::kExamplePasses[1]);
     EXPECT_DOUBLE_EQ(bars.bars[1].segments[0].ms, 4.0);
+}
+
+TEST(StageBars, ShowAsManyPassesAsARunCanHave) {
+    std::string names;
+    frame::FrameGpuRecord gpu;
+    for (std::size_t pass = 0; pass < frame::kMostPasses; ++pass) {
+        names += (pass == 0 ? "pass" : " pass") + std::to_string(pass);
+        gpu.passes.set(pass, static_cast<std::int64_t>(pass + 1) * 1'000'000);
+    }
+    const auto passes = frame::PassList::parse(names, frame::kMostPasses);
+    ASSERT_TRUE(passes.has_value());
+    const StageBars bars = stage_bars(latency::example_frame(1), gpu, *passes, {});
+    ASSERT_EQ(bars.bars[1].count, frame::kMostPasses);
+    EXPECT_DOUBLE_EQ(sum_ms(bars.bars[1]), 78.0);
 }
 
 TEST(StageBars, NeverShowTheUnknownAsZero) {
     frame::FrameRecord frame;  // every stamp unknown
-    const StageBars bars = stage_bars(frame, frame::FrameGpuRecord{}, {});
+    const StageBars bars = stage_bars(frame, frame::FrameGpuRecord{}, latency::kExamplePasses, {});
     EXPECT_FALSE(bars.bars[0].total_known);
     EXPECT_FALSE(bars.bars[1].total_known);
     for (std::uint32_t i = 0; i < bars.bars[0].count; ++i) {

@@ -33,7 +33,10 @@ latency::SummaryReport example_report(std::uint64_t frames, const latency::Summa
 }
 
 latency::SummaryReport example_report(std::uint64_t frames) {
-    return example_report(frames, {.period_ns = kExamplePeriodNs, .switching_ns = 2 * kMs});
+    return example_report(frames, {.period_ns = kExamplePeriodNs,
+                                   .switching_ns = 2 * kMs,
+                                   .passes = latency::kExamplePasses,
+                                   .grids = latency::kExampleGrids});
 }
 
 std::vector<std::string> lines(const std::string& text) {
@@ -96,7 +99,10 @@ TEST(SummaryText, ShowsEveryRow) {
           "  unaccounted ", "frame interval ", "loop (cpu) ", "pass pass_i ", "pass resolve "}) {
         EXPECT_NE(line_with(text, begin), "") << begin;
     }
-    EXPECT_EQ(line_with(text, "pass full"), "");
+    EXPECT_EQ(line_with(text, "pass disc"), "");
+    EXPECT_EQ(line_with(text, "lp "),
+              "lp       shaded 160000 of 200000, off screen 30000, covered by another grid 10000");
+    EXPECT_EQ(line_with(text, "picture "), "picture  shaded 40000 of 40000");
     EXPECT_EQ(line_with(text, "-:"), "");
     EXPECT_THAT(text, HasSubstr("3.4x fewer samples than full resolution"));
     EXPECT_THAT(text, HasSubstr("tracking 100.0 %, other-eye 0.0 %"));
@@ -146,23 +152,25 @@ TEST(SummaryText, UnknownIsNeverZero) {
 
 TEST(SummaryText, SaysWhatWasHiddenOnlyWhereThereIsAMask) {
     const auto text_with = [](std::uint64_t texels_hidden, std::uint64_t pixels_hidden) {
-        latency::LatencySummary summary({.period_ns = 10'000'000});
+        latency::LatencySummary summary({.period_ns = 10'000'000, .grids = latency::kExampleGrids});
         frame::FrameRecord frame = example_frame(0);
-        frame.samples.texels_hidden = texels_hidden;
+        frame.samples.grids[0].hidden = texels_hidden;
         frame.samples.pixels_hidden = pixels_hidden;
         summary.add(frame);
         return summary_text(summary.report());
     };
     EXPECT_THAT(text_with(0, 0), testing::Not(HasSubstr("hidden")));
     const std::string masked = text_with(70, 400);
-    EXPECT_THAT(masked, HasSubstr("under the disc 50, hidden 70\n"));
-    EXPECT_THAT(masked, HasSubstr("shaded directly 200 of 3400, hidden 400\n"));
+    EXPECT_THAT(masked, HasSubstr("covered by another grid 50, hidden 70\n"));
+    EXPECT_THAT(masked, HasSubstr("pixels   3400, hidden 400\n"));
     // Full resolution would leave them out as well: 3000 over 1000, not 3400.
     EXPECT_THAT(masked, HasSubstr("3.0x fewer samples"));
 }
 
 TEST(SummaryText, NeverExceedsItsWidth) {
-    latency::LatencySummary summary({.period_ns = std::numeric_limits<std::int64_t>::max()});
+    latency::LatencySummary summary({.period_ns = std::numeric_limits<std::int64_t>::max(),
+                                     .passes = latency::kExamplePasses,
+                                     .grids = latency::kExampleGrids});
     for (std::uint64_t index = 0; index < 20; ++index) {
         frame::FrameRecord frame = example_frame(index);
         const std::int64_t far = index % 2 == 0 ? std::numeric_limits<std::int64_t>::min()
@@ -170,12 +178,12 @@ TEST(SummaryText, NeverExceedsItsWidth) {
         frame.stamps.latch.ns = far;
         frame.stamps.wake_up.ns = -(far / 2);
         frame.fovea.eyes[0].sampled.ns = -(far / 3);
-        frame.samples = {.texels_planned = 1U << 30U,
-                         .texels_shaded = std::uint64_t{1} << 50U,
-                         .texels_off_screen = std::uint64_t{1} << 50U,
-                         .texels_under_disc = std::uint64_t{1} << 50U,
-                         .pixels_direct = std::uint64_t{1} << 50U,
-                         .pixels_output = 1};
+        frame.samples.grid_count = frame::kMostGrids;
+        frame.samples.grids.fill({.planned = std::uint64_t{1} << 50U,
+                                  .shaded = std::uint64_t{1} << 50U,
+                                  .off_screen = std::uint64_t{1} << 50U,
+                                  .covered = std::uint64_t{1} << 50U});
+        frame.samples.pixels_output = 1;
         summary.add(frame);
     }
     latency::SummaryReport report = summary.report();
@@ -206,6 +214,8 @@ TEST(SummaryJson, MirrorsTheText) {
     EXPECT_EQ(json["durations"]["stage_wait_for_display"]["mean_ms"], 6.0);
     EXPECT_EQ(json["frames"]["missed"], 0);
     EXPECT_EQ(json["frames"]["by_gaze_state"]["tracking"], 30);
+    EXPECT_EQ(json["samples"]["grids"]["lp"]["covered"], 1500);
+    EXPECT_EQ(json["samples"]["grids"]["picture"]["shaded"], 6000);
     EXPECT_EQ(json["samples"]["times_fewer_than_full"], 3.4);
 }
 

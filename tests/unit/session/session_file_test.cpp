@@ -100,7 +100,7 @@ TEST_F(ReadSession, RefusesANewerSchemaAndNamesBothVersions) {
     record();
     change("UPDATE meta SET value = '7' WHERE name = 'schema_version'; DROP TABLE gaze");
     EXPECT_THAT(error(), HasSubstr("schema version 7"));
-    EXPECT_THAT(error(), HasSubstr("up to version 1"));
+    EXPECT_THAT(error(), HasSubstr("up to version 2"));
 }
 
 TEST_F(ReadSession, RefusesAVersionThatIsNoNumber) {
@@ -136,16 +136,47 @@ TEST_F(ReadSession, IgnoresColumnsAndTablesThatItDoesNotKnow) {
     EXPECT_EQ(error(), "no error");
 }
 
-// As it was written before there were masks.
-TEST_F(ReadSession, ReadsFilesThatKnowOfNothingHidden) {
-    record();
-    change("ALTER TABLE frame DROP COLUMN texels_hidden; DROP TABLE hidden_area");
-    change("ALTER TABLE frame DROP COLUMN pixels_hidden");
+// A session of version 1, which knew two methods, is read into today's grids and passes.
+TEST_F(ReadSession, ReadsVersionOne) {
+    std::filesystem::copy_file(GAZELOOP_SOURCE_DIR "/tests/replay/golden/trace-kfr-openxr.gaze",
+                               file);
     const Expected<SessionFile> session = read_session(file);
     ASSERT_TRUE(session.has_value()) << session.error().message;
-    EXPECT_TRUE(session->hidden.empty());
-    EXPECT_EQ(session->frames[1].frame.samples, latency::example_frame(1).samples);
-    EXPECT_EQ(session->frames[1].gpu.gpu_end, latency::example_gpu(1).gpu_end);
+    EXPECT_EQ(session->header.passes, (frame::PassList{"full", "pass_i", "resolve", "disc"}));
+    EXPECT_EQ(session->header.grids, (frame::GridList{"lp", "picture"}));
+    const RecordedFrame& last = session->frames.back();
+    EXPECT_EQ(last.frame.samples.grid_count, 2U);
+    const frame::GridCounts& lp = last.frame.samples.grids[0];
+    EXPECT_GT(lp.shaded, 0U);
+    EXPECT_GT(lp.hidden, 0U);
+    EXPECT_EQ(lp.planned, lp.shaded + lp.off_screen + lp.covered + lp.hidden);
+    EXPECT_TRUE(std::ranges::any_of(session->frames, [](const RecordedFrame& one) {
+        return one.frame.samples.grids[1].shaded > 0;
+    }));
+    EXPECT_EQ(last.gpu.passes[0], std::nullopt) << "full resolution was not rendered";
+    EXPECT_GT(last.gpu.passes[1], 0);
+    EXPECT_GT(last.gpu.passes[2], 0);
+
+    // As the first of them were written, before there were masks.
+    change("ALTER TABLE frame DROP COLUMN texels_hidden; DROP TABLE hidden_area");
+    change("ALTER TABLE frame DROP COLUMN pixels_hidden");
+    const Expected<SessionFile> first = read_session(file);
+    ASSERT_TRUE(first.has_value()) << first.error().message;
+    EXPECT_TRUE(first->hidden.empty());
+    EXPECT_EQ(first->frames.back().frame.samples.grids[0].hidden, 0U);
+    EXPECT_EQ(first->frames.back().frame.samples.grids[0].shaded, lp.shaded);
+}
+
+TEST_F(ReadSession, RefusesNamesThatAreNone) {
+    record();
+    change("UPDATE meta SET value = 'lp picture lp' WHERE name = 'grids'");
+    EXPECT_THAT(error(), HasSubstr("table meta: grids is 'lp picture lp': 'lp' is there twice"));
+    change("UPDATE meta SET value = 'lp; picture' WHERE name = 'grids'");
+    EXPECT_THAT(error(), HasSubstr("names of lower case letters"));
+    change("UPDATE meta SET value = 'a b c d e f g h i' WHERE name = 'grids'");
+    EXPECT_THAT(error(), HasSubstr("more than 8 names"));
+    change("DELETE FROM meta WHERE name = 'passes'");
+    EXPECT_THAT(error(), HasSubstr("table meta has no passes"));
 }
 
 TEST_F(ReadSession, KnowsWhatWasHiddenFromWhichFrameOn) {

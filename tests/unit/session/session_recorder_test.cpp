@@ -90,7 +90,7 @@ TEST_F(Recording, HoldsWhatWasAddedInOrder) {
         EXPECT_EQ(frame.frame.stamps.display, latency::example_frame(i).stamps.display);
         EXPECT_EQ(frame.gpu.index, i);
         EXPECT_EQ(frame.gpu.gpu_end.known(), i < 48);
-        EXPECT_EQ(frame.gpu.pass_ns[1], i < 48 ? 3 * latency::kMs : -1);
+        EXPECT_EQ(frame.gpu.passes[0], i < 48 ? std::optional(3 * latency::kMs) : std::nullopt);
     }
     ASSERT_EQ(session.events.size(), 1U);
     EXPECT_EQ(session.events[0].time, (time::Stamp{5, time::StampKind::Measured}));
