@@ -17,10 +17,10 @@
 #include "runtime/doctor/checks.h"
 #include "runtime/doctor/device_report.h"
 #include "runtime/doctor/openxr_gaze_report.h"
+#include "runtime/profiles/profiles_in_force.h"
 #include "runtime/report/output_file.h"
 #include "runtime/run/gaze_sources.h"
 #include "runtime/run/interrupt.h"
-#include "runtime/settings/profiles_in_force.h"
 #include "runtime/time/clock.h"
 
 namespace gazeloop::cli {
@@ -100,25 +100,27 @@ ExitCode watch(const std::vector<drivers::GazeSource*>& sources, const DevicesCo
     return any ? ExitCode::Ok : ExitCode::NoDevice;
 }
 
-doctor::Findings listen_to_openxr(const settings::Settings& settings, double seconds) {
+doctor::Findings listen_to_openxr(const run::ProgramSettings& settings, double seconds) {
     constexpr std::chrono::seconds kPatience{20};
     const auto listening = std::chrono::milliseconds(std::llround(seconds * 1e3));
     return doctor::check_eye_gaze(
-        {.display = value_or_throw(settings::display_in_force(settings)), .is_target = false},
+        {.display = value_or_throw(profiles::display_in_force(settings.values().profile, settings)),
+         .is_target = false},
         seconds, {.patience = kPatience + listening, .stop = [] { return run::interrupted(); }});
 }
 
 ExitCode devices(const DevicesCommand& command) {
-    settings::Settings settings;
+    run::ProgramSettings settings;
     RunOptions configured;
     configured.config_files = command.config_files;
     configured.assignments = command.assignments;
     value_or_throw(configured.apply_to(settings, true));
-    const settings::TrackerProfile profile = value_or_throw(settings::tracker_in_force(settings));
+    const profiles::TrackerProfile profile =
+        value_or_throw(profiles::tracker_in_force(settings.values().profile, settings));
     const drivers::hid::HidOptions hid = run::hid_options(profile, settings.values());
     value_or_throw(run::default_tracker("psvr2", settings));
-    const drivers::psvr2::Psvr2Options psvr2 =
-        run::psvr2_options(value_or_throw(settings::tracker_in_force(settings)));
+    const drivers::psvr2::Psvr2Options psvr2 = run::psvr2_options(
+        value_or_throw(profiles::tracker_in_force(settings.values().profile, settings)));
     if (command.watch) {
         drivers::hid::HidSource hid_source(hid);
         drivers::psvr2::Psvr2Source psvr2_source(psvr2);

@@ -8,11 +8,10 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/doctor/checks.h"
-#include "runtime/methods/kfr_settings.h"
+#include "runtime/profiles/profiles_in_force.h"
 #include "runtime/report/output_file.h"
 #include "runtime/run/interrupt.h"
 #include "runtime/run/run_checks.h"
-#include "runtime/settings/profiles_in_force.h"
 #include "runtime/version.h"
 
 namespace gazeloop::cli {
@@ -68,14 +67,15 @@ doctor::Findings check_configuration(const DoctorCommand& command, settings::Set
 }
 
 /// Whether `run` would take the settings, all of them together.
-doctor::Finding check_settings(settings::Settings& settings) {
+doctor::Finding check_settings(run::ProgramSettings& settings) {
     doctor::Finding finding{.check = "configuration.settings",
                             .found = "no setting is at odds with another"};
     try {
-        value_or_throw(methods::take_kernel_table(settings));
+        value_or_throw(methods::take_kernel_table(settings.values().methods.kfr, settings));
         value_or_throw(settings.check());
-        (void)value_or_throw(settings::simulate_tracker_in_force(settings));
-        (void)value_or_throw(settings::display_in_force(settings));
+        (void)value_or_throw(
+            profiles::simulate_tracker_in_force(settings.values().profile, settings));
+        (void)value_or_throw(profiles::display_in_force(settings.values().profile, settings));
         run::FrameRunRequest request;
         request.settings = &settings;
         run::check_request(request);
@@ -89,19 +89,20 @@ doctor::Finding check_settings(settings::Settings& settings) {
 }
 
 /// The display's profile, or the one that is built in where that is none.
-display::DisplayProfile display_or_default(const settings::Settings& settings) {
-    const auto display = settings::display_in_force(settings);
-    return display ? *display : value_or_throw(settings::display_in_force(settings::Settings()));
+display::DisplayProfile display_or_default(const run::ProgramSettings& settings) {
+    const auto display = profiles::display_in_force(settings.values().profile, settings);
+    return display ? *display
+                   : value_or_throw(profiles::load_display(profiles::ProfileSettings().display));
 }
 
 ExitCode run_doctor(const DoctorCommand& command) {
-    settings::Settings settings;
+    run::ProgramSettings settings;
     doctor::Findings findings = check_configuration(command, settings);
     // The files are loaded already, as far as they can be.
     RunOptions rest = command.options;
     rest.config_files.clear();
     value_or_throw(rest.set_in(settings, false));
-    const settings::SettingValues& values = settings.values();
+    const run::ProgramValues& values = settings.values();
     findings.push_back(check_settings(settings));
     const display::DisplayProfile display = display_or_default(settings);
 

@@ -19,9 +19,9 @@
 #include "runtime/foveation/eye/guenter_acuity.h"
 #include "runtime/foveation/eye/stela_acuity.h"
 #include "runtime/gaze/direction.h"
+#include "runtime/profiles/profiles_in_force.h"
 #include "runtime/report/output_file.h"
 #include "runtime/settings/nearest_name.h"
-#include "runtime/settings/profiles_in_force.h"
 #include "runtime/trade/layer_figures.h"
 #include "runtime/trade/plan_report.h"
 #include "runtime/trade/tracker_widening.h"
@@ -42,8 +42,7 @@ struct PlanCommand {
 
 using Models = std::vector<std::unique_ptr<foveation::AcuityModel>>;
 
-Models acuity_models(const settings::SettingValues& settings) {
-    const auto& set = settings.acuity;
+Models acuity_models(const methods::AcuitySettings& set) {
     Models models;
     models.push_back(value_or_throw(foveation::GuenterAcuity::create({.slope = set.mar})));
     models.push_back(std::make_unique<foveation::GeislerPerryAcuity>());
@@ -77,13 +76,15 @@ class Selection {
 
 constexpr const char* kByTracker = "tracker";
 
-trade::TrackerWidening widening(const std::string& text, const settings::Settings& settings,
+trade::TrackerWidening widening(const std::string& text, const run::ProgramSettings& settings,
                                 const display::DisplayProfile& display,
                                 const drivers::FixedGaze& at) {
     if (text == kByTracker) {
         const double off_axis_deg = glm::degrees(
             std::acos(std::clamp(glm::dot(at.direction(), gaze::kStraightAhead), -1.0, 1.0)));
-        return value_or_throw(trade::tracker_widening(settings, display, off_axis_deg));
+        return value_or_throw(trade::tracker_widening(settings.values().profile.tracker,
+                                                      settings.values().sim, settings, display,
+                                                      off_axis_deg));
     }
     double deg = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), deg);
@@ -97,10 +98,10 @@ trade::TrackerWidening widening(const std::string& text, const settings::Setting
 }
 
 ExitCode plan(const PlanCommand& command) {
-    settings::Settings settings;
+    run::ProgramSettings settings;
     value_or_throw(command.options.apply_to(settings, true));
     if (command.widening == kByTracker) {
-        value_or_throw(settings::simulate_tracker_in_force(settings));
+        value_or_throw(profiles::simulate_tracker_in_force(settings.values().profile, settings));
     }
     if (command.options.print_config) {
         fmt::print("{}", settings.describe());
@@ -118,8 +119,9 @@ ExitCode plan(const PlanCommand& command) {
         }
         return ExitCode::Ok;
     }
-    const settings::SettingValues& values = settings.values();
-    const display::DisplayProfile display = value_or_throw(settings::display_in_force(settings));
+    const run::ProgramValues& values = settings.values();
+    const display::DisplayProfile display =
+        value_or_throw(profiles::display_in_force(settings.values().profile, settings));
     const drivers::FixedGaze gaze = value_or_throw(drivers::parse_fixed_gaze(command.gaze));
     const gaze::Eye eye = command.eye == "left" ? gaze::Eye::Left : gaze::Eye::Right;
     const gaze::EyeView view =
@@ -136,7 +138,7 @@ ExitCode plan(const PlanCommand& command) {
                                  .widening_terms = widened_by.terms,
                                  .field = &field,
                                  .models = {}};
-    const Models models = acuity_models(values);
+    const Models models = acuity_models(values.methods.acuity);
     std::vector<std::string> model_names;
     for (const auto& model : models) {
         model_names.emplace_back(model->name());
@@ -155,8 +157,10 @@ ExitCode plan(const PlanCommand& command) {
         method_names.emplace_back(method.name);
     }
     const Selection methods_asked("method", command.method, method_names);
-    const methods::PlanSubject subject{
-        .settings = settings, .field = field, .line = {.slope = values.acuity.mar}};
+    const methods::PlanSubject subject{.values = values.methods,
+                                       .settings = settings,
+                                       .field = field,
+                                       .line = {.slope = values.methods.acuity.mar}};
     const auto plan_of = [&](const auto& wanted) {
         std::vector<trade::PlanRow> rows;
         for (const methods::PlanMethod& method : methods::plan_methods()) {

@@ -11,9 +11,9 @@
 #include "drivers/trace/read_trace.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/profiles/profiles_in_force.h"
 #include "runtime/run/gaze_sources.h"
 #include "runtime/session/session_file.h"
-#include "runtime/settings/profiles_in_force.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -29,8 +29,9 @@ struct ReplayCommand {
 };
 
 ExitCode replay_trace(const ReplayCommand& command, gaze::GazeTrace trace,
-                      settings::Settings& settings, run::FrameRunRequest& request) {
-    const settings::TrackerProfile tracker = value_or_throw(settings::tracker_in_force(settings));
+                      const run::ProgramSettings& settings, run::FrameRunRequest& request) {
+    const profiles::TrackerProfile tracker =
+        value_or_throw(profiles::tracker_in_force(settings.values().profile, settings));
     // A session knows when its samples arrived; other traces get the profile's delay.
     const std::int64_t delay_ns = trace.format == kSessionFormat ? 0 : tracker.delay_ns;
     request.make_source = run::trace_player(std::move(trace), delay_ns, command.speed);
@@ -113,7 +114,7 @@ void check_frames(const session::SessionFile& session, const std::string& file) 
     }
 }
 
-ExitCode replay_session(const ReplayCommand& command, settings::Settings& settings,
+ExitCode replay_session(const ReplayCommand& command, run::ProgramSettings& settings,
                         run::FrameRunRequest& request) {
     const session::SessionFile session = value_or_throw(session::read_session(command.file));
     if (!session.closed_cleanly) {
@@ -167,7 +168,7 @@ ExitCode replay_session(const ReplayCommand& command, settings::Settings& settin
 }
 
 ExitCode replay(const ReplayCommand& command, const std::string& command_line) {
-    settings::Settings settings;
+    run::ProgramSettings settings;
     run::FrameRunRequest request;
     request.settings = &settings;
     request.command_line = command_line;

@@ -4,8 +4,8 @@
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/profiles/profiles_in_force.h"
 #include "runtime/run/gaze_sources.h"
-#include "runtime/settings/profiles_in_force.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -17,11 +17,11 @@ struct RunCommand {
 };
 
 ExitCode run(const RunCommand& command, const std::string& command_line) {
-    settings::Settings settings;
+    run::ProgramSettings settings;
     value_or_throw(command.options.apply_to(settings, true));
     value_or_throw(run::default_tracker(command.gaze, settings));
-    const settings::TrackerProfile tracker =
-        value_or_throw(settings::simulate_tracker_in_force(settings));
+    const profiles::TrackerProfile tracker =
+        value_or_throw(profiles::simulate_tracker_in_force(settings.values().profile, settings));
     if (command.options.print_config) {
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;
@@ -31,7 +31,7 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
     request.settings = &settings;
     request.command_line = command_line;
     if (command.gaze == "openxr") {
-        const settings::SettingValues& values = settings.values();
+        const run::ProgramValues& values = settings.values();
         // Full resolution does not depend on where the foveae are: it keeps no depth for them.
         request.openxr_gaze = {
             .distance_m = values.gaze.fixation_distance_m,

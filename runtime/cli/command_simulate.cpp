@@ -6,7 +6,7 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/cli/simulate_tracker.h"
-#include "runtime/settings/profiles_in_force.h"
+#include "runtime/profiles/profiles_in_force.h"
 #include "sim/gaze_generator.h"
 
 namespace gazeloop::cli {
@@ -19,9 +19,9 @@ struct SimulateGazeCommand {
 };
 
 ExitCode simulate_gaze(const SimulateGazeCommand& command) {
-    settings::Settings settings;
+    run::ProgramSettings settings;
     value_or_throw(command.options.apply_to(settings, true));
-    value_or_throw(settings::simulate_tracker_in_force(settings));
+    value_or_throw(profiles::simulate_tracker_in_force(settings.values().profile, settings));
     if (command.options.print_config) {
         fmt::print("{}", settings.describe());
         return ExitCode::Ok;

@@ -5,7 +5,6 @@
 
 #include <charconv>
 
-#include "runtime/methods/kfr_settings.h"
 #include "runtime/preview/preview_memory.h"
 #include "runtime/preview/preview_window.h"
 
@@ -125,11 +124,11 @@ void RunOptions::add_settings_to(CLI::App& command) {
     command.add_flag("--print-config", print_config, "show every setting and where it comes from");
 }
 
-Expected<void> RunOptions::apply_to(settings::Settings& settings, bool standard_files) const {
+Expected<void> RunOptions::apply_to(run::ProgramSettings& settings, bool standard_files) const {
     if (auto set = set_in(settings, standard_files); !set) {
         return set;
     }
-    return methods::take_kernel_table(settings);
+    return methods::take_kernel_table(settings.values().methods.kfr, settings);
 }
 
 Expected<void> RunOptions::set_in(settings::Settings& settings, bool standard_files) const {

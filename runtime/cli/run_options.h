@@ -62,7 +62,7 @@ struct RunOptions {
 
     /// Applies --config, --set and the aliases, in this order, and reads the file of a kernel
     /// table. `standard_files`: the user's and the system's configuration first.
-    Expected<void> apply_to(settings::Settings& settings, bool standard_files) const;
+    Expected<void> apply_to(run::ProgramSettings& settings, bool standard_files) const;
     /// The same without the file of a kernel table.
     Expected<void> set_in(settings::Settings& settings, bool standard_files) const;
 

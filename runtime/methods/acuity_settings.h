@@ -1,20 +1,28 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "runtime/foveation/log_polar/acuity_profile.h"
-#include "runtime/settings/settings.h"
+#include "runtime/settings/setting_row.h"
 
 namespace gazeloop::methods {
 
-/// What the settings acuity.* say of the map; AcuityProfile::create checks it against a view.
-[[nodiscard]] inline foveation::AcuityParameters acuity_parameters(
-    const settings::SettingValues& values) {
-    const auto& set = values.acuity;
-    return {.mar = {.slope = set.mar},
-            .pixels_per_degree = set.pixels_per_degree,
-            .lp_width = static_cast<std::uint32_t>(set.lp_width),
-            .lp_height = static_cast<std::uint32_t>(set.lp_height),
-            .disc = set.disc,
-            .border_px = set.border_px};
-}
+/// The settings acuity.*: of the method, and of the models of the eye that plans are held against.
+struct AcuitySettings {
+    double mar = 0.022;
+    double pixels_per_degree = 0.0;
+    std::int64_t lp_width = 0;
+    std::int64_t lp_height = 0;
+    bool disc = true;
+    double border_px = 6.0;
+    double luminance_cd_m2 = 100.0;
+    bool nasal = false;
+};
+
+[[nodiscard]] std::vector<settings::SettingRow> rows_of(AcuitySettings& acuity);
+
+/// What they say of the map; AcuityProfile::create checks it against a view.
+[[nodiscard]] foveation::AcuityParameters parameters(const AcuitySettings& acuity);
 
 }  // namespace gazeloop::methods

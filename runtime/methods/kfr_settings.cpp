@@ -4,9 +4,11 @@
 
 #include <charconv>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runtime/methods/kernel_table_file.h"
+#include "runtime/methods/only_under.h"
 
 namespace gazeloop::methods {
 namespace {
@@ -54,8 +56,7 @@ Expected<foveation::RadialKernel> table_kernel(std::string_view samples) {
     return std::move(*table);
 }
 
-Expected<foveation::RadialKernel> kernel(const settings::Settings& settings) {
-    const auto& kfr = settings.values().kfr;
+Expected<foveation::RadialKernel> kernel(const KfrSettings& kfr, const settings::Settings& all) {
     if (kfr.kernel == "power") {
         return kfr.alpha;
     }
@@ -69,42 +70,98 @@ Expected<foveation::RadialKernel> kernel(const settings::Settings& settings) {
         return foveation::ExponentialKernel{};
     }
     if (kfr.kernel == "polynomial") {
-        return settings.at_origin("kfr.polynomial", polynomial_kernel(kfr.polynomial));
+        return all.at_origin("kfr.polynomial", polynomial_kernel(kfr.polynomial));
     }
     if (kfr.kernel_samples.empty()) {
-        return settings.at_origin(
+        return all.at_origin(
             "kfr.kernel",
             Expected<foveation::RadialKernel>(std::unexpected(Error{
                 ErrorKind::Usage,
                 "the table's file is missing; state it with kfr.kernel_table, or its samples with "
                 "kfr.kernel_samples"})));
     }
-    return settings.at_origin("kfr.kernel_samples", table_kernel(kfr.kernel_samples));
+    return all.at_origin("kfr.kernel_samples", table_kernel(kfr.kernel_samples));
 }
 
 }  // namespace
 
-Expected<void> take_kernel_table(settings::Settings& settings) {
-    const std::string file = settings.values().kfr.kernel_table;
-    if (settings.values().kfr.kernel != "table" || file.empty()) {
+std::vector<settings::SettingRow> rows_of(KfrSettings& kfr) {
+    using foveation::KfrParameters;
+    using foveation::PowerKernel;
+    using settings::Choice;
+    using settings::Concerns;
+    using settings::Number;
+    using settings::Whole;
+    const settings::OnlyWhile only = only_under({"kfr"});
+    return {
+        {"kfr.alpha", "of the kernels power, x^alpha, and power-as-printed",
+         Number{&kfr.alpha, PowerKernel::kMinAlpha, PowerKernel::kMaxAlpha}, Concerns::Picture,
+         only},
+        {"kfr.border_px", "width of the blend between disc and LP-buffer",
+         Number{&kfr.border_px, 0.0, 64.0}, Concerns::Picture, only},
+        {"kfr.close_hole", "without the disc: still shade the kernel's hole directly",
+         &kfr.close_hole, Concerns::Picture, only},
+        {"kfr.disc", "shade pixels directly where a texel a pixel is offered", &kfr.disc,
+         Concerns::Picture, only},
+        {"kfr.kernel", "how columns spread from the fovea",
+         Choice{.value = &kfr.kernel,
+                .names = {foveation::kKernelNames.begin(), foveation::kKernelNames.end()}},
+         Concerns::Picture, only},
+        {"kfr.kernel_samples", "of the kernel table: x,y;x,y;... from 0,0 to 1,1",
+         Choice{.value = &kfr.kernel_samples}, Concerns::Picture, only},
+        {"kfr.kernel_table", "of the kernel table: a .csv or .toml file to take its samples from",
+         settings::Path{&kfr.kernel_table, ""}, Concerns::Picture, only},
+        {"kfr.lp_height", "rows of the LP-buffer; 0: the picture's over sigma",
+         Whole{&kfr.lp_height, 0, foveation::LpSize::kMaxSide}, Concerns::Picture, only},
+        {"kfr.lp_width", "columns of the LP-buffer; 0: the picture's over sigma",
+         Whole{&kfr.lp_width, 0, foveation::LpSize::kMaxSide}, Concerns::Picture, only},
+        {"kfr.polynomial", "of the kernel polynomial: coefficients of x, x^2, ...; sum 1",
+         settings::NumberList{&kfr.polynomial}, Concerns::Picture, only},
+        {"kfr.sigma", "picture width over LP-buffer width",
+         Number{&kfr.sigma, KfrParameters::kMinSigma, KfrParameters::kMaxSigma}, Concerns::Picture,
+         only},
+    };
+}
+
+Expected<void> check_kfr(const settings::Settings& all) {
+    if (!all.is_built_in("kfr.kernel")) {
         return {};
     }
-    const auto table = settings.at_origin("kfr.kernel_table", load_kernel_table(file));
+    // Nobody has chosen the kernel that these are for.
+    for (const auto& [key, kernel] :
+         {std::pair{"kfr.kernel_table", "table"}, std::pair{"kfr.kernel_samples", "table"},
+          std::pair{"kfr.polynomial", "polynomial"}}) {
+        if (!all.is_built_in(key)) {
+            return std::unexpected(
+                Error{ErrorKind::Usage,
+                      fmt::format("{}: has no effect while {}: set kfr.kernel={} too",
+                                  all.with_origin(key), all.with_origin("kfr.kernel"), kernel)});
+        }
+    }
+    return {};
+}
+
+Expected<void> take_kernel_table(const KfrSettings& kfr, settings::Settings& all) {
+    const std::string file = kfr.kernel_table;
+    if (kfr.kernel != "table" || file.empty()) {
+        return {};
+    }
+    const auto table = all.at_origin("kfr.kernel_table", load_kernel_table(file));
     if (!table) {
         return std::unexpected(table.error());
     }
-    if (auto set = settings.set("kfr.kernel_samples", kernel_samples(*table), file); !set) {
+    if (auto set = all.set("kfr.kernel_samples", kernel_samples(*table), file); !set) {
         return set;
     }
-    return settings.set("kfr.kernel_table", "", "taken");
+    return all.set("kfr.kernel_table", "", "taken");
 }
 
-Expected<foveation::KfrParameters> kfr_parameters(const settings::Settings& settings) {
-    auto made = kernel(settings);
+Expected<foveation::KfrParameters> parameters(const KfrSettings& kfr,
+                                              const settings::Settings& all) {
+    auto made = kernel(kfr, all);
     if (!made) {
         return std::unexpected(made.error());
     }
-    const auto& kfr = settings.values().kfr;
     return foveation::KfrParameters{.sigma = kfr.sigma,
                                     .kernel = std::move(*made),
                                     .disc = kfr.disc,

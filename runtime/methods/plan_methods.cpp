@@ -7,7 +7,6 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
-#include "runtime/foveation/eye/guenter_acuity.h"
 #include "runtime/foveation/log_polar/degenerate_map.h"
 #include "runtime/foveation/plans/acuity_density.h"
 #include "runtime/foveation/plans/acuity_plan.h"
@@ -16,8 +15,6 @@
 #include "runtime/foveation/plans/sampling_plan.h"
 #include "runtime/foveation/plans/shading_rings.h"
 #include "runtime/foveation/plans/sparse_pattern.h"
-#include "runtime/methods/acuity_settings.h"
-#include "runtime/methods/kfr_settings.h"
 
 namespace gazeloop::methods {
 namespace {
@@ -36,21 +33,21 @@ Expected<PlannedMethod> plan_full(const PlanSubject& subject) {
 }
 
 Expected<PlannedMethod> plan_kfr(const PlanSubject& subject) {
-    const auto& set = subject.settings.values().kfr;
-    const auto stated = kfr_parameters(subject.settings);
+    const KfrSettings& set = subject.values.kfr;
+    const auto stated = parameters(set, subject.settings);
     if (!stated) {
         return std::unexpected(stated.error());
     }
-    const foveation::KfrParameters& parameters = *stated;
+    const foveation::KfrParameters& kfr = *stated;
     const ImageSize image = image_size(subject);
-    const auto lp = foveation::lp_buffer_size(parameters, image);
+    const auto lp = foveation::lp_buffer_size(kfr, image);
     if (!lp) {
         return std::unexpected(lp.error());
     }
     foveation::SamplingPlan plan;
     const gaze::PixelPosition fovea = subject.field.fovea();
-    foveation::plan_kfr(parameters, *lp, image, fovea, plan);
-    const foveation::LogPolarMap map(parameters.kernel, image, fovea);
+    foveation::plan_kfr(kfr, *lp, image, fovea, plan);
+    const foveation::LogPolarMap map(kfr.kernel, image, fovea);
     const double core_px = plan.disc_radius_px - plan.disc_border_px;
     return PlannedMethod{
         .parameters = fmt::format(
@@ -70,18 +67,17 @@ Expected<PlannedMethod> plan_kfr(const PlanSubject& subject) {
 }
 
 Expected<PlannedMethod> plan_acuity(const PlanSubject& subject) {
-    const foveation::AcuityParameters parameters = acuity_parameters(subject.settings.values());
+    const foveation::AcuityParameters acuity = parameters(subject.values.acuity);
     const gaze::EyeView& view = subject.field.view();
-    const auto profile = foveation::AcuityProfile::create(parameters, view);
+    const auto profile = foveation::AcuityProfile::create(acuity, view);
     if (!profile) {
         return std::unexpected(profile.error());
     }
     foveation::SamplingPlan plan;
-    foveation::plan_acuity(parameters, *profile, view, subject.field.gaze(), plan);
+    foveation::plan_acuity(acuity, *profile, view, subject.field.gaze(), plan);
     const double core = plan.in_gaze_frame->disc_half_sine - plan.in_gaze_frame->border_half_sine;
     return PlannedMethod{
-        .parameters =
-            fmt::format("m {}, {}", parameters.mar.slope, parameters.disc ? "disc" : "no disc"),
+        .parameters = fmt::format("m {}, {}", acuity.mar.slope, acuity.disc ? "disc" : "no disc"),
         .samples = plan.texels_shaded + plan.pixels_direct,
         .density = std::make_unique<foveation::AcuityDensity>(
             foveation::AcuityMap(*profile, subject.field.frame()),
@@ -95,11 +91,8 @@ Expected<PlannedMethod> plan_acuity(const PlanSubject& subject) {
 }
 
 Expected<PlannedMethod> plan_layers(const PlanSubject& subject) {
-    const auto& set = subject.settings.values().layers;
-    foveation::LayerOptions options{.layers = static_cast<int>(set.n), .weights = {1.0}};
-    options.weights.resize(static_cast<std::size_t>(set.n), set.outer_weight);
-    options.second_factor = set.s2_fixed ? 2.0 : 0.0;
-    auto plan = foveation::plan_layers(subject.field, subject.line, options);
+    const LayersSettings& set = subject.values.layers;
+    auto plan = foveation::plan_layers(subject.field, subject.line, parameters(set));
     if (!plan) {
         return std::unexpected(plan.error());
     }
@@ -124,27 +117,21 @@ Expected<PlannedMethod> plan_layers(const PlanSubject& subject) {
 }
 
 Expected<PlannedMethod> plan_rings(const PlanSubject& subject) {
-    const auto& set = subject.settings.values().rings;
-    const auto tile_px = static_cast<std::uint32_t>(set.tile_px);
-    foveation::RingParameters parameters{set.inner_deg, set.outer_deg, tile_px};
-    if (set.inner_deg == 0.0 && set.outer_deg == 0.0) {
-        const auto model = foveation::GuenterAcuity::create(subject.line);
-        if (!model) {
-            return std::unexpected(model.error());
-        }
-        parameters = foveation::sufficient_rings(subject.field.view(), **model, 0.0, tile_px);
+    const auto rings = parameters(subject.values.rings, subject.field.view(), subject.line);
+    if (!rings) {
+        return std::unexpected(rings.error());
     }
-    auto plan = foveation::plan_rings(subject.field, parameters);
+    auto plan = foveation::plan_rings(subject.field, *rings);
     if (!plan) {
         return std::unexpected(plan.error());
     }
     PlannedMethod method{
         .parameters = fmt::format("1x1 to {:.1f}, 2x2 to {:.1f} deg, tiles of {} px",
-                                  parameters.inner_deg, parameters.outer_deg, tile_px),
+                                  rings->inner_deg, rings->outer_deg, rings->tile_px),
         .samples = plan->samples(),
         .density = nullptr,
-        .figures = {{"inner_deg", parameters.inner_deg},
-                    {"outer_deg", parameters.outer_deg},
+        .figures = {{"inner_deg", rings->inner_deg},
+                    {"outer_deg", rings->outer_deg},
                     {"samples_1x1", static_cast<double>(plan->samples_at[0])},
                     {"samples_2x2", static_cast<double>(plan->samples_at[1])},
                     {"samples_4x4", static_cast<double>(plan->samples_at[2])}}};
@@ -153,24 +140,16 @@ Expected<PlannedMethod> plan_rings(const PlanSubject& subject) {
 }
 
 Expected<PlannedMethod> plan_sparse(const PlanSubject& subject) {
-    const auto& set = subject.settings.values().sparse;
-    const bool blue_noise = set.placement == "blue_noise";
-    const foveation::SparseParameters parameters{
-        .share = set.share,
-        .disc_share = set.disc_share,
-        .narrow_share = set.narrow_share,
-        .narrow_spread = set.narrow_spread,
-        .wide_spread = set.wide_spread,
-        .placement = blue_noise ? foveation::SparsePlacement::BlueNoise
-                                : foveation::SparsePlacement::Gaussian};
-    const auto pattern = foveation::make_sparse_pattern(parameters, image_size(subject));
+    const foveation::SparseParameters sparse = parameters(subject.values.sparse);
+    const auto pattern = foveation::make_sparse_pattern(sparse, image_size(subject));
     if (!pattern) {
         return std::unexpected(pattern.error());
     }
     const gaze::PixelPosition fovea = subject.field.fovea();
     return PlannedMethod{
-        .parameters =
-            fmt::format("share {}, {}", set.share, blue_noise ? "blue noise" : "gaussian"),
+        .parameters = fmt::format(
+            "share {}, {}", sparse.share,
+            sparse.placement == foveation::SparsePlacement::BlueNoise ? "blue noise" : "gaussian"),
         .samples = pattern->samples_in(fovea),
         .density = std::make_unique<foveation::SparseDensity>(pattern->profile, fovea),
         .figures = {{"field_samples", static_cast<double>(pattern->samples.size())},

@@ -11,13 +11,15 @@
 #include "runtime/foveation/eye/mar_line.h"
 #include "runtime/foveation/picture/gaze_field.h"
 #include "runtime/foveation/picture/offered_density.h"
+#include "runtime/methods/method_settings.h"
 #include "runtime/settings/settings.h"
 
 namespace gazeloop::methods {
 
 /// What a method is to plan: one eye's picture at one gaze.
 struct PlanSubject {
-    const settings::Settings& settings;
+    const MethodSettings& values;
+    const settings::Settings& settings;  ///< that hold the rows of `values`
     const foveation::GazeField& field;
     foveation::MarLine line;
 };

@@ -12,8 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/latency/latency_summary.h"
-#include "runtime/methods/acuity_settings.h"
-#include "runtime/methods/kfr_settings.h"
 #include "runtime/preview/preview_feed.h"
 #include "runtime/preview/window_process.h"
 #include "runtime/render/snapshot.h"
@@ -33,14 +31,6 @@
 
 namespace gazeloop::run {
 namespace {
-
-gaze::FoveaPolicy fovea_policy(const settings::SettingValues& values) {
-    return {.stale_ns = time::ms_to_ns(values.gaze.stale_ms),
-            .hold_ns = time::ms_to_ns(values.gaze.hold_ms),
-            .return_ns = time::ms_to_ns(values.gaze.return_ms),
-            .minimum_confidence = values.gaze.minimum_confidence,
-            .fixation_distance_m = values.gaze.fixation_distance_m};
-}
 
 render::Method method_named(std::string_view text) {
     const auto at = std::ranges::find(render::kMethodNames, text);
@@ -173,8 +163,8 @@ class FrameRun {
         return {.method = method_named(values_.render.method),
                 .scene = values_.render.scene,
                 .samples = static_cast<std::uint32_t>(values_.render.spp),
-                .kfr = value_or_throw(methods::kfr_parameters(*request_.settings)),
-                .acuity = methods::acuity_parameters(values_),
+                .kfr = value_or_throw(methods::parameters(values_.methods.kfr, *request_.settings)),
+                .acuity = methods::parameters(values_.methods.acuity),
                 .extents = target_->extents(),
                 .format = target_->format(),
                 .depth_format = target_->depth_format().value_or(vk::Format::eUndefined),
@@ -235,7 +225,7 @@ class FrameRun {
     }
 
     void run_loop(render::FrameRenderer& renderer, latency::LatencySummary& summary) {
-        gaze::GazeToFovea gaze(fovea_policy(values_));
+        gaze::GazeToFovea gaze(gaze::fovea_policy(values_.gaze));
         SummaryObserver summing(summary);
         LogObserver logging;
         if (request_.session != nullptr && request_.clock == RunClock::Recorded) {
@@ -464,7 +454,7 @@ class FrameRun {
     }
 
     const FrameRunRequest& request_;
-    const settings::SettingValues& values_;
+    const ProgramValues& values_;
     display::DisplayProfile display_;
     // The target's swapchains live on the context's device: they go first.
     std::unique_ptr<vulkan::Context> context_;

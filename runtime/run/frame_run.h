@@ -10,8 +10,8 @@
 #include "drivers/openxr/openxr_source.h"
 #include "runtime/error.h"
 #include "runtime/frame_loop.h"
+#include "runtime/run/program_settings.h"
 #include "runtime/session/session_file.h"
-#include "runtime/settings/settings.h"
 
 namespace gazeloop::run {
 
@@ -24,7 +24,7 @@ enum class RunClock {
 
 /// A run of the loop, ready to go; everything that can be refused without a device has been.
 struct FrameRunRequest {
-    const settings::Settings* settings = nullptr;
+    const ProgramSettings* settings = nullptr;
     std::string command_line;
     RunClock clock = RunClock::Wall;
     std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)> make_source;

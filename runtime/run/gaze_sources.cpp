@@ -22,15 +22,15 @@ bool is_device(std::string_view gaze) {
     return gaze == "openxr" || gaze == "psvr2" || gaze == "hid" || gaze.starts_with("hid:");
 }
 
-drivers::hid::HidOptions hid_options(const settings::TrackerProfile& tracker,
-                                     const settings::SettingValues& values) {
+drivers::hid::HidOptions hid_options(const profiles::TrackerProfile& tracker,
+                                     const ProgramValues& values) {
     return {.path = "",
             .delay = {tracker.delay_ns, tracker.delay_uncertainty_ns},
             .geometry = {values.hid.screen_width_m, values.hid.screen_height_m,
                          values.hid.viewing_distance_m, values.hid.eye_distance_m}};
 }
 
-drivers::psvr2::Psvr2Options psvr2_options(const settings::TrackerProfile& tracker) {
+drivers::psvr2::Psvr2Options psvr2_options(const profiles::TrackerProfile& tracker) {
     return {.delay = {tracker.delay_ns, tracker.delay_uncertainty_ns}};
 }
 
@@ -40,8 +40,8 @@ Expected<void> default_tracker(std::string_view gaze, settings::Settings& settin
 }
 
 Expected<MakeSource> gaze_source_named(std::string_view text,
-                                       const settings::TrackerProfile& tracker,
-                                       const settings::SettingValues& values) {
+                                       const profiles::TrackerProfile& tracker,
+                                       const ProgramValues& values) {
     const std::size_t colon = text.find(':');
     const std::string_view kind = text.substr(0, colon);
     const std::string_view argument =

@@ -9,7 +9,8 @@
 #include "drivers/psvr2/headset.h"
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_trace.h"
-#include "runtime/settings/profiles.h"
+#include "runtime/profiles/profiles.h"
+#include "runtime/run/program_settings.h"
 #include "runtime/settings/settings.h"
 #include "sim/gaze_simulation.h"
 
@@ -21,18 +22,18 @@ using MakeSource = std::function<std::unique_ptr<drivers::GazeSource>(std::int64
 /// at once; a device may come later. Errors: Usage for an unknown source, otherwise the source's
 /// own.
 Expected<MakeSource> gaze_source_named(std::string_view text,
-                                       const settings::TrackerProfile& tracker,
-                                       const settings::SettingValues& values);
+                                       const profiles::TrackerProfile& tracker,
+                                       const ProgramValues& values);
 
 /// Whether --gaze names a device, which may be there or not.
 bool is_device(std::string_view gaze);
 
 /// The options of HID trackers (node not chosen) as configured.
-drivers::hid::HidOptions hid_options(const settings::TrackerProfile& tracker,
-                                     const settings::SettingValues& values);
+drivers::hid::HidOptions hid_options(const profiles::TrackerProfile& tracker,
+                                     const ProgramValues& values);
 
 /// The options of a PlayStation VR2 as configured.
-drivers::psvr2::Psvr2Options psvr2_options(const settings::TrackerProfile& tracker);
+drivers::psvr2::Psvr2Options psvr2_options(const profiles::TrackerProfile& tracker);
 
 /// A source that is one certain tracker brings that tracker's profile along, unless another one is
 /// configured.

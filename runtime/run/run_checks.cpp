@@ -4,14 +4,13 @@
 #include <spdlog/spdlog.h>
 
 #include "runtime/foveation/log_polar/degenerate_map.h"
-#include "runtime/methods/kfr_settings.h"
 #include "runtime/report/output_file.h"
 #include "runtime/session/session_recorder.h"
 
 namespace gazeloop::run {
 
 void check_request(const FrameRunRequest& request) {
-    const settings::SettingValues& values = request.settings->values();
+    const ProgramValues& values = request.settings->values();
     if (values.target.name == "openxr" && !values.vulkan.device.empty()) {
         throw SetupError(
             ErrorKind::Usage,
@@ -20,7 +19,7 @@ void check_request(const FrameRunRequest& request) {
                         request.settings->origin("vulkan.device")));
     }
     if (values.render.method == "kfr") {
-        (void)value_or_throw(methods::kfr_parameters(*request.settings));
+        (void)value_or_throw(methods::parameters(values.methods.kfr, *request.settings));
     }
     if (request.openxr_gaze &&
         (values.target.name != "openxr" || request.clock != RunClock::Wall)) {

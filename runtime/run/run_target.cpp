@@ -4,8 +4,8 @@
 
 #include "runtime/present/headless_target.h"
 #include "runtime/present/scaled_extent.h"
+#include "runtime/profiles/profiles_in_force.h"
 #include "runtime/report/session_summary.h"
-#include "runtime/settings/profiles_in_force.h"
 
 namespace gazeloop::run {
 namespace {
@@ -34,16 +34,16 @@ gaze::PerEye<vk::Extent2D> scaled_extents(const display::DisplayProfile& display
 }  // namespace
 
 display::DisplayProfile display_of(const FrameRunRequest& request) {
-    const settings::SettingValues& values = request.settings->values();
+    const ProgramValues& values = request.settings->values();
     if (request.clock != RunClock::Recorded || values.target.name != "headless") {
-        return value_or_throw(settings::display_in_force(*request.settings));
+        return value_or_throw(profiles::display_in_force(values.profile, *request.settings));
     }
     return report::recorded_display(*request.session);
 }
 
 std::unique_ptr<present::OpenXrTarget> make_openxr_target(const FrameRunRequest& request,
                                                           const display::DisplayProfile& display) {
-    const settings::SettingValues& values = request.settings->values();
+    const ProgramValues& values = request.settings->values();
     present::OpenXrOptions options{.display = display,
                                    .scale = values.render.scale,
                                    .validation = values.target.validation,
@@ -56,7 +56,7 @@ std::unique_ptr<present::OpenXrTarget> make_openxr_target(const FrameRunRequest&
 
 std::unique_ptr<present::FrameTarget> make_headless_target(const FrameRunRequest& request,
                                                            const display::DisplayProfile& display) {
-    const settings::SettingValues& values = request.settings->values();
+    const ProgramValues& values = request.settings->values();
     present::HeadlessTarget::Options options{
         .display = display,
         .extents = scaled_extents(display, values.render.scale),

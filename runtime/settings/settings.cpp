@@ -13,16 +13,8 @@
 #include <sstream>
 #include <type_traits>
 
-#include "runtime/foveation/eye/stela_csf.h"
-#include "runtime/foveation/log_polar/acuity_profile.h"
-#include "runtime/foveation/log_polar/log_polar_map.h"
-#include "runtime/foveation/plans/shading_rings.h"
-#include "runtime/foveation/plans/sparse_pattern.h"
 #include "runtime/open_for_reading.h"
-#include "runtime/render/eye_uniforms.h"
-#include "runtime/render/method.h"
 #include "runtime/settings/nearest_name.h"
-#include "runtime/settings/profiles.h"
 
 namespace gazeloop::settings {
 namespace {
@@ -45,11 +37,6 @@ std::expected<T, std::string_view> parse_number(std::string_view text) {
 constexpr std::array<std::string_view, 6> kWrittenNames{
     "a bare word", "a text", "a number", "a whole number", "true or false", "a table"};
 
-template <std::size_t N>
-std::vector<std::string> names(const std::array<std::string_view, N>& views) {
-    return {views.begin(), views.end()};
-}
-
 std::unexpected<Error> refuse(std::string_view origin, std::string message) {
     return std::unexpected(
         Error{ErrorKind::Usage, fmt::format("{}: {}", origin, std::move(message))});
@@ -63,7 +50,9 @@ struct Assignment {
     toml::source_index line = 0;
 };
 
-std::optional<Assignment> assignment(std::string key, const toml::node& node) {
+/// None: not one value. `takes_list`: whether a key's value may be an array.
+std::optional<Assignment> assignment(std::string key, const toml::node& node,
+                                     const auto& takes_list) {
     using Written = Settings::Written;
     const toml::source_index line = node.source().begin.line;
     if (const auto text = node.value_exact<std::string>()) {
@@ -78,7 +67,7 @@ std::optional<Assignment> assignment(std::string key, const toml::node& node) {
     if (const auto flag = node.value_exact<bool>()) {
         return Assignment{std::move(key), *flag ? "true" : "false", Written::Flag, line};
     }
-    if (const toml::array* const list = node.as_array(); list && key == "kfr.polynomial") {
+    if (const toml::array* const list = node.as_array(); list && takes_list(key)) {
         std::string text;
         for (const toml::node& each : *list) {
             const auto number = each.value<double>();
@@ -95,18 +84,18 @@ std::optional<Assignment> assignment(std::string key, const toml::node& node) {
 /// A table's lines with their full keys. A table without any is a line of its own, so that a
 /// misspelt one is noticed.
 Expected<void> flatten(const toml::table& table, const std::string& prefix, const std::string& file,
-                       std::vector<Assignment>& lines) {
+                       const auto& takes_list, std::vector<Assignment>& lines) {
     for (const auto& [name, node] : table) {
         const std::string key = prefix + std::string(name.str());
         if (const toml::table* const inner = node.as_table()) {
             if (inner->empty()) {
                 lines.push_back({key, "", Settings::Written::Group, node.source().begin.line});
-            } else if (auto flat = flatten(*inner, key + ".", file, lines); !flat) {
+            } else if (auto flat = flatten(*inner, key + ".", file, takes_list, lines); !flat) {
                 return flat;
             }
             continue;
         }
-        auto line = assignment(key, node);
+        auto line = assignment(key, node, takes_list);
         if (!line) {
             return refuse(fmt::format("{}:{}", file, node.source().begin.line),
                           fmt::format("{}: one value is expected", key));
@@ -125,133 +114,17 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-Settings::Settings() {
-    using foveation::AcuityParameters;
-    using foveation::KfrParameters;
-    using foveation::PowerKernel;
-    using foveation::SparseParameters;
-    SettingValues& v = values_;
-    const double forever_ms = 1e7;
-    entries_ = {
-        {"acuity.border_px", "width of the blend between disc and LP-buffer, at the gaze",
-         Number{&v.acuity.border_px, 0.0, 64.0}},
-        {"acuity.disc", "shade pixels directly where the display is the limit", &v.acuity.disc},
-        {"acuity.lp_height", "rows of the LP-buffer; 0: as many as the eye asks for",
-         Whole{&v.acuity.lp_height, 0, foveation::LpSize::kMaxSide}},
-        {"acuity.lp_width", "columns of the LP-buffer; 0: as many as the eye asks for",
-         Whole{&v.acuity.lp_width, 0, foveation::LpSize::kMaxSide}},
-        {"acuity.luminance_cd_m2", "what stelaCSF takes the picture's luminance to be",
-         Number{&v.acuity.luminance_cd_m2, foveation::StelaConditions::kMinLuminance,
-                foveation::StelaConditions::kMaxLuminance}},
-        {"acuity.mar", "slope m of the line of the least resolvable angle, m e + 1/48",
-         Number{&v.acuity.mar, foveation::MarLine::kMinSlope, foveation::MarLine::kMaxSlope}},
-        {"acuity.nasal", "stelaCSF: sharper towards the nose; else the other side all around",
-         &v.acuity.nasal},
-        {"acuity.pixels_per_degree", "what the map takes the display for; 0: the most in view",
-         Number{&v.acuity.pixels_per_degree, 0.0, AcuityParameters::kMaxPixelsPerDegree}},
-        {"gaze.fixation_distance_m",
-         "distance at which gaze is held in world, and where one ray for both eyes is split, m",
-         Number{&v.gaze.fixation_distance_m, 0.1, 1000.0}},
-        {"gaze.fixation_from_depth",
-         "split one ray for both eyes where the last frame's depth says, if it does",
-         &v.gaze.fixation_from_depth},
-        {"gaze.hold_ms", "lost gaze: hold the last point for this long",
-         Number{&v.gaze.hold_ms, 0.0, forever_ms}},
-        {"gaze.minimum_confidence", "samples that state less are invalid",
-         Number{&v.gaze.minimum_confidence, 0.0, 1.0}},
-        {"gaze.return_ms", "lost gaze: then return to straight ahead in this time",
-         Number{&v.gaze.return_ms, 0.0, forever_ms}},
-        {"gaze.stale_ms", "samples older than this at the latch count as lost",
-         Number{&v.gaze.stale_ms, 0.0, forever_ms}},
-        {"hid.eye_distance_m", "HID tracker: between the eyes, where it does not see both, m",
-         Number{&v.hid.eye_distance_m, 0.0, 0.2}},
-        {"hid.screen_height_m", "HID tracker: height of its screen, m; 0: as it states",
-         Number{&v.hid.screen_height_m, 0.0, 100.0}},
-        {"hid.screen_width_m", "HID tracker: width of its screen, m; 0: as it states",
-         Number{&v.hid.screen_width_m, 0.0, 100.0}},
-        {"hid.viewing_distance_m",
-         "HID tracker: from eyes to screen, where it does not see them, m; 0: unknown",
-         Number{&v.hid.viewing_distance_m, 0.0, 100.0}},
-        {"kfr.alpha", "of the kernels power, x^alpha, and power-as-printed",
-         Number{&v.kfr.alpha, PowerKernel::kMinAlpha, PowerKernel::kMaxAlpha}},
-        {"kfr.border_px", "width of the blend between disc and LP-buffer",
-         Number{&v.kfr.border_px, 0.0, 64.0}},
-        {"kfr.close_hole", "without the disc: still shade the kernel's hole directly",
-         &v.kfr.close_hole},
-        {"kfr.disc", "shade pixels directly where a texel a pixel is offered", &v.kfr.disc},
-        {"kfr.kernel", "how columns spread from the fovea",
-         Choice{&v.kfr.kernel, names(foveation::kKernelNames)}},
-        {"kfr.kernel_samples", "of the kernel table: x,y;x,y;... from 0,0 to 1,1",
-         Choice{&v.kfr.kernel_samples, {}}},
-        {"kfr.kernel_table", "of the kernel table: a .csv or .toml file to take its samples from",
-         Path{&v.kfr.kernel_table, ""}},
-        {"kfr.lp_height", "rows of the LP-buffer; 0: the picture's over sigma",
-         Whole{&v.kfr.lp_height, 0, foveation::LpSize::kMaxSide}},
-        {"kfr.lp_width", "columns of the LP-buffer; 0: the picture's over sigma",
-         Whole{&v.kfr.lp_width, 0, foveation::LpSize::kMaxSide}},
-        {"kfr.polynomial", "of the kernel polynomial: coefficients of x, x^2, ...; sum 1",
-         Choice{&v.kfr.polynomial, {}}},
-        {"kfr.sigma", "picture width over LP-buffer width",
-         Number{&v.kfr.sigma, KfrParameters::kMinSigma, KfrParameters::kMaxSigma}},
-        {"layers.n", "eccentricity layers, at most", Whole{&v.layers.n, 2, 4}},
-        {"layers.outer_weight", "work of the outer layers' samples: 0.5 at half rate",
-         Number{&v.layers.outer_weight, 0.05, 1.0}},
-        {"layers.s2_fixed", "middle layer at 2x2 pixels, as published (layers.n over 2)",
-         &v.layers.s2_fixed},
-        {"profile.display", "display profile, or a .toml file", Path{&v.profile.display, ".toml"}},
-        {"profile.tracker", "tracker profile, or a .toml file", Path{&v.profile.tracker, ".toml"}},
-        {"render.depth", "hand depth images to the runtime, where it takes them", &v.render.depth},
-        {"render.frames_in_flight", "frames that the GPU may be working on",
-         Whole{&v.render.frames_in_flight, 1, 3}},
-        {"render.hidden_area", "leave out what the headset shows to no eye", &v.render.hidden_area},
-        {"render.method", "which samples a picture takes",
-         Choice{&v.render.method, names(render::kMethodNames)}},
-        {"render.profile", "time every pass apart, a submit each", &v.render.profile},
-        {"render.scale", "picture size over the display's", Number{&v.render.scale, 0.01, 2.0}},
-        {"render.scene", "what is rendered", Choice{&v.render.scene, names(render::kSceneNames)}},
-        {"render.spp", "samples a texel or pixel", Whole{&v.render.spp, 1, render::kMaxSamples}},
-        {"rings.inner_deg", "a sample a pixel within; both 0: as acuity.mar asks",
-         Number{&v.rings.inner_deg, 0.0, 180.0}},
-        {"rings.outer_deg", "2x2 pixels a sample within, 4x4 beyond",
-         Number{&v.rings.outer_deg, 0.0, 180.0}},
-        {"rings.tile_px", "side of the tiles that have one rate",
-         Whole{&v.rings.tile_px, foveation::RingParameters::kMinTilePx,
-               foveation::RingParameters::kMaxTilePx}},
-        {"sim.seed", "the same seed gives the same simulated gaze", Seed{&v.sim.seed}},
-        {"sparse.disc_share", "of the samples that the full disc takes",
-         Number{&v.sparse.disc_share, 0.0, 0.9}},
-        {"sparse.narrow_share", "of the draws that are from the narrow Gaussian",
-         Number{&v.sparse.narrow_share, 0.0, 1.0}},
-        {"sparse.narrow_spread", "its standard deviation over the picture's diagonal",
-         Number{&v.sparse.narrow_spread, SparseParameters::kMinSpread,
-                SparseParameters::kMaxSpread}},
-        {"sparse.placement", "how samples are placed",
-         Choice{&v.sparse.placement, {"gaussian", "blue_noise"}}},
-        {"sparse.share", "samples over pixels, gaze at the centre",
-         Number{&v.sparse.share, SparseParameters::kMinShare, SparseParameters::kMaxShare}},
-        {"sparse.wide_spread", "standard deviation of the wide Gaussian over the diagonal",
-         Number{&v.sparse.wide_spread, SparseParameters::kMinSpread, SparseParameters::kMaxSpread}},
-        {"target.name", "where pictures go", Choice{&v.target.name, {"openxr", "headless"}}},
-        {"target.validation", "OpenXR core validation layer", &v.target.validation},
-        {"virtual_time.gpu_ms", "modelled time on the GPU of a frame in virtual time",
-         Number{&v.virtual_time.gpu_ms, 0.0, 1000.0}},
-        {"vulkan.device", "part of the Vulkan device's name (headless)",
-         Choice{&v.vulkan.device, {}}},
-        {"vulkan.validation", "Khronos validation layer, with synchronization",
-         &v.vulkan.validation},
-    };
-    for (const sim::Term& term : sim::terms_of(v.sim)) {
-        entries_.push_back({fmt::format("sim.{}", term.key), std::string(term.meaning),
-                            Number{term.value, term.least, term.greatest}});
+void Settings::add(const std::vector<SettingRow>& rows) {
+    for (const SettingRow& row : rows) {
+        entries_.emplace(row.key, Entry{.row = row});
     }
-    std::ranges::sort(entries_, {}, &Entry::key);
 }
 
 std::vector<std::string> Settings::keys() const {
     std::vector<std::string> keys;
     keys.reserve(entries_.size());
-    for (const Entry& entry : entries_) {
-        keys.push_back(entry.key);
+    for (const SettingRow& row : rows()) {
+        keys.push_back(row.key);
     }
     return keys;
 }
@@ -262,14 +135,15 @@ Expected<void> Settings::set(std::string_view key, std::string_view text, std::s
 
 Expected<void> Settings::assign(std::string_view key, std::string_view text, Written written,
                                 std::string_view origin, const std::filesystem::path& folder) {
-    const auto entry = std::ranges::find(entries_, key, &Entry::key);
-    if (entry == entries_.end()) {
+    const auto found = entries_.find(key);
+    if (found == entries_.end()) {
         const bool group =
-            written == Written::Group && std::ranges::any_of(entries_, [&](const Entry& one) {
-                return one.key.starts_with(std::string(key) + ".");
+            written == Written::Group && std::ranges::any_of(rows(), [&](const SettingRow& row) {
+                return row.key.starts_with(std::string(key) + ".");
             });
         return group ? Expected<void>{} : refuse(origin, unknown_key(key, keys()));
     }
+    auto& [row, entry_origin] = found->second;
     const auto wrong_kind = [&](std::string_view wanted) {
         return refuse(origin, fmt::format("{}: {} is expected, this is {}", key, wanted,
                                           kWrittenNames[static_cast<std::size_t>(written)]));
@@ -284,7 +158,7 @@ Expected<void> Settings::assign(std::string_view key, std::string_view text, Wri
     const auto is = [&](std::initializer_list<Written> kinds) {
         return written == Written::Bare || std::ranges::find(kinds, written) != kinds.end();
     };
-    if (Number* const number = std::get_if<Number>(&entry->slot)) {
+    if (Number* const number = std::get_if<Number>(&row.slot)) {
         if (!is({Written::Number, Written::Whole})) {
             return wrong_kind("a number");
         }
@@ -296,7 +170,7 @@ Expected<void> Settings::assign(std::string_view key, std::string_view text, Wri
             return out_of_range(number->least, number->greatest);
         }
         *number->value = *value;
-    } else if (Whole* const whole = std::get_if<Whole>(&entry->slot)) {
+    } else if (Whole* const whole = std::get_if<Whole>(&row.slot)) {
         if (!is({Written::Whole})) {
             return wrong_kind("a whole number");
         }
@@ -308,7 +182,7 @@ Expected<void> Settings::assign(std::string_view key, std::string_view text, Wri
             return out_of_range(whole->least, whole->greatest);
         }
         *whole->value = *value;
-    } else if (bool** const flag = std::get_if<bool*>(&entry->slot)) {
+    } else if (bool** const flag = std::get_if<bool*>(&row.slot)) {
         if (!is({Written::Flag})) {
             return wrong_kind("true or false");
         }
@@ -316,7 +190,7 @@ Expected<void> Settings::assign(std::string_view key, std::string_view text, Wri
             return malformed("must be true or false");
         }
         **flag = text == "true";
-    } else if (Seed* const seed = std::get_if<Seed>(&entry->slot)) {
+    } else if (Seed* const seed = std::get_if<Seed>(&row.slot)) {
         const auto value = parse_number<std::uint64_t>(text);
         if (!value) {
             return refuse(origin, fmt::format("{} = '{}': not a whole number from 0 to {}", key,
@@ -325,28 +199,28 @@ Expected<void> Settings::assign(std::string_view key, std::string_view text, Wri
         *seed->value = *value;
     } else if (!is({Written::Text})) {
         return wrong_kind("a text in quotes");
-    } else if (Path* const path = std::get_if<Path>(&entry->slot)) {
+    } else if (Path* const path = std::get_if<Path>(&row.slot)) {
         *path->value = path->is_file(text) ? (folder / text).string() : std::string(text);
+    } else if (NumberList* const list = std::get_if<NumberList>(&row.slot)) {
+        *list->value = text;
     } else {
-        Choice& choice = std::get<Choice>(entry->slot);
+        Choice& choice = std::get<Choice>(row.slot);
         if (!choice.names.empty() && std::ranges::find(choice.names, text) == choice.names.end()) {
-            const std::string_view what = key.substr(key.find('.') + 1);
-            return refuse(origin,
-                          unknown_name(what == "name" ? "target" : what, text, choice.names));
+            return refuse(origin, unknown_name(choice.what.empty() ? key.substr(key.find('.') + 1)
+                                                                   : choice.what,
+                                               text, choice.names));
         }
         *choice.value = text;
     }
-    entry->origin = origin;
+    entry_origin = origin;
     return {};
 }
 
 Expected<void> Settings::set_default(std::string_view key, std::string_view text,
                                      std::string_view origin) {
-    const auto entry = std::ranges::find(entries_, key, &Entry::key);
-    if (entry != entries_.end() && entry->origin != kBuiltIn) {
-        return {};
-    }
-    return set(key, text, origin);
+    const auto entry = entries_.find(key);
+    return entry != entries_.end() && entry->second.origin != kBuiltIn ? Expected<void>{}
+                                                                       : set(key, text, origin);
 }
 
 Expected<void> Settings::load(const std::filesystem::path& file) {
@@ -357,9 +231,14 @@ Expected<void> Settings::load(const std::filesystem::path& file) {
             Error{ErrorKind::BadInput,
                   fmt::format("{}: the configuration cannot be read ({})", name, in.error())});
     }
+    const auto takes_list = [this](std::string_view key) {
+        const auto entry = entries_.find(key);
+        return entry != entries_.end() &&
+               std::holds_alternative<NumberList>(entry->second.row.slot);
+    };
     std::vector<Assignment> lines;
     try {
-        if (auto flat = flatten(toml::parse(*in, name), "", name, lines); !flat) {
+        if (auto flat = flatten(toml::parse(*in, name), "", name, takes_list, lines); !flat) {
             return flat;
         }
     } catch (const toml::parse_error& error) {
@@ -412,20 +291,64 @@ Expected<void> Settings::load_standard_files() {
     return {};
 }
 
-std::string Settings::text(const Entry& entry) {
-    if (const auto* const number = std::get_if<Number>(&entry.slot)) {
+bool Settings::is_in_use(const SettingRow& row) const {
+    const auto& [key, values] = row.only_while;
+    return key.empty() || std::ranges::find(values, text_of(entry(key).row)) != values.end();
+}
+
+const Settings::Entry& Settings::entry(std::string_view key) const {
+    return entries_.find(key)->second;
+}
+
+const std::string& Settings::origin(std::string_view key) const { return entry(key).origin; }
+
+Error Settings::at_origin(std::string_view key, const Error& error) const {
+    const std::string& place = origin(key);
+    return place == kBuiltIn
+               ? error
+               : Error{error.kind, fmt::format("{}: {}: {}", place, key, error.message)};
+}
+
+std::string Settings::with_origin(std::string_view key) const {
+    return fmt::format("{} = {} ({})", key, text_of(entry(key).row), origin(key));
+}
+
+std::vector<NamedValue> Settings::list() const {
+    std::vector<NamedValue> values;
+    values.reserve(entries_.size());
+    for (const SettingRow& row : rows()) {
+        values.push_back({row.key, text_of(row)});
+    }
+    return values;
+}
+
+std::string Settings::describe() const {
+    std::string table;
+    for (const auto& [row, origin] : entries_ | std::views::values) {
+        // A seed may be above what TOML's numbers hold.
+        const bool bare = std::holds_alternative<Number>(row.slot) ||
+                          std::holds_alternative<Whole>(row.slot) ||
+                          std::holds_alternative<bool*>(row.slot);
+        table += fmt::format("{:28} = {:12} # {:9} {}\n", row.key,
+                             bare ? text_of(row) : quoted(text_of(row)), origin, row.meaning);
+    }
+    return table;
+}
+
+std::string text_of(const SettingRow& row) {
+    if (const auto* const number = std::get_if<Number>(&row.slot)) {
         return fmt::format("{}", *number->value);
     }
-    if (const auto* const whole = std::get_if<Whole>(&entry.slot)) {
+    if (const auto* const whole = std::get_if<Whole>(&row.slot)) {
         return fmt::format("{}", *whole->value);
     }
-    if (const auto* const seed = std::get_if<Seed>(&entry.slot)) {
+    if (const auto* const seed = std::get_if<Seed>(&row.slot)) {
         return fmt::format("{}", *seed->value);
     }
-    if (bool* const* const flag = std::get_if<bool*>(&entry.slot)) {
+    if (bool* const* const flag = std::get_if<bool*>(&row.slot)) {
         return **flag ? "true" : "false";
     }
-    if (const auto* const path = std::get_if<Path>(&entry.slot)) {
+    if (const auto* const path = std::get_if<Path>(&row.slot)) {
         // In full, since what is printed or recorded may be read elsewhere.
         std::error_code no_current_folder;
         const std::filesystem::path full =
@@ -433,73 +356,10 @@ std::string Settings::text(const Entry& entry) {
                                         : std::filesystem::path();
         return full.empty() ? *path->value : full.string();
     }
-    return *std::get<Choice>(entry.slot).value;
-}
-
-const Settings::Entry& Settings::entry(std::string_view key) const {
-    return *std::ranges::find(entries_, key, &Entry::key);
-}
-
-const std::string& Settings::origin(std::string_view key) const { return entry(key).origin; }
-
-Error Settings::at_origin(std::string_view key, const Error& error) const {
-    const Entry& at = entry(key);
-    return at.origin == kBuiltIn
-               ? error
-               : Error{error.kind, fmt::format("{}: {}: {}", at.origin, key, error.message)};
-}
-
-std::string Settings::with_origin(std::string_view key) const {
-    const Entry& at = entry(key);
-    return fmt::format("{} = {} ({})", key, text(at), at.origin);
-}
-
-Expected<void> Settings::check() const {
-    if (is_built_in("kfr.kernel")) {
-        // Nobody has chosen the kernel that these are for.
-        for (const auto& [key, kernel] :
-             {std::pair{"kfr.kernel_table", "table"}, std::pair{"kfr.kernel_samples", "table"},
-              std::pair{"kfr.polynomial", "polynomial"}}) {
-            if (!is_built_in(key)) {
-                return refuse(with_origin(key),
-                              fmt::format("has no effect while {}: set kfr.kernel={} too",
-                                          with_origin("kfr.kernel"), kernel));
-            }
-        }
+    if (const auto* const list = std::get_if<NumberList>(&row.slot)) {
+        return *list->value;
     }
-    // Gaze that stops coming counts as lost only when it is stale: past its hold time by then, the
-    // fovea would begin its return in the middle.
-    if (values_.gaze.hold_ms < values_.gaze.stale_ms) {
-        return refuse(
-            with_origin("gaze.hold_ms"),
-            fmt::format("is less than {}: the fovea would jump when gaze stops coming; "
-                        "set gaze.hold_ms to {} or more, or gaze.stale_ms to {} or less",
-                        with_origin("gaze.stale_ms"), values_.gaze.stale_ms, values_.gaze.hold_ms));
-    }
-    return {};
-}
-
-std::vector<NamedValue> Settings::list() const {
-    std::vector<NamedValue> values;
-    values.reserve(entries_.size());
-    for (const Entry& entry : entries_) {
-        values.push_back({entry.key, text(entry)});
-    }
-    return values;
-}
-
-std::string Settings::describe() const {
-    std::string table;
-    for (const Entry& entry : entries_) {
-        // A seed may be above what TOML's numbers hold.
-        const bool is_text = std::holds_alternative<Choice>(entry.slot) ||
-                             std::holds_alternative<Path>(entry.slot) ||
-                             std::holds_alternative<Seed>(entry.slot);
-        table +=
-            fmt::format("{:28} = {:12} # {:9} {}\n", entry.key,
-                        is_text ? quoted(text(entry)) : text(entry), entry.origin, entry.meaning);
-    }
-    return table;
+    return *std::get<Choice>(row.slot).value;
 }
 
 }  // namespace gazeloop::settings

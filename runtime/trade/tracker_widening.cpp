@@ -6,7 +6,9 @@
 
 namespace gazeloop::trade {
 
-Expected<TrackerWidening> tracker_widening(const settings::Settings& settings,
+Expected<TrackerWidening> tracker_widening(std::string_view tracker,
+                                           const sim::GazeSimulation& simulation,
+                                           const settings::Settings& settings,
                                            const display::DisplayProfile& display,
                                            double off_axis_deg) {
     for (const char* key : {"sim.bias_deg", "sim.noise_deg"}) {
@@ -15,18 +17,18 @@ Expected<TrackerWidening> tracker_widening(const settings::Settings& settings,
                 Error{ErrorKind::Usage,
                       fmt::format("--widen tracker: the tracker '{}' states no {}: state it with "
                                   "--set {}=..., name another --tracker, or give --widen degrees",
-                                  settings.values().profile.tracker, key, key)});
+                                  tracker, key, key)});
         }
     }
-    const sim::TrackerTerms& tracker = settings.values().sim.tracker;
+    const sim::TrackerTerms& terms = simulation.tracker;
     const double median_deg =
-        tracker.bias_deg * (1.0 + tracker.bias_growth_percent / 100.0 * off_axis_deg);
+        terms.bias_deg * (1.0 + terms.bias_growth_percent / 100.0 * off_axis_deg);
     const foveation::GazeUncertainty uncertainty{
         .bias95_deg = foveation::bias95_deg(median_deg),
         .sample_sd_deg =
-            tracker.noise_deg * (1.0 + tracker.noise_growth_percent / 100.0 * off_axis_deg),
-        .pursuit_deg_s = settings.values().sim.eye.pursuit_deg_per_s,
-        .latency_s = (tracker.delay_ms + tracker.jitter_ms) * 1e-3 + 0.5 / tracker.rate_hz +
+            terms.noise_deg * (1.0 + terms.noise_growth_percent / 100.0 * off_axis_deg),
+        .pursuit_deg_s = simulation.eye.pursuit_deg_per_s,
+        .latency_s = (terms.delay_ms + terms.jitter_ms) * 1e-3 + 0.5 / terms.rate_hz +
                      1.0 / display.refresh_hz};
     const auto deg = foveation::widening_deg(uncertainty);
     if (!deg) {
@@ -34,12 +36,12 @@ Expected<TrackerWidening> tracker_widening(const settings::Settings& settings,
     }
     return TrackerWidening{
         .deg = *deg,
-        .terms = fmt::format("{}: bias {:.2f}, noise {:.2f}, pursuit at {:g} deg/s over {:.0f} ms "
-                             "{:.2f}",
-                             settings.values().profile.tracker, uncertainty.bias95_deg,
-                             uncertainty.z * uncertainty.sample_sd_deg, uncertainty.pursuit_deg_s,
-                             uncertainty.latency_s * 1e3,
-                             uncertainty.pursuit_deg_s * uncertainty.latency_s)};
+        .terms =
+            fmt::format("{}: bias {:.2f}, noise {:.2f}, pursuit at {:g} deg/s over {:.0f} ms "
+                        "{:.2f}",
+                        tracker, uncertainty.bias95_deg, uncertainty.z * uncertainty.sample_sd_deg,
+                        uncertainty.pursuit_deg_s, uncertainty.latency_s * 1e3,
+                        uncertainty.pursuit_deg_s * uncertainty.latency_s)};
 }
 
 }  // namespace gazeloop::trade

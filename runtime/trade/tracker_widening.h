@@ -1,10 +1,12 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "runtime/display/display_profile.h"
 #include "runtime/error.h"
 #include "runtime/settings/settings.h"
+#include "sim/gaze_simulation.h"
 
 namespace gazeloop::trade {
 
@@ -18,9 +20,11 @@ struct TrackerWidening {
 /// `off_axis_deg` away from straight ahead, while the eye follows something at
 /// sim.pursuit_deg_per_s for as long as its gaze is old when the display shows it: the tracker's
 /// delay and jitter, half a sample's period and one of the display's. The head's pose is known.
-/// Errors (Usage): nobody has stated the tracker's bias or noise. Precondition:
-/// simulate_tracker_in_force().
-Expected<TrackerWidening> tracker_widening(const settings::Settings& settings,
+/// Errors (Usage): nobody has stated the tracker's bias or noise. Preconditions: `settings` hold
+/// the rows of `simulation`; profiles::simulate_tracker_in_force(), which gave `tracker`.
+Expected<TrackerWidening> tracker_widening(std::string_view tracker,
+                                           const sim::GazeSimulation& simulation,
+                                           const settings::Settings& settings,
                                            const display::DisplayProfile& display,
                                            double off_axis_deg);
 

@@ -49,10 +49,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (const auto fixed = drivers::parse_fixed_gaze(gaze); !fixed) {
         require(fixed.error().kind == ErrorKind::Usage && !fixed.error().message.empty());
     }
-    settings::Settings settings;
+    run::ProgramSettings settings;
     if (const auto applied = options.apply_to(settings, false)) {
-        const settings::SettingValues& values = settings.values();
-        require(values.kfr.sigma >= 0.5 && values.kfr.sigma <= 32.0);
+        const run::ProgramValues& values = settings.values();
+        require(values.methods.kfr.sigma >= 0.5 && values.methods.kfr.sigma <= 32.0);
         require(values.render.spp >= 1 && values.render.spp <= 16);
         require(std::isfinite(values.gaze.hold_ms) && values.gaze.hold_ms >= 0.0);
         (void)settings.check();

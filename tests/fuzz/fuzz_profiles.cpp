@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "runtime/settings/profiles.h"
+#include "runtime/profiles/profiles.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string file = folder / "profile.toml";
     std::ofstream(file, std::ios::binary | std::ios::trunc)
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-    if (const auto display = settings::load_display(file)) {
+    if (const auto display = profiles::load_display(file)) {
         for (const gaze::FieldOfView& fov : display->fov) {
             require(gaze::is_valid(gaze::EyeView{
                 .fov = fov, .width_px = display->width_px, .height_px = display->height_px}));
@@ -41,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else {
         require_named(display.error(), file);
     }
-    if (const auto tracker = settings::load_tracker(file)) {
+    if (const auto tracker = profiles::load_tracker(file)) {
         require(tracker->delay_ns >= 0);
     } else {
         require_named(tracker.error(), file);

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "runtime/settings/settings.h"
+#include "runtime/run/program_settings.h"
 #include "tests/support/temporary_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto file = folder / "config.toml";
     std::ofstream(file, std::ios::binary | std::ios::trunc)
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-    settings::Settings settings;
+    run::ProgramSettings settings;
     const Expected<void> loaded = settings.load(file);
     if (!loaded) {
         const Error& error = loaded.error();
@@ -29,7 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     (void)settings.check();
     (void)settings.describe();
-    settings::Settings again;
+    run::ProgramSettings again;
     for (const auto& [key, value] : settings.list()) {
         if (!again.set(key, value, "again")) {
             std::abort();

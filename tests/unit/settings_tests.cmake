@@ -1,4 +1,4 @@
 gazeloop_test(unit_profiles
-    SOURCES settings/profiles_test.cpp
-    LINK gazeloop_test_support gazeloop::settings
+    SOURCES profiles/profiles_test.cpp
+    LINK gazeloop_test_support gazeloop::profiles
     LABELS unit)

@@ -16,8 +16,8 @@
 #include "runtime/frame_loop.h"
 #include "runtime/present/headless_target.h"
 #include "runtime/present/openxr/openxr_target.h"
+#include "runtime/profiles/profiles.h"
 #include "runtime/run/run_observers.h"
-#include "runtime/settings/profiles.h"
 #include "runtime/time/clock.h"
 #include "sim/gaze_generator.h"
 #include "tests/support/watch/watched_call.h"
@@ -115,7 +115,7 @@ std::unique_ptr<present::FrameTarget> make_headless(const WatchedLoop& options,
 }  // namespace
 
 std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
-    const display::DisplayProfile display = value_or_throw(settings::load_display("fove0"));
+    const display::DisplayProfile display = value_or_throw(profiles::load_display("fove0"));
     // In this order, because the context is the last to go but for the runtime's instance.
     std::unique_ptr<vulkan::Context> context;
     std::unique_ptr<present::OpenXrTarget> openxr = make_openxr(options, display);

@@ -1,4 +1,4 @@
-#include "runtime/settings/profiles.h"
+#include "runtime/profiles/profiles.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,10 +6,11 @@
 #include <glm/trigonometric.hpp>
 
 #include "config/built_in_files.h"
-#include "runtime/settings/profiles_in_force.h"
+#include "runtime/profiles/profiles_in_force.h"
+#include "sim/simulation_settings.h"
 #include "tests/support/run_program.h"
 
-namespace gazeloop::settings {
+namespace gazeloop::profiles {
 namespace {
 
 using testing::HasSubstr;
@@ -165,11 +166,14 @@ TEST(Profiles, NameAllThatThereAre) {
 }
 
 TEST(SimulateTrackerInForce, FillsInWhatNobodyHasSet) {
-    Settings settings;
+    ProfileSettings named;
+    sim::GazeSimulation simulation;
+    settings::Settings settings;
+    settings.add(rows_of(named));
+    settings.add(rows_of(simulation));
     ASSERT_TRUE(settings.set("profile.tracker", "vive_pro_eye", "--tracker").has_value());
     ASSERT_TRUE(settings.set("sim.noise_deg", "1", "--set").has_value());
-    ASSERT_TRUE(simulate_tracker_in_force(settings).has_value());
-    const sim::GazeSimulation& simulation = settings.values().sim;
+    ASSERT_TRUE(simulate_tracker_in_force(named, settings).has_value());
     EXPECT_EQ(simulation.tracker.noise_deg, 1.0);
     EXPECT_EQ(simulation.tracker.delay_ms, 50.0);
     EXPECT_EQ(simulation.tracker.rate_hz, 120.0);
@@ -177,18 +181,5 @@ TEST(SimulateTrackerInForce, FillsInWhatNobodyHasSet) {
     EXPECT_THAT(settings.describe(), HasSubstr("vive_pro_eye"));
 }
 
-TEST(Settings, TakeAnySeed) {
-    Settings settings;
-    EXPECT_TRUE(settings.set("sim.seed", "18446744073709551615", "--seed").has_value());
-    EXPECT_EQ(settings.values().sim.seed, ~std::uint64_t{0});
-    for (const char* text : {"-1", "18446744073709551616", "1.5", "", "x"}) {
-        EXPECT_FALSE(settings.set("sim.seed", text, "--seed").has_value()) << text;
-    }
-    EXPECT_FALSE(settings.set("sim.rate_hz", "nan", "--set").has_value());
-    EXPECT_FALSE(settings.set("sim.rate_hz", "0.5", "--set").has_value());
-    EXPECT_TRUE(settings.set("sim.rate_hz", "10000", "--set").has_value());
-    EXPECT_FALSE(settings.set("sim.noise_deg", "91", "--set").has_value());
-}
-
 }  // namespace
-}  // namespace gazeloop::settings
+}  // namespace gazeloop::profiles

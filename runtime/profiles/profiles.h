@@ -9,7 +9,7 @@
 #include "runtime/display/display_profile.h"
 #include "runtime/error.h"
 
-namespace gazeloop::settings {
+namespace gazeloop::profiles {
 
 struct TrackerProfile {
     std::string name;
@@ -28,4 +28,4 @@ struct TrackerProfile {
 Expected<display::DisplayProfile> load_display(std::string_view name);
 Expected<TrackerProfile> load_tracker(std::string_view name);
 
-}  // namespace gazeloop::settings
+}  // namespace gazeloop::profiles

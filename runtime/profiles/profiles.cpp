@@ -1,4 +1,4 @@
-#include "runtime/settings/profiles.h"
+#include "runtime/profiles/profiles.h"
 
 #include <fmt/core.h>
 #include <toml++/toml.h>
@@ -16,7 +16,7 @@
 #include "runtime/time/milliseconds.h"
 #include "sim/gaze_simulation.h"
 
-namespace gazeloop::settings {
+namespace gazeloop::profiles {
 namespace {
 
 constexpr double kGreatestAngleDeg = 85.0;
@@ -63,7 +63,7 @@ Expected<ProfileText> find_text(std::string_view folder, std::string_view what,
         }
     }
     const std::vector<std::string> names = built_in_names(folder);
-    return std::unexpected(Error{ErrorKind::Usage, unknown_name(what, name, names)});
+    return std::unexpected(Error{ErrorKind::Usage, settings::unknown_name(what, name, names)});
 }
 
 struct Profile {
@@ -129,7 +129,7 @@ class ProfileReader {
             return text ? std::optional(display::Illumination::Global) : std::nullopt;
         }
         if (*text != names[1]) {
-            complain(table_.at_path(path).node(), unknown_name(path, *text, names));
+            complain(table_.at_path(path).node(), settings::unknown_name(path, *text, names));
         }
         return display::Illumination::Rolling;
     }
@@ -226,7 +226,7 @@ class ProfileReader {
             if (const toml::table* const inner = node.as_table()) {
                 refuse_others(*inner, key + ".");
             } else if (std::ranges::find(known_, key) == known_.end()) {
-                complain(&node, unknown_name("key", key, known_));
+                complain(&node, settings::unknown_name("key", key, known_));
             }
         }
     }
@@ -330,4 +330,4 @@ Expected<TrackerProfile> load_tracker(std::string_view name) {
     return tracker;
 }
 
-}  // namespace gazeloop::settings
+}  // namespace gazeloop::profiles

@@ -1,0 +1,54 @@
+#include "runtime/gaze/gaze_settings.h"
+
+#include <fmt/core.h>
+
+#include "runtime/time/milliseconds.h"
+
+namespace gazeloop::gaze {
+
+std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
+    using settings::Concerns;
+    using settings::Number;
+    constexpr double kForever_ms = 1e7;
+    return {
+        {"gaze.fixation_distance_m",
+         "distance at which gaze is held in world, and where one ray for both eyes is split, m",
+         Number{&gaze.fixation_distance_m, 0.1, 1000.0}, Concerns::Foveae},
+        // Samples are recorded as split.
+        {"gaze.fixation_from_depth",
+         "split one ray for both eyes where the last frame's depth says, if it does",
+         &gaze.fixation_from_depth, Concerns::Input},
+        {"gaze.hold_ms", "lost gaze: hold the last point for this long",
+         Number{&gaze.hold_ms, 0.0, kForever_ms}, Concerns::Foveae},
+        {"gaze.minimum_confidence", "samples that state less are invalid",
+         Number{&gaze.minimum_confidence, 0.0, 1.0}, Concerns::Foveae},
+        {"gaze.return_ms", "lost gaze: then return to straight ahead in this time",
+         Number{&gaze.return_ms, 0.0, kForever_ms}, Concerns::Foveae},
+        {"gaze.stale_ms", "samples older than this at the latch count as lost",
+         Number{&gaze.stale_ms, 0.0, kForever_ms}, Concerns::Foveae},
+    };
+}
+
+FoveaPolicy fovea_policy(const GazeSettings& gaze) {
+    return {.stale_ns = time::ms_to_ns(gaze.stale_ms),
+            .hold_ns = time::ms_to_ns(gaze.hold_ms),
+            .return_ns = time::ms_to_ns(gaze.return_ms),
+            .minimum_confidence = gaze.minimum_confidence,
+            .fixation_distance_m = gaze.fixation_distance_m};
+}
+
+Expected<void> check(const GazeSettings& gaze, const settings::Settings& all) {
+    // Gaze that stops coming counts as lost only when it is stale: past its hold time by then, the
+    // fovea would begin its return in the middle.
+    if (gaze.hold_ms < gaze.stale_ms) {
+        return std::unexpected(
+            Error{ErrorKind::Usage,
+                  fmt::format("{}: is less than {}: the fovea would jump when gaze stops coming; "
+                              "set gaze.hold_ms to {} or more, or gaze.stale_ms to {} or less",
+                              all.with_origin("gaze.hold_ms"), all.with_origin("gaze.stale_ms"),
+                              gaze.stale_ms, gaze.hold_ms)});
+    }
+    return {};
+}
+
+}  // namespace gazeloop::gaze

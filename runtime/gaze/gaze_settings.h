@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "runtime/error.h"
+#include "runtime/gaze/gaze_to_fovea.h"
+#include "runtime/settings/settings.h"
+
+namespace gazeloop::gaze {
+
+/// The settings gaze.*
+struct GazeSettings {
+    double stale_ms = 100.0;
+    double hold_ms = 300.0;
+    double return_ms = 150.0;
+    double minimum_confidence = 0.6;
+    double fixation_distance_m = 1.5;
+    bool fixation_from_depth = true;  ///< of sources with one ray for both eyes
+};
+
+[[nodiscard]] std::vector<settings::SettingRow> rows_of(GazeSettings& gaze);
+
+[[nodiscard]] FoveaPolicy fovea_policy(const GazeSettings& gaze);
+
+/// Whether they fit together. Errors (Usage): which two do not, where they were set, and what
+/// would. `all`: those that hold the rows of `gaze`.
+[[nodiscard]] Expected<void> check(const GazeSettings& gaze, const settings::Settings& all);
+
+}  // namespace gazeloop::gaze

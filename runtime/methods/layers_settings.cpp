@@ -1,0 +1,27 @@
+#include "runtime/methods/layers_settings.h"
+
+#include "runtime/methods/only_under.h"
+
+namespace gazeloop::methods {
+
+std::vector<settings::SettingRow> rows_of(LayersSettings& layers) {
+    using settings::Concerns;
+    const settings::OnlyWhile only = only_under({"layers"});
+    return {
+        {"layers.n", "eccentricity layers, at most", settings::Whole{&layers.n, 2, 4},
+         Concerns::Picture, only},
+        {"layers.outer_weight", "work of the outer layers' samples: 0.5 at half rate",
+         settings::Number{&layers.outer_weight, 0.05, 1.0}, Concerns::Picture, only},
+        {"layers.s2_fixed", "middle layer at 2x2 pixels, as published (layers.n over 2)",
+         &layers.s2_fixed, Concerns::Picture, only},
+    };
+}
+
+foveation::LayerOptions parameters(const LayersSettings& layers) {
+    foveation::LayerOptions options{.layers = static_cast<int>(layers.n), .weights = {1.0}};
+    options.weights.resize(static_cast<std::size_t>(layers.n), layers.outer_weight);
+    options.second_factor = layers.s2_fixed ? 2.0 : 0.0;
+    return options;
+}
+
+}  // namespace gazeloop::methods

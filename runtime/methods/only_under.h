@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/settings/setting_row.h"
+
+namespace gazeloop::methods {
+
+/// For settings that only pictures by these methods depend on.
+[[nodiscard]] inline settings::OnlyWhile only_under(std::vector<std::string> methods) {
+    return {.key = "render.method", .values = std::move(methods)};
+}
+
+}  // namespace gazeloop::methods

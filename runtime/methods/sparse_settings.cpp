@@ -1,0 +1,48 @@
+#include "runtime/methods/sparse_settings.h"
+
+#include "runtime/methods/only_under.h"
+
+namespace gazeloop::methods {
+namespace {
+
+constexpr const char* kBlueNoise = "blue_noise";
+
+}  // namespace
+
+using foveation::SparseParameters;
+
+std::vector<settings::SettingRow> rows_of(SparseSettings& sparse) {
+    using settings::Concerns;
+    using settings::Number;
+    const settings::OnlyWhile only = only_under({"sparse"});
+    return {
+        {"sparse.disc_share", "of the samples that the full disc takes",
+         Number{&sparse.disc_share, 0.0, 0.9}, Concerns::Picture, only},
+        {"sparse.narrow_share", "of the draws that are from the narrow Gaussian",
+         Number{&sparse.narrow_share, 0.0, 1.0}, Concerns::Picture, only},
+        {"sparse.narrow_spread", "its standard deviation over the picture's diagonal",
+         Number{&sparse.narrow_spread, SparseParameters::kMinSpread, SparseParameters::kMaxSpread},
+         Concerns::Picture, only},
+        {"sparse.placement", "how samples are placed",
+         settings::Choice{.value = &sparse.placement, .names = {"gaussian", kBlueNoise}},
+         Concerns::Picture, only},
+        {"sparse.share", "samples over pixels, gaze at the centre",
+         Number{&sparse.share, SparseParameters::kMinShare, SparseParameters::kMaxShare},
+         Concerns::Picture, only},
+        {"sparse.wide_spread", "standard deviation of the wide Gaussian over the diagonal",
+         Number{&sparse.wide_spread, SparseParameters::kMinSpread, SparseParameters::kMaxSpread},
+         Concerns::Picture, only},
+    };
+}
+
+SparseParameters parameters(const SparseSettings& sparse) {
+    return {.share = sparse.share,
+            .disc_share = sparse.disc_share,
+            .narrow_share = sparse.narrow_share,
+            .narrow_spread = sparse.narrow_spread,
+            .wide_spread = sparse.wide_spread,
+            .placement = sparse.placement == kBlueNoise ? foveation::SparsePlacement::BlueNoise
+                                                        : foveation::SparsePlacement::Gaussian};
+}
+
+}  // namespace gazeloop::methods

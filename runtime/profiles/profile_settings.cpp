@@ -1,0 +1,17 @@
+#include "runtime/profiles/profile_settings.h"
+
+namespace gazeloop::profiles {
+
+std::vector<settings::SettingRow> rows_of(ProfileSettings& profile) {
+    using settings::Concerns;
+    using settings::Path;
+    return {
+        // Views, refresh period and what photons need are recorded.
+        {"profile.display", "display profile, or a .toml file", Path{&profile.display, ".toml"},
+         Concerns::Input},
+        {"profile.tracker", "tracker profile, or a .toml file", Path{&profile.tracker, ".toml"},
+         Concerns::Input},
+    };
+}
+
+}  // namespace gazeloop::profiles

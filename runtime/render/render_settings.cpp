@@ -1,0 +1,38 @@
+#include "runtime/render/render_settings.h"
+
+#include <utility>
+
+#include "runtime/render/eye_uniforms.h"
+#include "runtime/render/method.h"
+
+namespace gazeloop::render {
+
+std::vector<settings::SettingRow> rows_of(RenderSettings& render,
+                                          std::vector<std::string> methods) {
+    using settings::Choice;
+    using settings::Concerns;
+    using settings::Number;
+    using settings::Whole;
+    return {
+        {"render.depth", "hand depth images to the runtime, where it takes them", &render.depth,
+         Concerns::Output},
+        {"render.frames_in_flight", "frames that the GPU may be working on",
+         Whole{&render.frames_in_flight, 1, 3}, Concerns::Output},
+        {"render.hidden_area", "leave out what the headset shows to no eye", &render.hidden_area,
+         Concerns::Picture},
+        {"render.method", "which samples a picture takes",
+         Choice{.value = &render.method, .names = std::move(methods)}, Concerns::Picture},
+        {"render.profile", "time every pass apart, a submit each", &render.profile,
+         Concerns::Output},
+        // Views are recorded with their sizes.
+        {"render.scale", "picture size over the display's", Number{&render.scale, 0.01, 2.0},
+         Concerns::Input},
+        {"render.scene", "what is rendered",
+         Choice{.value = &render.scene, .names = {kSceneNames.begin(), kSceneNames.end()}},
+         Concerns::Picture},
+        {"render.spp", "samples a texel or pixel", Whole{&render.spp, 1, kMaxSamples},
+         Concerns::Picture},
+    };
+}
+
+}  // namespace gazeloop::render

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/settings/setting_row.h"
+
+namespace gazeloop::render {
+
+/// The settings render.*
+struct RenderSettings {
+    std::string method = "kfr";
+    std::string scene = "raymarch";
+    std::int64_t spp = 1;
+    double scale = 1.0;
+    bool profile = true;
+    bool depth = true;
+    bool hidden_area = true;
+    std::int64_t frames_in_flight = 2;
+};
+
+/// `methods`: the names that render.method may have.
+[[nodiscard]] std::vector<settings::SettingRow> rows_of(RenderSettings& render,
+                                                        std::vector<std::string> methods);
+
+}  // namespace gazeloop::render

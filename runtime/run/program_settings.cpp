@@ -1,0 +1,29 @@
+#include "runtime/run/program_settings.h"
+
+#include "runtime/render/method.h"
+#include "sim/simulation_settings.h"
+
+namespace gazeloop::run {
+
+ProgramSettings::ProgramSettings() {
+    // By name, so that none is forgotten.
+    auto& [gaze, hid, methods, profile, render, sim, target, virtual_time, vulkan] = values_;
+    add(rows_of(gaze));
+    add(rows_of(hid));
+    add(rows_of(methods));
+    add(rows_of(profile));
+    add(rows_of(render, {render::kMethodNames.begin(), render::kMethodNames.end()}));
+    add(rows_of(sim));
+    add(rows_of(target));
+    add(rows_of(virtual_time));
+    add(rows_of(vulkan));
+}
+
+Expected<void> ProgramSettings::check() const {
+    if (auto fits = methods::check_kfr(*this); !fits) {
+        return fits;
+    }
+    return gaze::check(values_.gaze, *this);
+}
+
+}  // namespace gazeloop::run

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "drivers/hid/hid_settings.h"
+#include "runtime/error.h"
+#include "runtime/gaze/gaze_settings.h"
+#include "runtime/methods/method_settings.h"
+#include "runtime/profiles/profile_settings.h"
+#include "runtime/render/render_settings.h"
+#include "runtime/run/target_settings.h"
+#include "runtime/run/virtual_time_settings.h"
+#include "runtime/settings/settings.h"
+#include "runtime/vulkan/vulkan_settings.h"
+#include "sim/gaze_simulation.h"
+
+namespace gazeloop::run {
+
+/// Everything that can be configured, with its built-in value, each group by the room that uses it.
+struct ProgramValues {
+    gaze::GazeSettings gaze;
+    drivers::hid::HidSettings hid;
+    methods::MethodSettings methods;
+    profiles::ProfileSettings profile;
+    render::RenderSettings render;
+    sim::GazeSimulation sim;
+    TargetSettings target;
+    VirtualTimeSettings virtual_time;
+    vulkan::VulkanSettings vulkan;
+};
+
+/// The settings of the whole program, with their values.
+class ProgramSettings : public settings::Settings {
+  public:
+    ProgramSettings();
+
+    [[nodiscard]] const ProgramValues& values() const { return values_; }
+
+    /// Whether the settings fit together. Errors (Usage): which two do not, and what would.
+    [[nodiscard]] Expected<void> check() const;
+
+  private:
+    ProgramValues values_;
+};
+
+}  // namespace gazeloop::run
