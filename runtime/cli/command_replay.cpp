@@ -14,6 +14,7 @@
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/run/gaze_sources.h"
 #include "runtime/session/session_file.h"
+#include "runtime/settings/recorded_values.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -70,13 +71,6 @@ gaze::GazeTrace trace_of(const session::SessionFile& session, const std::string&
     return trace;
 }
 
-bool decides_foveae(std::string_view key) { return key.starts_with("gaze."); }
-
-bool decides_picture(std::string_view key) {
-    return key.starts_with("acuity.") || key.starts_with("kfr.") || key == "render.hidden_area" ||
-           key == "render.method" || key == "render.scene" || key == "render.spp";
-}
-
 /// Refuses what the program cannot have recorded.
 void check_frames(const session::SessionFile& session, const std::string& file) {
     const auto damaged = [&](std::size_t frame, std::string_view what) {
@@ -120,13 +114,9 @@ ExitCode replay_session(const ReplayCommand& command, run::ProgramSettings& sett
     if (!session.closed_cleanly) {
         spdlog::warn("{}: the recording was not closed; what it holds is replayed", command.file);
     }
-    for (const auto& [key, value] : session.header.config) {
-        // What is recorded about the place it ran at does not bind the replay.
-        if (key != "target.name" && key != "vulkan.device" && !key.ends_with(".validation")) {
-            if (const auto set = settings.set(key, value, command.file); !set) {
-                throw SetupError(ErrorKind::BadInput, set.error().message);
-            }
-        }
+    if (const auto taken = settings::take_recorded(session.header.config, command.file, settings);
+        !taken) {
+        throw SetupError(ErrorKind::BadInput, taken.error().message);
     }
     value_or_throw(settings.set("target.name", "headless", "replay of a session"));
     value_or_throw(command.options.apply_to(settings, false));
@@ -156,14 +146,11 @@ ExitCode replay_session(const ReplayCommand& command, run::ProgramSettings& sett
     };
     request.clock = run::RunClock::Recorded;
     request.session = &session;
-    const auto now = settings.list();
-    const auto as_recorded = [&](auto&& concerns) {
-        return std::ranges::all_of(now, [&](const NamedValue& setting) {
-            return !concerns(setting.name) || session.config(setting.name) == setting.value;
-        });
+    const auto as_recorded = [&](settings::Concerns what) {
+        return settings::are_as_recorded(session.header.config, what, settings);
     };
-    request.same_gaze = as_recorded(decides_foveae);
-    request.same_rendering = as_recorded(decides_picture);
+    request.same_gaze = as_recorded(settings::Concerns::Foveae);
+    request.same_rendering = as_recorded(settings::Concerns::Picture);
     return exit_code(run::frame_run(request));
 }
 

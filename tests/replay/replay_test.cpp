@@ -241,6 +241,39 @@ TEST_F(Replay, SaysThatAnotherAcuityLineIsAnotherPicture) {
     EXPECT_NE(other.out.find("settings differ"), std::string::npos) << other.out;
 }
 
+// What a setting concerns decides: an output or the machine leaves both comparable, and so does
+// what was simulated, and a method that is not in force.
+TEST_F(Replay, ComparesWhatTheChangedSettingsLeaveComparable) {
+    const std::string session = folder_.file("session.gaze");
+    ASSERT_EQ(run_gazeloop({"replay", trace(), "--frames", "4", "--record", session, "--set",
+                            kSmall, "--hash"})
+                  .exit_code,
+              0);
+    const auto replayed = [&](const std::vector<std::string>& more) {
+        const ProgramResult result = run_gazeloop(with({"replay", session, "--hash"}, more));
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result.out;
+    };
+    const std::string all = "pictures equal in 4 of 4 frames";
+    for (const char* change :
+         {"render.profile=false", "render.frames_in_flight=1", "vulkan.validation=true",
+          "sim.noise_deg=3", "profile.display=vive_pro_eye", "render.scale=0.1", "layers.n=2",
+          "acuity.mar=0.03"}) {
+        const std::string out = replayed({"--set", change});
+        EXPECT_NE(out.find("foveae bit-equal in 4 of 4 frames"), std::string::npos) << change;
+        EXPECT_NE(out.find(all), std::string::npos) << change << '\n' << out;
+    }
+    const std::string other_picture = replayed({"--set", "render.spp=2"});
+    EXPECT_NE(other_picture.find("foveae bit-equal in 4 of 4"), std::string::npos) << other_picture;
+    EXPECT_NE(other_picture.find("pictures not compared: the settings differ"), std::string::npos)
+        << other_picture;
+    const std::string other_foveae = replayed({"--set", "gaze.fixation_distance_m=2"});
+    EXPECT_NE(other_foveae.find("foveae not compared: gaze settings differ"), std::string::npos)
+        << other_foveae;
+    EXPECT_NE(other_foveae.find("pictures not compared: the settings differ"), std::string::npos)
+        << other_foveae;
+}
+
 TEST_F(Replay, KeepsJsonAlone) {
     const ProgramResult result = run_gazeloop(
         {"replay", trace(), "--frames", "2", "--hash", "--json", "-", "--set", kSmall});

@@ -1,0 +1,200 @@
+#include "runtime/run/program_settings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <type_traits>
+#include <variant>
+
+#include "runtime/methods/plan_methods.h"
+#include "runtime/settings/recorded_values.h"
+#include "sim/simulation_settings.h"
+#include "tests/support/member_count.h"
+
+namespace gazeloop::run {
+namespace {
+
+using settings::Concerns;
+using settings::SettingRow;
+
+// Whoever adds a setting thinks here of what a replay is to do with it: see Concerns.
+const std::map<Concerns, std::set<std::string>> kConcerns{
+    {Concerns::Input,
+     {"gaze.fixation_from_depth", "hid.eye_distance_m", "hid.screen_height_m", "hid.screen_width_m",
+      "hid.viewing_distance_m", "profile.display", "profile.tracker", "render.scale",
+      "virtual_time.gpu_ms"}},
+    {Concerns::Foveae,
+     {"gaze.fixation_distance_m", "gaze.hold_ms", "gaze.minimum_confidence", "gaze.return_ms",
+      "gaze.stale_ms"}},
+    {Concerns::Picture, {"acuity.border_px",    "acuity.disc",
+                         "acuity.lp_height",    "acuity.lp_width",
+                         "acuity.mar",          "acuity.pixels_per_degree",
+                         "kfr.alpha",           "kfr.border_px",
+                         "kfr.close_hole",      "kfr.disc",
+                         "kfr.kernel",          "kfr.kernel_samples",
+                         "kfr.kernel_table",    "kfr.lp_height",
+                         "kfr.lp_width",        "kfr.polynomial",
+                         "kfr.sigma",           "layers.n",
+                         "layers.outer_weight", "layers.s2_fixed",
+                         "render.hidden_area",  "render.method",
+                         "render.scene",        "render.spp",
+                         "rings.inner_deg",     "rings.outer_deg",
+                         "rings.tile_px",       "sparse.disc_share",
+                         "sparse.narrow_share", "sparse.narrow_spread",
+                         "sparse.placement",    "sparse.share",
+                         "sparse.wide_spread"}},
+    {Concerns::Output,
+     {"acuity.luminance_cd_m2", "acuity.nasal", "render.depth", "render.frames_in_flight",
+      "render.profile"}},
+    {Concerns::Machine,
+     {"target.name", "target.validation", "vulkan.device", "vulkan.validation"}}};
+
+TEST(ProgramSettings, EachConcernsWhatItShould) {
+    const ProgramSettings settings;
+    std::set<std::string> keys;
+    for (const SettingRow& row : settings.rows()) {
+        keys.insert(row.key);
+        // Of a simulation a recording holds the gaze that it gave.
+        const bool expected = row.key.starts_with("sim.")
+                                  ? row.concerns == Concerns::Input
+                                  : kConcerns.at(row.concerns).contains(row.key);
+        EXPECT_TRUE(expected) << row.key;
+    }
+    for (const auto& [concerns, known] : kConcerns) {
+        for (const std::string& key : known) {
+            EXPECT_TRUE(keys.contains(key)) << key;
+        }
+    }
+}
+
+/// Any row of a group is in use under the method of its name, and under no other but these.
+TEST(ProgramSettings, OfMethodsAreInUseUnderTheirs) {
+    const std::map<std::string, std::vector<std::string>> also{{"acuity.mar", {"layers", "rings"}}};
+    const ProgramSettings settings;
+    std::set<std::string> groups;
+    for (const methods::PlanMethod& method : methods::plan_methods()) {
+        groups.emplace(method.name);
+    }
+    for (const SettingRow& row : settings.rows()) {
+        const std::string group = row.key.substr(0, row.key.find('.'));
+        if (row.concerns != Concerns::Picture || group == "render") {
+            EXPECT_EQ(row.only_while.key, "") << row.key;
+            continue;
+        }
+        std::vector<std::string> expected{group};
+        if (const auto more = also.find(row.key); more != also.end()) {
+            expected.insert(expected.end(), more->second.begin(), more->second.end());
+        }
+        EXPECT_EQ(row.only_while.key, "render.method") << row.key;
+        EXPECT_EQ(row.only_while.values, expected) << row.key;
+        for (const std::string& method : row.only_while.values) {
+            EXPECT_TRUE(groups.contains(method)) << row.key << ": " << method;
+        }
+    }
+}
+
+TEST(ProgramSettings, GiveEveryMemberARow) {
+    const auto expect_all = []<typename Group>(Group group) {
+        EXPECT_EQ(rows_of(group).size(), tests::member_count<Group>())
+            << rows_of(group).front().key;
+    };
+    expect_all(gaze::GazeSettings());
+    expect_all(drivers::hid::HidSettings());
+    expect_all(methods::AcuitySettings());
+    expect_all(methods::KfrSettings());
+    expect_all(methods::LayersSettings());
+    expect_all(methods::RingsSettings());
+    expect_all(methods::SparseSettings());
+    expect_all(profiles::ProfileSettings());
+    expect_all(TargetSettings());
+    expect_all(VirtualTimeSettings());
+    expect_all(vulkan::VulkanSettings());
+    render::RenderSettings render;
+    EXPECT_EQ(render::rows_of(render, {}).size(), tests::member_count<render::RenderSettings>());
+    sim::GazeSimulation simulation;
+    EXPECT_EQ(sim::rows_of(simulation).size(), 1 + tests::member_count<sim::EyeTerms>() +
+                                                   tests::member_count<sim::HeadTerms>() +
+                                                   tests::member_count<sim::TrackerTerms>());
+}
+
+TEST(ProgramSettings, KeepTheirValuesApart) {
+    const ProgramSettings settings;
+    std::map<const void*, std::string> owners;
+    for (const SettingRow& row : settings.rows()) {
+        const void* const value = std::visit(
+            []<typename Slot>(const Slot& slot) -> const void* {
+                if constexpr (std::is_pointer_v<Slot>) {
+                    return slot;
+                } else {
+                    return slot.value;
+                }
+            },
+            row.slot);
+        const auto [owner, is_new] = owners.emplace(value, row.key);
+        EXPECT_TRUE(is_new) << row.key << " and " << owner->second;
+    }
+}
+
+TEST(ProgramSettings, TakeAnySeed) {
+    ProgramSettings settings;
+    EXPECT_TRUE(settings.set("sim.seed", "18446744073709551615", "--seed").has_value());
+    EXPECT_EQ(settings.values().sim.seed, ~std::uint64_t{0});
+    for (const char* text : {"-1", "18446744073709551616", "1.5", "", "x"}) {
+        EXPECT_FALSE(settings.set("sim.seed", text, "--seed").has_value()) << text;
+    }
+    EXPECT_FALSE(settings.set("sim.rate_hz", "nan", "--set").has_value());
+    EXPECT_FALSE(settings.set("sim.rate_hz", "0.5", "--set").has_value());
+    EXPECT_TRUE(settings.set("sim.rate_hz", "10000", "--set").has_value());
+    EXPECT_FALSE(settings.set("sim.noise_deg", "91", "--set").has_value());
+}
+
+TEST(ProgramSettings, SayWhichTwoDoNotFit) {
+    ProgramSettings jump;
+    ASSERT_TRUE(jump.set("gaze.hold_ms", "50", "--set").has_value());
+    const auto fovea = jump.check();
+    ASSERT_FALSE(fovea.has_value());
+    EXPECT_THAT(fovea.error().message,
+                testing::StartsWith(
+                    "gaze.hold_ms = 50 (--set): is less than gaze.stale_ms = 100 (built-in): "));
+    ProgramSettings idle;
+    ASSERT_TRUE(idle.set("kfr.polynomial", "1", "--set").has_value());
+    const auto kernel = idle.check();
+    ASSERT_FALSE(kernel.has_value());
+    EXPECT_THAT(kernel.error().message,
+                testing::StartsWith("kfr.polynomial = 1 (--set): has no effect while "
+                                    "kfr.kernel = power (built-in): "));
+    EXPECT_TRUE(ProgramSettings().check().has_value());
+}
+
+/// What a recording by a method says of pictures when a setting is another now.
+bool same_picture(const std::string& method, const std::string& key, const std::string& value) {
+    methods::MethodSettings values;
+    render::RenderSettings render;
+    settings::Settings settings;
+    settings.add(rows_of(values));
+    settings.add(render::rows_of(render, {}));
+    EXPECT_TRUE(settings.set("render.method", method, "test").has_value());
+    const std::vector<NamedValue> recorded = settings.list();
+    EXPECT_TRUE(settings.set(key, value, "test").has_value());
+    return settings::are_as_recorded(recorded, Concerns::Picture, settings);
+}
+
+TEST(ProgramSettings, OfAMethodDecideItsPicturesAlone) {
+    EXPECT_FALSE(same_picture("kfr", "kfr.sigma", "3"));
+    EXPECT_FALSE(same_picture("layers", "layers.n", "2"));
+    EXPECT_FALSE(same_picture("rings", "rings.tile_px", "8"));
+    EXPECT_FALSE(same_picture("sparse", "sparse.share", "0.2"));
+    for (const char* method : {"acuity", "layers", "rings"}) {
+        EXPECT_FALSE(same_picture(method, "acuity.mar", "0.03")) << method;
+    }
+    EXPECT_TRUE(same_picture("kfr", "acuity.mar", "0.03"));
+    EXPECT_TRUE(same_picture("full", "kfr.sigma", "3"));
+    EXPECT_TRUE(same_picture("kfr", "layers.n", "2"));
+    EXPECT_TRUE(same_picture("acuity", "acuity.nasal", "true"));
+}
+
+}  // namespace
+}  // namespace gazeloop::run
