@@ -141,18 +141,18 @@ class FrameLoop {
         follow_hidden_area(record.index);
 
         // A frame that is not to be drawn still takes the gaze, so that none is late for the next.
-        gaze::PerEye<render::EyeTarget> images{};
         if (planned_.should_render) {
-            images = parts_.target.acquire();
+            view_.targets = parts_.target.acquire();
             parts_.renderer.prepare(planned_.views);
             wait_for_gpu();
             report_finished_frames();
+            begin(record.index);
         }
         record.stamps.latch = timeline_->latch();
         read_gaze(record.stamps.latch.ns);
         record.fovea = parts_.gaze.latch(record.stamps.latch, planned_.head, planned_.views);
         if (planned_.should_render) {
-            render(images, record);
+            finish(record);
         }
         parts_.target.end_frame(target_frame_, planned_.should_render);
         record.stamps.end_frame = timeline_->now();
@@ -225,25 +225,23 @@ class FrameLoop {
         return timeline_->is_live() ? parts_.target.head_at(time_ns) : std::nullopt;
     }
 
-    void render(const gaze::PerEye<render::EyeTarget>& images, frame::FrameRecord& record) {
-        if (!result_.last) {
-            result_.last.emplace();
+    /// What needs no gaze goes to the GPU before it is read.
+    void begin(std::uint64_t frame) {
+        view_.index = frame;
+        view_.scene_time_s = planned_.scene_time_s;
+        view_.views = planned_.views;
+        view_.hidden = hidden_areas_;
+        parts_.renderer.begin(view_);
+        if (options_.wait_before_latch) {
+            parts_.renderer.wait_for_begun();
         }
-        render::FrameRequest& request = *result_.last;
-        request.index = record.index;
-        request.scene_time_s = planned_.scene_time_s;
-        request.views = planned_.views;
-        for (const gaze::Eye eye : gaze::kEyes) {
-            const gaze::FoveaPoint& fovea = record.fovea.eyes[gaze::index(eye)];
-            request.foveae[gaze::index(eye)] = fovea.position;
-            request.gaze_directions[gaze::index(eye)] = fovea.direction;
-        }
-        request.targets = images;
-        request.hidden = hidden_areas_;
-        record.samples = parts_.renderer.render(request);
+    }
+
+    void finish(frame::FrameRecord& record) {
+        record.samples = parts_.renderer.finish(record.fovea);
         record.stamps.submit = timeline_->now();
         for (frame::FrameObserver* const observer : parts_.observers) {
-            observer->on_rendered(request);
+            observer->on_rendered(view_, record.fovea);
         }
     }
 
@@ -337,6 +335,7 @@ class FrameLoop {
     bool ending_ = false;
     present::TargetFrame target_frame_;
     PlannedFrame planned_;
+    render::FrameView view_;     ///< of the frame that is rendered
     gaze::HiddenChange hidden_;  ///< in force, and of these views
     gaze::StereoView hidden_views_;
     foveation::HiddenAreas hidden_areas_;

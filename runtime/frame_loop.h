@@ -28,16 +28,18 @@ struct LoopOptions {
     std::optional<std::uint64_t> frames;
     std::optional<double> seconds;  ///< of the time line, from its start
     bool end_with_source = false;
-    bool hidden_area = true;                       ///< leave out what no eye sees
+    bool hidden_area = true;  ///< leave out what no eye sees
+    /// Read the gaze only when the GPU has finished what needs none: less age of the gaze, less
+    /// overlap of frames.
+    bool wait_before_latch = false;
     std::function<std::optional<LoopEnd>()> stop;  ///< asked once a frame: is it to end, and why
 };
 
 struct LoopResult {
     LoopEnd end = LoopEnd::Limit;
     std::uint64_t frames = 0;
-    std::int64_t period_ns = 0;                  ///< of the display, as last announced
-    bool fixed_in_head = false;                  ///< the gaze was fixed on purpose
-    std::optional<render::FrameRequest> last{};  ///< the last frame that was rendered
+    std::int64_t period_ns = 0;  ///< of the display, as last announced
+    bool fixed_in_head = false;  ///< the gaze was fixed on purpose
 };
 
 /// The parts of a running loop. Time line and source are made at the first frame that the target

@@ -19,6 +19,7 @@
 #include "runtime/foveation/eye/guenter_acuity.h"
 #include "runtime/foveation/eye/stela_acuity.h"
 #include "runtime/gaze/direction.h"
+#include "runtime/methods/registry.h"
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/report/output_file.h"
 #include "runtime/settings/nearest_name.h"
@@ -153,7 +154,7 @@ ExitCode plan(const PlanCommand& command) {
     }
 
     std::vector<std::string> method_names;
-    for (const methods::PlanMethod& method : methods::plan_methods()) {
+    for (const methods::Method& method : methods::all_methods()) {
         method_names.emplace_back(method.name);
     }
     const Selection methods_asked("method", command.method, method_names);
@@ -163,7 +164,7 @@ ExitCode plan(const PlanCommand& command) {
                                        .line = {.slope = values.methods.acuity.mar}};
     const auto plan_of = [&](const auto& wanted) {
         std::vector<trade::PlanRow> rows;
-        for (const methods::PlanMethod& method : methods::plan_methods()) {
+        for (const methods::Method& method : methods::all_methods()) {
             if (wanted(method.name)) {
                 rows.push_back({.method = std::string(method.name),
                                 .plan = value_or_throw(method.plan(subject)),

@@ -4,6 +4,7 @@
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/methods/registry.h"
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/run/gaze_sources.h"
 
@@ -32,10 +33,9 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
     request.command_line = command_line;
     if (command.gaze == "openxr") {
         const run::ProgramValues& values = settings.values();
-        // Full resolution does not depend on where the foveae are: it keeps no depth for them.
-        request.openxr_gaze = {
-            .distance_m = values.gaze.fixation_distance_m,
-            .from_depth = values.gaze.fixation_from_depth && values.render.method != "full"};
+        request.openxr_gaze = {.distance_m = values.gaze.fixation_distance_m,
+                               .from_depth = values.gaze.fixation_from_depth &&
+                                             methods::find_method(values.render.method)->uses_gaze};
     } else {
         request.make_source =
             value_or_throw(run::gaze_source_named(command.gaze, tracker, settings.values()));

@@ -7,7 +7,7 @@
 #include "runtime/gaze/hidden_mesh.h"
 
 namespace gazeloop::render {
-struct FrameRequest;
+struct FrameView;
 }  // namespace gazeloop::render
 
 namespace gazeloop::frame {
@@ -28,7 +28,7 @@ class FrameObserver {
     /// A frame whose passes have been submitted. Its pictures still belong to the loop and lie in
     /// COLOR_ATTACHMENT_OPTIMAL; who reads them submits that to the context's queue, here, and
     /// leaves them as they are.
-    virtual void on_rendered(const render::FrameRequest&) {}
+    virtual void on_rendered(const render::FrameView&, const gaze::FrameFovea&) {}
     /// A frame that was handed to the target.
     virtual void on_frame(const FrameRecord&) {}
     /// The GPU has finished a frame.

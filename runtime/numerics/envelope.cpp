@@ -50,7 +50,7 @@ class Measurement {
         }
         const auto family = std::make_shared<const MapFamily>(
             MapFamily{build_map_tables(named.kernel, *lp), foveation::MapError(named.kernel)});
-        const render::MapBuffers buffers(context_, family->tables);
+        const render::MapBuffers buffers(context_, family->tables, 1, lp->height);
         for (const NamedFovea& at : kFoveae) {
             const PixelPosition fovea{at.x * image.width_px, at.y * image.height_px};
             measure(MapUnderTest(family, named.kernel, *lp, image, fovea), buffers,
@@ -71,7 +71,7 @@ class Measurement {
             value_or_throw(AcuityProfile::create({.mar = {.slope = slope}}, view));
         const auto family = std::make_shared<const MapFamily>(
             MapFamily{build_map_tables(profile), foveation::MapError(profile)});
-        const render::MapBuffers buffers(context_, family->tables);
+        const render::MapBuffers buffers(context_, family->tables, 1, profile.lp().height);
         for (const NamedFovea& at : kFoveae) {
             measure(MapUnderTest(family, profile, view,
                                  {at.x * image.width_px, at.y * image.height_px}),

@@ -1,7 +1,6 @@
 #include "runtime/numerics/map_probe.h"
 
 #include <cstring>
-#include <tuple>
 
 #include "runtime/vulkan/pipelines.h"
 #include "shaders/shader_library.h"
@@ -11,30 +10,24 @@ namespace {
 
 using Type = vk::DescriptorType;
 
-constexpr std::uint32_t kInputsBinding = 6;
-constexpr std::uint32_t kOutputsBinding = 7;
 constexpr std::uint32_t kGroupSize = 64;
 
-constexpr std::array kBindings{
-    std::pair{std::uint32_t{vulkan::kEyeUniformsBinding}, Type::eUniformBuffer},
-    std::pair{std::uint32_t{vulkan::kMapTablesBinding}, Type::eUniformBuffer},
-    std::pair{std::uint32_t{vulkan::kColumnTableBinding}, Type::eStorageBuffer},
-    std::pair{std::uint32_t{vulkan::kRowTableBinding}, Type::eStorageBuffer},
-    std::pair{kInputsBinding, Type::eStorageBuffer},
-    std::pair{kOutputsBinding, Type::eStorageBuffer}};
+/// Set 2: the map's uniforms, tables, columns and rows; bands and LP-buffer are not asked, in whose
+/// places (shaders/numerics/map_probe.comp) lie what is asked and what was answered.
+constexpr std::array kMapBindings{Type::eUniformBuffer, Type::eUniformBuffer, Type::eStorageBuffer,
+                                  Type::eStorageBuffer, Type::eStorageBuffer, Type::eStorageBuffer};
+constexpr std::array kFrameBindings{Type::eUniformBuffer};
 
 }  // namespace
 
 MapProbe::MapProbe(const vulkan::Context& context) : context_(&context) {
     const vk::raii::Device& device = context.device();
-    std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    bindings.reserve(kBindings.size());
-    for (const auto& [binding, type] : kBindings) {
-        bindings.emplace_back(binding, type, 1, vk::ShaderStageFlagBits::eCompute);
-    }
-    set_layout_ =
-        vk::raii::DescriptorSetLayout(device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
-    layout_ = vk::raii::PipelineLayout(device, vk::PipelineLayoutCreateInfo({}, *set_layout_));
+    constexpr auto kCompute = vk::ShaderStageFlagBits::eCompute;
+    frame_layout_ = vulkan::make_set_layout(device, kFrameBindings, kCompute);
+    empty_layout_ = vulkan::make_set_layout(device, {}, {});
+    map_layout_ = vulkan::make_set_layout(device, kMapBindings, kCompute);
+    layout_ =
+        vulkan::make_pipeline_layout(device, {*frame_layout_, {}, *map_layout_}, *empty_layout_);
     const auto words = shaders::spirv("map_probe.comp");
     const vk::raii::ShaderModule module(
         device, vk::ShaderModuleCreateInfo({}, words.size_bytes(), words.data()));
@@ -52,7 +45,7 @@ MapProbe::MapProbe(const vulkan::Context& context) : context_(&context) {
 }
 
 std::vector<ProbeOutput> MapProbe::run(const render::MapBuffers& tables,
-                                       const render::EyeUniforms& uniforms, bool in_gaze_frame,
+                                       const ProbeUniforms& uniforms, bool in_gaze_frame,
                                        std::span<const ProbeInput> inputs) const {
     /// As the shader writes it.
     struct Answer {
@@ -63,27 +56,33 @@ std::vector<ProbeOutput> MapProbe::run(const render::MapBuffers& tables,
     };
     const vk::raii::Device& device = context_->device();
     using Usage = vk::BufferUsageFlagBits;
-    vulkan::HostBuffer uniform_buffer(*context_, sizeof uniforms, Usage::eUniformBuffer);
-    uniform_buffer.write(uniforms);
+    vulkan::HostBuffer frame_buffer(*context_, sizeof uniforms.frame, Usage::eUniformBuffer);
+    frame_buffer.write(uniforms.frame);
+    vulkan::HostBuffer map_buffer(*context_, sizeof uniforms.map, Usage::eUniformBuffer);
+    map_buffer.write(uniforms.map);
     vulkan::HostBuffer input_buffer(*context_, inputs.size_bytes(), Usage::eStorageBuffer);
     input_buffer.write(inputs);
     const vulkan::HostBuffer output_buffer(*context_, inputs.size() * sizeof(Answer),
                                            Usage::eStorageBuffer);
 
-    const std::array sizes{vk::DescriptorPoolSize(Type::eUniformBuffer, 2),
+    const std::array sizes{vk::DescriptorPoolSize(Type::eUniformBuffer, 3),
                            vk::DescriptorPoolSize(Type::eStorageBuffer, 4)};
     const vk::raii::DescriptorPool pool(
         device, vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-                                             1, sizes));
-    const vk::raii::DescriptorSets sets(device, vk::DescriptorSetAllocateInfo(*pool, *set_layout_));
-    const std::array<vk::Buffer, kBindings.size()> buffers{
-        uniform_buffer.buffer(), tables.map_tables(),   tables.column_table(),
-        tables.row_table(),      input_buffer.buffer(), output_buffer.buffer()};
-    for (std::size_t i = 0; i < kBindings.size(); ++i) {
-        const vk::DescriptorBufferInfo info(buffers[i], 0, VK_WHOLE_SIZE);
-        device.updateDescriptorSets(
-            vk::WriteDescriptorSet(*sets[0], kBindings[i].first, 0, kBindings[i].second, {}, info),
-            {});
+                                             2, sizes));
+    const std::array layouts{*frame_layout_, *map_layout_};
+    const vk::raii::DescriptorSets sets(device, vk::DescriptorSetAllocateInfo(*pool, layouts));
+    const auto write = [&](vk::DescriptorSet set, std::uint32_t binding, Type type,
+                           vk::Buffer buffer) {
+        const vk::DescriptorBufferInfo info(buffer, 0, VK_WHOLE_SIZE);
+        device.updateDescriptorSets(vk::WriteDescriptorSet(set, binding, 0, type, {}, info), {});
+    };
+    write(*sets[0], 0, kFrameBindings[0], frame_buffer.buffer());
+    const std::array<vk::Buffer, kMapBindings.size()> buffers{
+        map_buffer.buffer(), tables.map_tables(),   tables.column_table(),
+        tables.row_table(),  input_buffer.buffer(), output_buffer.buffer()};
+    for (std::uint32_t i = 0; i < kMapBindings.size(); ++i) {
+        write(*sets[1], i, kMapBindings.at(i), buffers.at(i));
     }
 
     const vk::raii::CommandPool command_pool(
@@ -93,7 +92,10 @@ std::vector<ProbeOutput> MapProbe::run(const render::MapBuffers& tables,
     const vk::raii::CommandBuffer& commands = command_buffers[0];
     commands.begin(vk::CommandBufferBeginInfo());
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipelines_[in_gaze_frame ? 1 : 0]);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, *sets[0], {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, vulkan::kFrameSet,
+                                *sets[0], {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, vulkan::kMethodSet,
+                                *sets[1], {});
     commands.dispatch(static_cast<std::uint32_t>((inputs.size() + kGroupSize - 1) / kGroupSize), 1,
                       1);
     const vk::MemoryBarrier2 to_host(

@@ -6,7 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "runtime/render/eye_uniforms.h"
+#include "runtime/foveation/log_polar/map_uniforms.h"
+#include "runtime/render/frame_uniforms.h"
 #include "runtime/render/map_buffers.h"
 
 namespace gazeloop::numerics {
@@ -24,6 +25,12 @@ struct ProbeOutput {
     glm::vec3 ray{0.0F};    ///< of the position, in world; the device's answer alone
 };
 
+/// The view, and what of the map depends on the gaze.
+struct ProbeUniforms {
+    render::FrameUniforms frame;
+    foveation::MapUniforms map;
+};
+
 /// Runs the maps as the shaders have them (shaders/lib) on the device.
 class MapProbe {
   public:
@@ -31,13 +38,14 @@ class MapProbe {
 
     /// Waits for the answers. `uniforms` decide the gaze, `in_gaze_frame` which of the two maps.
     [[nodiscard]] std::vector<ProbeOutput> run(const render::MapBuffers& tables,
-                                               const render::EyeUniforms& uniforms,
-                                               bool in_gaze_frame,
+                                               const ProbeUniforms& uniforms, bool in_gaze_frame,
                                                std::span<const ProbeInput> inputs) const;
 
   private:
     const vulkan::Context* context_;
-    vk::raii::DescriptorSetLayout set_layout_{nullptr};
+    vk::raii::DescriptorSetLayout frame_layout_{nullptr};
+    vk::raii::DescriptorSetLayout empty_layout_{nullptr};
+    vk::raii::DescriptorSetLayout map_layout_{nullptr};
     vk::raii::PipelineLayout layout_{nullptr};
     std::array<vk::raii::Pipeline, 2> pipelines_{nullptr, nullptr};  ///< by in_gaze_frame
 };

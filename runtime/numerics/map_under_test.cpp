@@ -36,7 +36,7 @@ MapUnderTest::MapUnderTest(std::shared_ptr<const MapFamily> family,
       view_(view),
       fovea_(gaze_at) {
     plan_.lp = profile.lp();
-    foveation::SamplingPlan::InGazeFrame in_gaze_frame;
+    foveation::LogPolarPlan::InGazeFrame in_gaze_frame;
     in_gaze_frame.uniforms = foveation::gaze_frame_uniforms(std::get<AcuityMap>(map_).frame());
     plan_.in_gaze_frame = in_gaze_frame;
 }
@@ -64,8 +64,8 @@ std::vector<ProbeOutput> MapUnderTest::run(std::span<const ProbeInput> inputs) c
     return outputs;
 }
 
-render::EyeUniforms MapUnderTest::uniforms() const {
-    return render::eye_uniforms(view_, 0.0, 1, &plan_);
+ProbeUniforms MapUnderTest::uniforms() const {
+    return {render::frame_uniforms(view_, 0.0, 1, nullptr), foveation::map_uniforms(plan_)};
 }
 
 std::optional<gaze::PixelPosition> MapUnderTest::placed(const glm::vec3& place) const {

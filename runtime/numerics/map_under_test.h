@@ -10,7 +10,7 @@
 #include "runtime/foveation/log_polar/acuity_map.h"
 #include "runtime/foveation/log_polar/float_map.h"
 #include "runtime/foveation/log_polar/map_error.h"
-#include "runtime/foveation/plans/sampling_plan.h"
+#include "runtime/foveation/plans/kfr_plan.h"
 #include "runtime/numerics/map_probe.h"
 
 namespace gazeloop::numerics {
@@ -41,7 +41,7 @@ class MapUnderTest {
 
     /// What the device needs to answer the same.
     [[nodiscard]] const foveation::MapTables& tables() const { return family_->tables; }
-    [[nodiscard]] render::EyeUniforms uniforms() const;
+    [[nodiscard]] ProbeUniforms uniforms() const;
 
     /// ProbeOutput::place as a position of the picture; nothing: behind it.
     [[nodiscard]] std::optional<gaze::PixelPosition> placed(const glm::vec3& place) const;
@@ -52,7 +52,7 @@ class MapUnderTest {
   private:
     std::shared_ptr<const MapFamily> family_;
     std::variant<foveation::LogPolarMap, foveation::AcuityMap> map_;
-    foveation::SamplingPlan plan_;  ///< only what the uniforms are made of
+    foveation::LogPolarPlan plan_;  ///< only what the uniforms are made of
     gaze::EyeView view_;
     gaze::PixelPosition fovea_;
 };

@@ -7,13 +7,13 @@
 #include <limits>
 
 #include "runtime/render/picture.h"
+#include "runtime/vulkan/tracked_image.h"
 
 namespace gazeloop::preview {
 namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-using Layout = vk::ImageLayout;
 
 std::uint32_t reduction_of(const gaze::PerEye<vk::Extent2D>& extents) {
     std::uint32_t longest = 1;
@@ -81,7 +81,7 @@ PreviewFeed::~PreviewFeed() {
     }
 }
 
-void PreviewFeed::on_rendered(const render::FrameRequest& request) {
+void PreviewFeed::on_rendered(const render::FrameView& view, const gaze::FrameFovea& fovea) {
     // The window has taken the last picture only when it asks for one more than was given, and
     // every submitted copy has been given by then.
     const std::uint64_t given = memory_->given.load(std::memory_order_acquire);
@@ -90,14 +90,15 @@ void PreviewFeed::on_rendered(const render::FrameRequest& request) {
         return;
     }
     const std::uint32_t eyes = memory_->eyes & kBothEyes;
-    describe(request, eyes);
-    record_copy(request, eyes);
+    describe(view, fovea, eyes);
+    record_copy(view, eyes);
     submitted_.store(++copies_, std::memory_order_release);
     submitted_.notify_one();
 }
 
-void PreviewFeed::describe(const render::FrameRequest& request, std::uint32_t eyes) {
-    next_.index = request.index;
+void PreviewFeed::describe(const render::FrameView& view, const gaze::FrameFovea& fovea,
+                           std::uint32_t eyes) {
+    next_.index = view.index;
     next_.bars = bars_;
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
@@ -112,47 +113,37 @@ void PreviewFeed::describe(const render::FrameRequest& request, std::uint32_t ey
         };
         next_.pictures[e] = {.width_px = extent.width,
                              .height_px = extent.height,
-                             .fovea_x_px = in_preview(request.foveae[e].x_px),
-                             .fovea_y_px = in_preview(request.foveae[e].y_px),
+                             .fovea_x_px = in_preview(fovea.eyes[e].position.x_px),
+                             .fovea_y_px = in_preview(fovea.eyes[e].position.y_px),
                              .ring_radius_px = in_preview(
                                  radius_px > 0.0 ? radius_px : render::kRingWithoutDisc_px)};
     }
 }
 
-void PreviewFeed::record_copy(const render::FrameRequest& request, std::uint32_t eyes) {
+void PreviewFeed::record_copy(const render::FrameView& view, std::uint32_t eyes) {
     pool_.reset();
     commands_.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-    const auto barrier = [this](const vk::ImageMemoryBarrier2& one) {
-        commands_.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, one));
-    };
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
         if (!shows(eyes, e)) {
             continue;
         }
-        const vk::Image from = request.targets[e].image;
-        const vk::Image to = eyes_[e].reduced.image();
+        constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
+        using vulkan::Use;
+        auto shown = vulkan::TrackedImage::in_use(view.targets[e].image, kColor, Use::ColorTarget);
+        auto reduced =
+            vulkan::TrackedImage::in_use(eyes_[e].reduced.image(), kColor, Use::CopySource);
         const vk::Extent2D extent = eyes_[e].reduced.extent();
-        barrier(vulkan::image_barrier(from, Layout::eColorAttachmentOptimal,
-                                      Layout::eTransferSrcOptimal, Stage::eColorAttachmentOutput,
-                                      Access::eColorAttachmentWrite, Stage::eBlit,
-                                      Access::eTransferRead));
-        barrier(vulkan::image_barrier(to, Layout::eUndefined, Layout::eTransferDstOptimal,
-                                      Stage::eCopy, Access::eNone, Stage::eBlit,
-                                      Access::eTransferWrite));
-        const vk::ImageSubresourceLayers layers(vk::ImageAspectFlagBits::eColor, 0, 0, 1);
+        shown.use(commands_, Use::CopySource);
+        reduced.use(commands_, Use::CopyTarget, vulkan::Keep::Nothing);
+        const vk::ImageSubresourceLayers layers(kColor, 0, 0, 1);
         commands_.blitImage(
-            from, Layout::eTransferSrcOptimal, to, Layout::eTransferDstOptimal,
+            shown.image(), shown.layout(), reduced.image(), reduced.layout(),
             vk::ImageBlit(layers, corners(options_.extents[e]), layers, corners(extent)),
             reduction_ > 1 ? vk::Filter::eLinear : vk::Filter::eNearest);
-        barrier(vulkan::image_barrier(
-            from, Layout::eTransferSrcOptimal, Layout::eColorAttachmentOptimal, Stage::eBlit,
-            Access::eNone, Stage::eColorAttachmentOutput,
-            Access::eColorAttachmentRead | Access::eColorAttachmentWrite));
-        barrier(vulkan::image_barrier(to, Layout::eTransferDstOptimal, Layout::eTransferSrcOptimal,
-                                      Stage::eBlit, Access::eTransferWrite, Stage::eCopy,
-                                      Access::eTransferRead));
+        shown.use(commands_, Use::ColorTarget);
+        reduced.use(commands_, Use::CopySource);
         commands_.copyImageToBuffer(
-            to, Layout::eTransferSrcOptimal, eyes_[e].pixels.buffer(),
+            reduced.image(), reduced.layout(), eyes_[e].pixels.buffer(),
             vk::BufferImageCopy(0, 0, 0, layers, {}, vk::Extent3D(extent, 1)));
     }
     const vk::MemoryBarrier2 to_host(Stage::eCopy, Access::eTransferWrite, Stage::eHost,

@@ -10,7 +10,7 @@
 
 #include "runtime/frame/frame_observer.h"
 #include "runtime/preview/preview_memory.h"
-#include "runtime/render/frame_renderer.h"
+#include "runtime/render/frame_view.h"
 #include "runtime/vulkan/memory.h"
 
 namespace gazeloop::preview {
@@ -34,7 +34,7 @@ class PreviewFeed final : public frame::FrameObserver {
     PreviewFeed& operator=(const PreviewFeed&) = delete;
     ~PreviewFeed() override;
 
-    void on_rendered(const render::FrameRequest& request) override;
+    void on_rendered(const render::FrameView& view, const gaze::FrameFovea& fovea) override;
     void on_frame(const frame::FrameRecord& record) override;
     void on_gpu(const frame::FrameGpuRecord& record) override;
 
@@ -47,8 +47,8 @@ class PreviewFeed final : public frame::FrameObserver {
         vulkan::HostBuffer pixels;
     };
 
-    void describe(const render::FrameRequest& request, std::uint32_t eyes);
-    void record_copy(const render::FrameRequest& request, std::uint32_t eyes);
+    void describe(const render::FrameView& view, const gaze::FrameFovea& fovea, std::uint32_t eyes);
+    void record_copy(const render::FrameView& view, std::uint32_t eyes);
     void hand_over(const std::stop_token& stop);
 
     const vulkan::Context* context_;

@@ -9,10 +9,6 @@
 namespace gazeloop::render {
 namespace {
 
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
-using Layout = vk::ImageLayout;
-
 constexpr std::size_t kBytesPerPixel = 8;  // of kLpFormat
 constexpr std::size_t kNearnessByte = 6;   // its fourth channel
 
@@ -28,11 +24,6 @@ std::uint32_t reach_px(double angle_rad, double first_rad, double last_rad, std:
 
 std::uint32_t divided_up(std::uint32_t count, std::uint32_t by) { return (count + by - 1) / by; }
 
-void transition(const vk::raii::CommandBuffer& commands,
-                const vk::ImageMemoryBarrier2& image_barrier) {
-    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, image_barrier));
-}
-
 }  // namespace
 
 FoveaDepth::FoveaDepth(const vulkan::Context& context, vk::Extent2D extent)
@@ -41,8 +32,9 @@ FoveaDepth::FoveaDepth(const vulkan::Context& context, vk::Extent2D extent)
                   std::min(extent.height, 2 * kMostDown_px + 1) * kBytesPerPixel,
               vk::BufferUsageFlagBits::eTransferDst) {}
 
-void FoveaDepth::record(const vk::raii::CommandBuffer& commands, vk::Image direct_buffer,
-                        const gaze::EyeView& view, const gaze::PixelPosition& fovea,
+void FoveaDepth::record(const vk::raii::CommandBuffer& commands,
+                        vulkan::TrackedImage& direct_buffer, const gaze::EyeView& view,
+                        const gaze::PixelPosition& fovea,
                         std::span<const foveation::Columns> disc_bands) {
     const std::uint32_t across = reach_px(kReachAcross_rad, view.fov.left_rad, view.fov.right_rad,
                                           view.width_px, fovea.x_px, kMostAcross_px);
@@ -62,20 +54,13 @@ void FoveaDepth::record(const vk::raii::CommandBuffer& commands, vk::Image direc
     if (tile.area() == 0) {
         return;
     }
-    // No pass writes it before the next frame's, which waits for Copy too.
-    transition(commands, vulkan::image_barrier(direct_buffer, Layout::eShaderReadOnlyOptimal,
-                                               Layout::eTransferSrcOptimal, Stage::eFragmentShader,
-                                               Access::eNone, Stage::eCopy, Access::eTransferRead));
+    direct_buffer.use(commands, vulkan::Use::CopySource);
     commands.copyImageToBuffer(
-        direct_buffer, Layout::eTransferSrcOptimal, pixels_.buffer(),
+        direct_buffer.image(), vk::ImageLayout::eTransferSrcOptimal, pixels_.buffer(),
         vk::BufferImageCopy(
             0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
             {static_cast<std::int32_t>(tile.x0), static_cast<std::int32_t>(tile.y0), 0},
             {width_px_, height_px, 1}));
-    transition(commands,
-               vulkan::image_barrier(direct_buffer, Layout::eTransferSrcOptimal,
-                                     Layout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eNone,
-                                     Stage::eFragmentShader, Access::eShaderSampledRead));
 }
 
 void FoveaDepth::collect(gaze::DepthPatch& patch) const {

@@ -5,6 +5,7 @@
 #include "runtime/foveation/picture/band_tiles.h"
 #include "runtime/gaze/seen_depth.h"
 #include "runtime/vulkan/memory.h"
+#include "runtime/vulkan/tracked_image.h"
 
 namespace gazeloop::render {
 
@@ -28,10 +29,9 @@ class FoveaDepth {
     /// For pictures of this size.
     FoveaDepth(const vulkan::Context& context, vk::Extent2D extent);
 
-    /// Records the copy from the direct buffer, which is SHADER_READ_ONLY_OPTIMAL before and after,
-    /// read by fragment shaders last. Nothing is copied where the fovea's pixel is not among
-    /// `disc_bands`. A barrier from Copy to Host is left to the caller.
-    void record(const vk::raii::CommandBuffer& commands, vk::Image direct_buffer,
+    /// Records the copy from the direct buffer. Nothing is copied where the fovea's pixel is not
+    /// among `disc_bands`. A barrier from Copy to Host is left to the caller.
+    void record(const vk::raii::CommandBuffer& commands, vulkan::TrackedImage& direct_buffer,
                 const gaze::EyeView& view, const gaze::PixelPosition& fovea,
                 std::span<const foveation::Columns> disc_bands);
 

@@ -1,7 +1,12 @@
 #include "runtime/render/map_buffers.h"
 
 #include <array>
+#include <cmath>
 #include <glm/vec4.hpp>
+#include <numbers>
+#include <span>
+
+#include "runtime/render/frame_uniforms.h"
 
 namespace gazeloop::render {
 namespace {
@@ -16,6 +21,7 @@ struct PackedTables {
     std::array<glm::vec4, kMantissaVectors> log2_mantissa;
     std::array<glm::vec4, kMantissaVectors> exp2_fraction;
     std::array<glm::vec4, kForwardVectors> forward;
+    std::array<glm::vec4, kMaxSamples> turns;
 };
 
 template <std::size_t Vectors, std::size_t Entries>
@@ -29,22 +35,22 @@ void pack(std::array<glm::vec4, Vectors>& packed, const std::array<float, Entrie
 
 }  // namespace
 
-MapBuffers::MapBuffers(const vulkan::Context& context, const MapTables& tables) {
-    PackedTables packed;
+MapBuffers::MapBuffers(const vulkan::Context& context, const MapTables& tables,
+                       std::uint32_t samples, std::uint32_t rows) {
+    PackedTables packed{};
     pack(packed.log2_mantissa, tables.log2_mantissa);
     pack(packed.exp2_fraction, tables.exp2_fraction);
     pack(packed.forward, tables.forward);
-    map_tables_ =
-        vulkan::HostBuffer(context, sizeof packed, vk::BufferUsageFlagBits::eUniformBuffer);
-    map_tables_.write(packed);
-    const std::span<const float> columns(tables.column);
-    column_table_ =
-        vulkan::HostBuffer(context, columns.size_bytes(), vk::BufferUsageFlagBits::eStorageBuffer);
-    column_table_.write(columns);
-    const std::span<const MapTables::Direction> rows(tables.row);
-    row_table_ =
-        vulkan::HostBuffer(context, rows.size_bytes(), vk::BufferUsageFlagBits::eStorageBuffer);
-    row_table_.write(rows);
+    const double row_angle = 2.0 * std::numbers::pi / rows;
+    const auto offsets = sample_offsets(samples);
+    for (std::size_t s = 0; s < samples; ++s) {
+        const double angle = offsets[s].y * row_angle;
+        packed.turns[s] = glm::vec4(glm::dvec4(std::cos(angle), std::sin(angle), 0.0, 0.0));
+    }
+    using Usage = vk::BufferUsageFlagBits;
+    map_tables_ = {context, std::as_bytes(std::span(&packed, 1)), Usage::eUniformBuffer};
+    column_table_ = {context, std::as_bytes(std::span(tables.column)), Usage::eStorageBuffer};
+    row_table_ = {context, std::as_bytes(std::span(tables.row)), Usage::eStorageBuffer};
 }
 
 }  // namespace gazeloop::render

@@ -7,9 +7,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <glm/gtc/packing.hpp>
 #include <limits>
 #include <memory>
+
+#include "runtime/vulkan/run_once.h"
 
 namespace gazeloop::render {
 namespace {
@@ -24,24 +27,13 @@ std::uint8_t encode_srgb(float linear) {
     return to_byte(255.0 * (c < 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055));
 }
 
-std::uint32_t bytes_per_pixel(vk::Format format) {
-    return format == vk::Format::eR16G16B16A16Sfloat ? 8 : 4;
+float decode_srgb(std::uint8_t byte) {
+    const double c = byte / 255.0;
+    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
 }
 
-void run_once(const vulkan::Context& context, auto&& record) {
-    const vk::raii::Device& device = context.device();
-    const vk::raii::CommandPool pool(
-        device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient,
-                                          context.queue_family()));
-    const vk::raii::CommandBuffers buffers(
-        device, vk::CommandBufferAllocateInfo(*pool, vk::CommandBufferLevel::ePrimary, 1));
-    const vk::raii::CommandBuffer& commands = buffers[0];
-    commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-    record(commands);
-    commands.end();
-    const vk::CommandBufferSubmitInfo info(*commands);
-    context.queue().submit2(vk::SubmitInfo2({}, {}, info));
-    context.device().waitIdle();
+std::uint32_t bytes_per_pixel(vk::Format format) {
+    return format == vk::Format::eR16G16B16A16Sfloat ? 8 : 4;
 }
 
 /// All pixels, row by row; the image is left in its layout.
@@ -52,11 +44,12 @@ vulkan::HostBuffer copy_to_host(const vulkan::Context& context, vk::Image image,
                               vk::BufferUsageFlagBits::eTransferDst);
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;
-    run_once(context, [&](const vk::raii::CommandBuffer& commands) {
+    vulkan::run_once(context, [&](const vk::raii::CommandBuffer& commands) {
         const auto move = [&](vk::ImageLayout from, vk::ImageLayout to) {
-            const auto barrier = vulkan::image_barrier(
-                image, from, to, Stage::eAllCommands, Access::eMemoryWrite, Stage::eAllCommands,
-                Access::eMemoryRead | Access::eMemoryWrite, aspect);
+            const vk::ImageMemoryBarrier2 barrier(
+                Stage::eAllCommands, Access::eMemoryWrite, Stage::eAllCommands,
+                Access::eMemoryRead | Access::eMemoryWrite, from, to, VK_QUEUE_FAMILY_IGNORED,
+                VK_QUEUE_FAMILY_IGNORED, image, {aspect, 0, 1, 0, 1});
             commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
         };
         move(layout, vk::ImageLayout::eTransferSrcOptimal);
@@ -85,27 +78,50 @@ std::vector<float> read_back_depth(const vulkan::Context& context,
 
 Picture read_back(const vulkan::Context& context, vk::Image image, vk::Extent2D extent,
                   vk::Format format, vk::ImageLayout layout) {
-    const vulkan::HostBuffer buffer = copy_to_host(
-        context, image, extent, vk::ImageAspectFlagBits::eColor, layout, bytes_per_pixel(format));
-    const std::size_t count = std::size_t{extent.width} * extent.height;
     Picture picture{extent.width, extent.height, {}};
-    picture.pixels.resize(count);
-    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(buffer.mapped().data());
     if (format == vk::Format::eR16G16B16A16Sfloat) {
-        for (std::size_t i = 0; i < count; ++i) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                std::uint16_t half = 0;
-                std::memcpy(&half, bytes + i * 8 + c * 2, sizeof half);
-                picture.pixels[i][c] = encode_srgb(glm::unpackHalf1x16(half));
-            }
+        const LinearPicture linear = read_back_linear(context, image, extent, format, layout);
+        picture.pixels.reserve(linear.pixels.size());
+        for (const glm::vec3& pixel : linear.pixels) {
+            picture.pixels.push_back(
+                {encode_srgb(pixel.x), encode_srgb(pixel.y), encode_srgb(pixel.z)});
         }
         return picture;
     }
+    const vulkan::HostBuffer buffer = copy_to_host(
+        context, image, extent, vk::ImageAspectFlagBits::eColor, layout, bytes_per_pixel(format));
+    picture.pixels.resize(std::size_t{extent.width} * extent.height);
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(buffer.mapped().data());
     const bool bgr = format == vk::Format::eB8G8R8A8Srgb || format == vk::Format::eB8G8R8A8Unorm;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
             picture.pixels[i][c] = bytes[i * 4 + (bgr ? 2 - c : c)];
         }
+    }
+    return picture;
+}
+
+LinearPicture read_back_linear(const vulkan::Context& context, vk::Image image, vk::Extent2D extent,
+                               vk::Format format, vk::ImageLayout layout) {
+    LinearPicture picture{extent.width, extent.height, {}};
+    if (format != vk::Format::eR16G16B16A16Sfloat) {
+        const Picture encoded = read_back(context, image, extent, format, layout);
+        picture.pixels.reserve(encoded.pixels.size());
+        for (const auto& pixel : encoded.pixels) {
+            picture.pixels.emplace_back(decode_srgb(pixel[0]), decode_srgb(pixel[1]),
+                                        decode_srgb(pixel[2]));
+        }
+        return picture;
+    }
+    const vulkan::HostBuffer buffer = copy_to_host(
+        context, image, extent, vk::ImageAspectFlagBits::eColor, layout, bytes_per_pixel(format));
+    picture.pixels.resize(std::size_t{extent.width} * extent.height);
+    const std::byte* const bytes = buffer.mapped().data();
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        std::array<std::uint16_t, 4> halves{};
+        std::memcpy(halves.data(), bytes + i * sizeof halves, sizeof halves);
+        picture.pixels[i] = {glm::unpackHalf1x16(halves[0]), glm::unpackHalf1x16(halves[1]),
+                             glm::unpackHalf1x16(halves[2])};
     }
     return picture;
 }

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "runtime/render/eye_uniforms.h"
-#include "runtime/render/method.h"
+#include "runtime/render/frame_uniforms.h"
+#include "runtime/scene/scenes.h"
 
 namespace gazeloop::render {
 
@@ -28,9 +28,10 @@ std::vector<settings::SettingRow> rows_of(RenderSettings& render,
         {"render.scale", "picture size over the display's", Number{&render.scale, 0.01, 2.0},
          Concerns::Input},
         {"render.scene", "what is rendered",
-         Choice{.value = &render.scene, .names = {kSceneNames.begin(), kSceneNames.end()}},
+         Choice{.value = &render.scene,
+                .names = {scene::scene_names().begin(), scene::scene_names().end()}},
          Concerns::Picture},
-        {"render.spp", "samples a texel or pixel", Whole{&render.spp, 1, kMaxSamples},
+        {"render.spp", "samples per texel or pixel", Whole{&render.spp, 1, kMaxSamples},
          Concerns::Picture},
     };
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <limits>
 #include <system_error>
 
 #include "runtime/render/picture.h"
@@ -9,43 +10,16 @@
 namespace gazeloop::render {
 namespace {
 
-struct Rendered {
-    gaze::PerEye<Picture> result;
-    gaze::PerEye<Picture> lp;  ///< empty for full resolution
-    gaze::PerEye<double> disc_radius_px{};
-};
-
-Rendered render_off_screen(const vulkan::Context& context, RendererConfig config,
-                           FrameRequest request) {
-    config.hash = false;
-    config.depth_format = vk::Format::eUndefined;
-    config.lp_background = {0.0F, 0.0F, 0.0F, 1.0F};
-    FrameRenderer renderer(context, config);
-    gaze::PerEye<vulkan::ColorImage> images;
-    for (const gaze::Eye eye : gaze::kEyes) {
-        const std::size_t e = gaze::index(eye);
-        images[e] = vulkan::ColorImage(
-            context, config.extents[e], config.format,
-            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
-        request.targets[e] = {images[e].image(), images[e].view()};
-    }
-    renderer.wait_for_slot();
-    renderer.render(request);
-    renderer.wait_idle();
-    Rendered rendered;
-    for (const gaze::Eye eye : gaze::kEyes) {
-        const std::size_t e = gaze::index(eye);
-        rendered.result[e] = read_back(context, images[e].image(), config.extents[e], config.format,
-                                       vk::ImageLayout::eColorAttachmentOptimal);
-        const LogPolarEye* const log_polar = renderer.log_polar_eye(eye);
-        if (log_polar != nullptr && !renderer.last_plan(eye).lp_tiles.empty()) {
-            const vulkan::ColorImage& lp = log_polar->lp_buffer();
-            rendered.lp[e] = read_back(context, lp.image(), lp.extent(), lp.format(),
-                                       vk::ImageLayout::eShaderReadOnlyOptimal);
-            rendered.disc_radius_px[e] = renderer.last_plan(eye).disc_radius_px;
+/// Cells that the plan left out hold anything: they are painted black.
+void blacken_unshaded(Picture& picture, const foveation::ShadedGrid& grid) {
+    for (std::uint32_t y = 0; y < picture.height; ++y) {
+        const foveation::Columns& band = grid.bands[y / foveation::kBandRows];
+        for (std::uint32_t x = 0; x < picture.width; ++x) {
+            if (x < band.first || x >= band.end) {
+                picture.pixels[std::size_t{y} * picture.width + x] = {};
+            }
         }
     }
-    return rendered;
 }
 
 }  // namespace
@@ -61,49 +35,97 @@ Expected<void> make_snapshot_folder(const std::filesystem::path& folder) {
     return {};
 }
 
-Expected<std::vector<std::filesystem::path>> write_snapshot(const vulkan::Context& context,
-                                                            const RendererConfig& config,
-                                                            const FrameRequest& request,
-                                                            const SnapshotOptions& options) {
+Snapshot::Snapshot(const vulkan::Context& context, const FrameRenderer& renderer)
+    : context_(&context), renderer_(&renderer) {
+    const vk::raii::Device& device = context.device();
+    const RendererConfig& config = renderer.config();
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        copies_[e] = vulkan::ColorImage(
+            context, config.extents[e], config.format,
+            vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc);
+    }
+    pool_ = vk::raii::CommandPool(
+        device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient,
+                                          context.queue_family()));
+    commands_ = std::move(vk::raii::CommandBuffers(
+        device, vk::CommandBufferAllocateInfo(*pool_, vk::CommandBufferLevel::ePrimary, 1))[0]);
+    const vk::SemaphoreTypeCreateInfo timeline(vk::SemaphoreType::eTimeline, 0);
+    copied_ = vk::raii::Semaphore(device, vk::SemaphoreCreateInfo({}, &timeline));
+}
+
+void Snapshot::on_rendered(const FrameView& view, const gaze::FrameFovea& fovea) {
+    // The last copy's commands are in use until it is done.
+    if (copies_made_ > 0) {
+        (void)context_->device().waitSemaphores(vk::SemaphoreWaitInfo({}, *copied_, copies_made_),
+                                                std::numeric_limits<std::uint64_t>::max());
+    }
+    pool_.reset();
+    commands_.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+    using Stage = vk::PipelineStageFlagBits2;
+    constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
+    using vulkan::Use;
+    const vk::ImageSubresourceLayers layers(kColor, 0, 0, 1);
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        auto shown = vulkan::TrackedImage::in_use(view.targets[e].image, kColor, Use::ColorTarget);
+        auto copy = vulkan::TrackedImage::in_use(copies_[e].image(), kColor, Use::CopyTarget);
+        shown.use(commands_, Use::CopySource);
+        copy.use(commands_, Use::CopyTarget, vulkan::Keep::Nothing);
+        commands_.copyImage(
+            shown.image(), shown.layout(), copy.image(), copy.layout(),
+            vk::ImageCopy(layers, {}, layers, {}, vk::Extent3D(copies_[e].extent(), 1)));
+        shown.use(commands_, Use::ColorTarget);
+    }
+    commands_.end();
+    const vk::CommandBufferSubmitInfo buffer(*commands_);
+    const vk::SemaphoreSubmitInfo done(*copied_, ++copies_made_, Stage::eAllCommands);
+    context_->queue().submit2(vk::SubmitInfo2({}, 0, nullptr, 1, &buffer, 1, &done));
+    last_ = {view, fovea};
+}
+
+Expected<std::vector<std::filesystem::path>> Snapshot::write(OffScreen* full,
+                                                             const SnapshotOptions& options) const {
     if (const auto made = make_snapshot_folder(options.folder); !made) {
         return std::unexpected(made.error());
     }
-    RendererConfig full_config = config;
-    full_config.method = Method::Full;
-    Rendered full = render_off_screen(context, full_config, request);
-    Rendered foveated;
-    if (config.method != Method::Full) {
-        foveated = render_off_screen(context, config, request);
+    context_->device().waitIdle();
+    if (full != nullptr) {
+        full->render(last_->view, last_->fovea);
     }
-
     std::vector<std::filesystem::path> files;
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
-        const auto write = [&](Picture& picture, std::string_view what,
-                               bool in_screen_space) -> Expected<void> {
-            if (picture.pixels.empty()) {
-                return {};
-            }
-            if (in_screen_space && options.mark_fovea) {
-                const double disc = foveated.disc_radius_px[e];
-                mark_fovea(picture, request.foveae[e], disc > 0.0 ? disc : kRingWithoutDisc_px);
-            }
+        const auto write = [&](const Picture& picture, std::string_view what) {
             files.push_back(options.folder / fmt::format("{}-{}.png", gaze::kEyeNames[e], what));
             return write_png(picture, files.back());
         };
-        Picture difference;
-        if (config.method != Method::Full) {
-            difference =
-                amplified_difference(foveated.result[e], full.result[e], options.difference_gain);
-        }
-        for (const auto& [picture, what, in_screen_space] :
-             {std::tuple{&full.result[e], "full", true},
-              {&foveated.result[e], "result", true},
-              {&foveated.lp[e], "lp", false},
-              {&difference, "difference", true}}) {
-            if (const auto written = write(*picture, what, in_screen_space); !written) {
-                return std::unexpected(written.error());
+        const auto write_marked = [&](Picture picture, std::string_view what) {
+            if (options.mark_fovea) {
+                const double ring_px = renderer_->last_plan(eye).ring_px;
+                mark_fovea(picture, last_->fovea.eyes[e].position,
+                           ring_px > 0.0 ? ring_px : kRingWithoutDisc_px);
             }
+            return write(picture, what);
+        };
+        const Picture shown = read_back(*context_, copies_[e].image(), copies_[e].extent(),
+                                        copies_[e].format(), vk::ImageLayout::eTransferDstOptimal);
+        auto written = write_marked(full != nullptr ? full->picture(eye) : shown, "full");
+        if (full != nullptr && written) {
+            written = write_marked(shown, "result");
+        }
+        for (const BufferPicture& buffer : renderer_->buffers(eye)) {
+            Picture between =
+                read_back(*context_, buffer.image->image(), buffer.image->extent(),
+                          buffer.image->format(), vk::ImageLayout::eShaderReadOnlyOptimal);
+            blacken_unshaded(between, *buffer.grid);
+            written = written ? write(between, buffer.name) : written;
+        }
+        if (full != nullptr && written) {
+            written = write_marked(
+                amplified_difference(shown, full->picture(eye), options.difference_gain),
+                "difference");
+        }
+        if (!written) {
+            return std::unexpected(written.error());
         }
     }
     return files;

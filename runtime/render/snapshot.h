@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "runtime/error.h"
+#include "runtime/frame/frame_observer.h"
 #include "runtime/render/frame_renderer.h"
+#include "runtime/render/off_screen.h"
 
 namespace gazeloop::render {
 
@@ -17,13 +19,41 @@ struct SnapshotOptions {
 /// Creates the folder if it is missing. Errors (BadInput).
 Expected<void> make_snapshot_folder(const std::filesystem::path& folder);
 
-/// Renders a frame once more, off screen, and writes for each eye EYE-full.png (full resolution),
-/// and for methods other than full also EYE-result.png, EYE-lp.png (the LP-buffer, black where the
-/// plan left texels out) and EYE-difference.png. The request's targets are ignored.
-/// Returns the files written. Errors (BadInput): the folder or a file cannot be written.
-Expected<std::vector<std::filesystem::path>> write_snapshot(const vulkan::Context& context,
-                                                            const RendererConfig& config,
-                                                            const FrameRequest& request,
-                                                            const SnapshotOptions& options);
+/// Keeps a copy of the pictures of the frame that was rendered last, and writes them in the end:
+/// the very ones that were shown, since what a history made of them cannot be rendered once more.
+class Snapshot final : public frame::FrameObserver {
+  public:
+    /// `renderer` must outlive this; its frames are the ones that are told.
+    Snapshot(const vulkan::Context& context, const FrameRenderer& renderer);
+
+    /// Submits a copy of the frame's pictures; costs the GPU that much time per frame.
+    void on_rendered(const FrameView& view, const gaze::FrameFovea& fovea) override;
+
+    /// Whether there was a frame.
+    [[nodiscard]] bool any() const { return last_.has_value(); }
+
+    /// For each eye: EYE-result.png, and what lies between scene and result (EYE-lp.png: the
+    /// LP-buffer, black where the plan left texels out). With `full`, a renderer of the same scene
+    /// at full resolution, also EYE-full.png and EYE-difference.png; null: what was shown is full
+    /// resolution, and is written as EYE-full.png. Returns the files written. Errors (BadInput):
+    /// the folder or a file cannot be written. Precondition: any().
+    Expected<std::vector<std::filesystem::path>> write(OffScreen* full,
+                                                       const SnapshotOptions& options) const;
+
+  private:
+    struct Shown {
+        FrameView view;
+        gaze::FrameFovea fovea;
+    };
+
+    const vulkan::Context* context_;
+    const FrameRenderer* renderer_;
+    gaze::PerEye<vulkan::ColorImage> copies_;
+    vk::raii::CommandPool pool_{nullptr};
+    vk::raii::CommandBuffer commands_{nullptr};
+    vk::raii::Semaphore copied_{nullptr};
+    std::uint64_t copies_made_ = 0;
+    std::optional<Shown> last_;
+};
 
 }  // namespace gazeloop::render

@@ -12,8 +12,10 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/latency/latency_summary.h"
+#include "runtime/methods/registry.h"
 #include "runtime/preview/preview_feed.h"
 #include "runtime/preview/window_process.h"
+#include "runtime/render/off_screen.h"
 #include "runtime/render/snapshot.h"
 #include "runtime/report/output_file.h"
 #include "runtime/report/session_summary.h"
@@ -23,6 +25,7 @@
 #include "runtime/run/run_checks.h"
 #include "runtime/run/run_observers.h"
 #include "runtime/run/run_target.h"
+#include "runtime/scene/scenes.h"
 #include "runtime/session/replay_check.h"
 #include "runtime/session/session_recorder.h"
 #include "runtime/time/clock.h"
@@ -31,11 +34,6 @@
 
 namespace gazeloop::run {
 namespace {
-
-render::Method method_named(std::string_view text) {
-    const auto at = std::ranges::find(render::kMethodNames, text);
-    return static_cast<render::Method>(at - render::kMethodNames.begin());
-}
 
 /// The profile's eyes at the target's picture sizes, head at the origin.
 gaze::StereoView profile_views(const display::DisplayProfile& display,
@@ -46,33 +44,6 @@ gaze::StereoView profile_views(const display::DisplayProfile& display,
         views[e] = display::profile_view(display, eye, extents[e].width, extents[e].height);
     }
     return views;
-}
-
-/// First draws compile shaders; in wall-clock runs that is not to look like a slow first frame.
-void warm_up(const vulkan::Context& context, const render::RendererConfig& config,
-             const gaze::StereoView& views) {
-    render::FrameRequest request;
-    request.views = views;
-    gaze::PerEye<vulkan::ColorImage> images;
-    gaze::PerEye<vulkan::DepthImage> depths;
-    render::FrameRenderer renderer(context, config);
-    for (const gaze::Eye eye : gaze::kEyes) {
-        const std::size_t e = gaze::index(eye);
-        images[e] = vulkan::ColorImage(
-            context, config.extents[e], config.format,
-            vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
-        request.targets[e] = {images[e].image(), images[e].view()};
-        if (config.depth_format != vk::Format::eUndefined) {
-            depths[e] = vulkan::DepthImage(context, config.extents[e], config.depth_format);
-            request.targets[e].depth_image = depths[e].image();
-            request.targets[e].depth_view = depths[e].view();
-        }
-        request.foveae[e] = {views[e].width_px / 2.0, views[e].height_px / 2.0};
-        request.gaze_directions[e] = {0.0, 0.0, -1.0};
-    }
-    renderer.wait_for_slot();
-    renderer.render(request);
-    renderer.wait_idle();
 }
 
 std::string_view end_text(LoopEnd end) {
@@ -124,14 +95,17 @@ class FrameRun {
         }
         config_ = renderer_config();
         check_recorded_target(request_, config_);
-        check_map(request_, config_);
-        render::FrameRenderer renderer(*context_, config_);
+        check_picture(request_, config_);
+        scene_ = scene::make_scene(*context_, values_.render.scene);
+        render::FrameRenderer renderer(*context_, *scene_, make_passes(values_.render.method),
+                                       config_);
         spdlog::info("Vulkan: {} ({})", context_->device_name(), context_->driver());
         spdlog::info("{}x{} per eye, method {}, scene {}, {} samples, target {}",
                      config_.extents[0].width, config_.extents[0].height, values_.render.method,
                      values_.render.scene, values_.render.spp, values_.target.name);
         if (request_.clock == RunClock::Wall) {
-            warm_up(*context_, config_, profile_views(display_, target_->extents()));
+            // First draws compile shaders: that is not to look like a slow first frame.
+            render::warm_up(*context_, renderer, profile_views(display_, target_->extents()));
         }
         open_recording(renderer);
         if (!display_.assumed.empty()) {
@@ -159,12 +133,13 @@ class FrameRun {
                                                    : latency::LoopClock::Wall;
     }
 
+    [[nodiscard]] render::MakePasses make_passes(std::string_view method) const {
+        return value_or_throw(
+            methods::find_method(method)->passes(values_.methods, *request_.settings));
+    }
+
     [[nodiscard]] render::RendererConfig renderer_config() const {
-        return {.method = method_named(values_.render.method),
-                .scene = values_.render.scene,
-                .samples = static_cast<std::uint32_t>(values_.render.spp),
-                .kfr = value_or_throw(methods::parameters(values_.methods.kfr, *request_.settings)),
-                .acuity = methods::parameters(values_.methods.acuity),
+        return {.samples = static_cast<std::uint32_t>(values_.render.spp),
                 .extents = target_->extents(),
                 .format = target_->format(),
                 .depth_format = target_->depth_format().value_or(vk::Format::eUndefined),
@@ -172,7 +147,7 @@ class FrameRun {
                 .hash = request_.hash,
                 .seen_depth = request_.openxr_gaze && request_.openxr_gaze->from_depth,
                 .frames_in_flight = static_cast<std::uint32_t>(values_.render.frames_in_flight),
-                .lp_background = std::nullopt};
+                .unshaded = std::nullopt};
     }
 
     void open_recording(const render::FrameRenderer& renderer) {
@@ -256,6 +231,10 @@ class FrameRun {
         if (check_) {
             parts.observers.push_back(&*check_);
         }
+        if (request_.snapshot) {
+            snapshot_ = std::make_unique<render::Snapshot>(*context_, renderer);
+            parts.observers.push_back(snapshot_.get());
+        }
         open_preview(renderer);
         if (preview_ != nullptr) {
             parts.observers.push_back(preview_.get());
@@ -309,7 +288,7 @@ class FrameRun {
                             .rolling_ns = display_.rolling_ns()},
                 .passes = renderer.passes(),
                 .ring_radius_px =
-                    [&renderer](gaze::Eye eye) { return renderer.last_plan(eye).disc_radius_px; }},
+                    [&renderer](gaze::Eye eye) { return renderer.last_plan(eye).ring_px; }},
             window_->memory());
     }
 
@@ -432,15 +411,24 @@ class FrameRun {
         if (!request_.snapshot) {
             return;
         }
-        if (!result_.last) {
+        if (!snapshot_->any()) {
             fail(ErrorKind::GateFailed,
                  "--snapshot: no frame was rendered (a runtime asks for none at first): use more "
                  "--frames");
             return;
         }
         try {
-            const auto files = value_or_throw(render::write_snapshot(
-                *context_, config_, *result_.last,
+            std::optional<render::OffScreen> full;
+            const std::string_view full_resolution = methods::all_methods().front().name;
+            if (values_.render.method != full_resolution) {
+                render::RendererConfig config = config_;
+                config.hash = false;
+                config.seen_depth = false;
+                config.depth_format = vk::Format::eUndefined;
+                full.emplace(*context_, *scene_, make_passes(full_resolution), config);
+            }
+            const auto files = value_or_throw(snapshot_->write(
+                full ? &*full : nullptr,
                 {.folder = *request_.snapshot, .mark_fovea = request_.mark_fovea}));
             for (const auto& file : files) {
                 fmt::print(out, "snapshot {}\n", file.string());
@@ -464,6 +452,8 @@ class FrameRun {
     std::unique_ptr<preview::PreviewFeed> preview_;  // writes into the window's memory
     bool window_broken_ = false;
     render::RendererConfig config_;
+    std::unique_ptr<scene::Scene> scene_;
+    std::unique_ptr<render::Snapshot> snapshot_;
     std::unique_ptr<session::SessionRecorder> recorder_;
     std::unique_ptr<RecordingObserver> recording_;
     session::ReplayHash hash_;

@@ -1,6 +1,6 @@
 #include "runtime/run/program_settings.h"
 
-#include "runtime/render/method.h"
+#include "runtime/methods/registry.h"
 #include "sim/simulation_settings.h"
 
 namespace gazeloop::run {
@@ -12,7 +12,7 @@ ProgramSettings::ProgramSettings() {
     add(rows_of(hid));
     add(rows_of(methods));
     add(rows_of(profile));
-    add(rows_of(render, {render::kMethodNames.begin(), render::kMethodNames.end()}));
+    add(rows_of(render, methods::rendered_methods()));
     add(rows_of(sim));
     add(rows_of(target));
     add(rows_of(virtual_time));

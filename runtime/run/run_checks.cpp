@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
-#include "runtime/foveation/log_polar/degenerate_map.h"
+#include "runtime/methods/registry.h"
 #include "runtime/report/output_file.h"
 #include "runtime/session/session_recorder.h"
 
@@ -18,9 +18,8 @@ void check_request(const FrameRunRequest& request) {
                         "with --target headless",
                         request.settings->origin("vulkan.device")));
     }
-    if (values.render.method == "kfr") {
-        (void)value_or_throw(methods::parameters(values.methods.kfr, *request.settings));
-    }
+    (void)value_or_throw(
+        methods::find_method(values.render.method)->passes(values.methods, *request.settings));
     if (request.openxr_gaze &&
         (values.target.name != "openxr" || request.clock != RunClock::Wall)) {
         throw SetupError(ErrorKind::Usage,
@@ -52,30 +51,21 @@ void check_recorded_target(const FrameRunRequest& request, const render::Rendere
     }
 }
 
-void check_map(const FrameRunRequest& request, const render::RendererConfig& config) {
-    if (config.method != render::Method::Kfr) {
+void check_picture(const FrameRunRequest& request, const render::RendererConfig& config) {
+    const ProgramValues& values = request.settings->values();
+    const methods::Method& method = *methods::find_method(values.render.method);
+    if (method.check_picture == nullptr) {
         return;
     }
-    const foveation::ImageSize image{config.extents[0].width, config.extents[0].height};
-    const gaze::PixelPosition middle{image.width_px / 2.0, image.height_px / 2.0};
-    const foveation::LpSize lp = value_or_throw(foveation::lp_buffer_size(config.kfr, image));
-    foveation::SamplingPlan plan;
-    foveation::plan_kfr(config.kfr, lp, image, middle, plan);
-    const std::string why =
-        foveation::why_degenerate(foveation::LogPolarMap(config.kfr.kernel, image, middle), lp,
-                                  plan.disc_radius_px - plan.disc_border_px);
-    if (why.empty()) {
+    const auto checked = method.check_picture(values.methods, *request.settings,
+                                              {config.extents[0].width, config.extents[0].height});
+    if (checked) {
         return;
     }
-    const std::string text = fmt::format(
-        "kfr draws nothing worth seeing with {}x{} texels for {}x{} px: {}: use a smaller "
-        "kfr.sigma, a larger kfr.lp_width, or another kfr.alpha or kfr.kernel (gazeloop plan "
-        "shows what each does)",
-        lp.width, lp.height, image.width_px, image.height_px, why);
     if (request.clock != RunClock::Recorded) {
-        throw SetupError(ErrorKind::Usage, text);
+        throw SetupError(checked.error());
     }
-    spdlog::warn("{}", text);
+    spdlog::warn("{}", checked.error().message);
 }
 
 }  // namespace gazeloop::run

@@ -15,6 +15,6 @@ void check_recorded_target(const FrameRunRequest& request, const render::Rendere
 
 /// Throws SetupError for parameters by which no picture is worth drawing. What was recorded by them
 /// is replayed nevertheless, with a warning.
-void check_map(const FrameRunRequest& request, const render::RendererConfig& config);
+void check_picture(const FrameRunRequest& request, const render::RendererConfig& config);
 
 }  // namespace gazeloop::run

@@ -6,7 +6,7 @@
 
 #include "runtime/foveation/eye/acuity_model.h"
 #include "runtime/foveation/eye/sufficiency.h"
-#include "runtime/methods/plan_methods.h"
+#include "runtime/methods/method.h"
 #include "runtime/report/line_chart.h"
 
 namespace gazeloop::trade {

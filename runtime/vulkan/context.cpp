@@ -205,22 +205,19 @@ void Context::create_device(Factory* factory) {
     queue_ = vk::raii::Queue(device_, queue_family_, 0);
 }
 
-std::optional<std::uint32_t> Context::find_memory_type(std::uint32_t mask,
-                                                       vk::MemoryPropertyFlags wanted) const {
-    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
-        if ((mask & (1U << i)) != 0 && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) {
-            return i;
-        }
-    }
-    return std::nullopt;
-}
-
-std::uint32_t Context::memory_type(std::uint32_t mask, vk::MemoryPropertyFlags wanted) const {
-    if (const auto found = find_memory_type(mask, wanted)) {
+std::uint32_t Context::memory_type(std::uint32_t mask, MemoryFor purpose) const {
+    if (const auto found = choose_memory_type(memory_, mask, purpose)) {
         return *found;
     }
-    throw SetupError(ErrorKind::NoDevice, fmt::format("'{}' has no memory that is {}",
-                                                      device_name(), vk::to_string(wanted)));
+    throw SetupError(
+        ErrorKind::NoDevice,
+        fmt::format("the Vulkan device {} has no memory of the needed kind", device_name()));
+}
+
+bool Context::is_host_visible(std::uint32_t type) const {
+    constexpr auto kShared =
+        vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
+    return (memory_.memoryTypes[type].propertyFlags & kShared) == kShared;
 }
 
 std::string Context::device_name() const { return physical_.getProperties().deviceName.data(); }

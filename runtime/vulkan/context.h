@@ -8,6 +8,7 @@
 #include <vulkan/vulkan_raii.hpp>
 
 #include "runtime/vulkan/factory.h"
+#include "runtime/vulkan/memory_types.h"
 
 namespace gazeloop::vulkan {
 
@@ -41,13 +42,10 @@ class Context {
     /// Valid bits of the queue's timestamps, 36 to 64.
     [[nodiscard]] std::uint32_t timestamp_bits() const { return timestamp_bits_; }
 
-    /// A memory type that the mask allows and that has the wanted properties; none if there is
-    /// none.
-    [[nodiscard]] std::optional<std::uint32_t> find_memory_type(
-        std::uint32_t mask, vk::MemoryPropertyFlags wanted) const;
-    /// Likewise. Throws SetupError if there is none.
-    [[nodiscard]] std::uint32_t memory_type(std::uint32_t mask,
-                                            vk::MemoryPropertyFlags wanted) const;
+    /// The type of memory that suits best. Throws SetupError if the device has none.
+    [[nodiscard]] std::uint32_t memory_type(std::uint32_t mask, MemoryFor purpose) const;
+    /// Whether the host can write into it.
+    [[nodiscard]] bool is_host_visible(std::uint32_t type) const;
 
     [[nodiscard]] std::string device_name() const;
     [[nodiscard]] std::string driver() const;

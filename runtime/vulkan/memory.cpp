@@ -1,5 +1,7 @@
 #include "runtime/vulkan/memory.h"
 
+#include "runtime/vulkan/run_once.h"
+
 namespace gazeloop::vulkan {
 namespace {
 
@@ -18,19 +20,41 @@ HostBuffer::HostBuffer(const Context& context, vk::DeviceSize bytes, vk::BufferU
     const vk::raii::Device& device = context.device();
     buffer_ = vk::raii::Buffer(device, vk::BufferCreateInfo({}, bytes, usage));
     const vk::MemoryRequirements needs = buffer_.getMemoryRequirements();
-    using Property = vk::MemoryPropertyFlagBits;
-    const vk::MemoryPropertyFlags shared = Property::eHostVisible | Property::eHostCoherent;
-    const vk::MemoryPropertyFlags cached = shared | Property::eHostCached;
     const bool read_back = static_cast<bool>(usage & vk::BufferUsageFlagBits::eTransferDst);
-    const auto cached_type =
-        read_back ? context.find_memory_type(needs.memoryTypeBits, cached) : std::nullopt;
     memory_ = vk::raii::DeviceMemory(
-        device, vk::MemoryAllocateInfo(
-                    needs.size, cached_type ? *cached_type
-                                            : context.memory_type(needs.memoryTypeBits, shared)));
+        device,
+        vk::MemoryAllocateInfo(
+            needs.size, context.memory_type(needs.memoryTypeBits,
+                                            read_back ? MemoryFor::ReadBack : MemoryFor::Upload)));
     buffer_.bindMemory(*memory_, 0);
     // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): needs the bound memory
     mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+}
+
+DeviceBuffer::DeviceBuffer(const Context& context, std::span<const std::byte> content,
+                           vk::BufferUsageFlags usage, Way way) {
+    const vk::raii::Device& device = context.device();
+    buffer_ = vk::raii::Buffer(
+        device,
+        vk::BufferCreateInfo({}, content.size(), usage | vk::BufferUsageFlagBits::eTransferDst));
+    const vk::MemoryRequirements needs = buffer_.getMemoryRequirements();
+    const std::uint32_t type = context.memory_type(needs.memoryTypeBits, MemoryFor::Device);
+    memory_ = vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo(needs.size, type));
+    buffer_.bindMemory(*memory_, 0);
+    if (way == Way::Shortest && context.is_host_visible(type)) {
+        std::memcpy(memory_.mapMemory(0, VK_WHOLE_SIZE), content.data(), content.size());
+        memory_.unmapMemory();
+        return;
+    }
+    HostBuffer staging(context, content.size(), vk::BufferUsageFlagBits::eTransferSrc);
+    staging.write(content);
+    run_once(context, [&](const vk::raii::CommandBuffer& commands) {
+        commands.copyBuffer(staging.buffer(), *buffer_, vk::BufferCopy(0, 0, content.size()));
+        using Stage = vk::PipelineStageFlagBits2;
+        const vk::MemoryBarrier2 written(Stage::eCopy, vk::AccessFlagBits2::eTransferWrite,
+                                         Stage::eAllCommands, vk::AccessFlagBits2::eMemoryRead);
+        commands.pipelineBarrier2(vk::DependencyInfo({}, written));
+    });
 }
 
 DeviceImage::DeviceImage(const Context& context, vk::Extent2D extent, vk::Format format,
@@ -44,8 +68,7 @@ DeviceImage::DeviceImage(const Context& context, vk::Extent2D extent, vk::Format
     const vk::MemoryRequirements needs = image_.getMemoryRequirements();
     memory_ = vk::raii::DeviceMemory(
         device, vk::MemoryAllocateInfo(
-                    needs.size, context.memory_type(needs.memoryTypeBits,
-                                                    vk::MemoryPropertyFlagBits::eDeviceLocal)));
+                    needs.size, context.memory_type(needs.memoryTypeBits, MemoryFor::Device)));
     image_.bindMemory(*memory_, 0);
 }
 
@@ -68,22 +91,6 @@ vk::raii::ImageView make_color_view(const Context& context, vk::Image image, vk:
 
 vk::raii::ImageView make_depth_view(const Context& context, vk::Image image, vk::Format format) {
     return make_view(context, image, format, vk::ImageAspectFlagBits::eDepth);
-}
-
-vk::ImageMemoryBarrier2 image_barrier(vk::Image image, vk::ImageLayout from, vk::ImageLayout to,
-                                      vk::PipelineStageFlags2 after, vk::AccessFlags2 writes,
-                                      vk::PipelineStageFlags2 before, vk::AccessFlags2 reads,
-                                      vk::ImageAspectFlags aspect) {
-    return {after,
-            writes,
-            before,
-            reads,
-            from,
-            to,
-            VK_QUEUE_FAMILY_IGNORED,
-            VK_QUEUE_FAMILY_IGNORED,
-            image,
-            whole(aspect)};
 }
 
 }  // namespace gazeloop::vulkan

@@ -10,8 +10,8 @@
 namespace gazeloop::vulkan {
 
 /// A buffer with memory of its own that the host maps for as long as it lives. Host-visible and
-/// coherent: everything here is either small and rewritten every frame, or read back; what is read
-/// back (TransferDst) lies in memory that the host caches, where the device has such.
+/// coherent: what is in it is either small and rewritten every frame, or read back (TransferDst).
+/// What the device reads again and again is a DeviceBuffer.
 class HostBuffer {
   public:
     HostBuffer() = default;
@@ -42,6 +42,26 @@ class HostBuffer {
     vk::raii::Buffer buffer_{nullptr};
     vk::DeviceSize bytes_ = 0;
     std::byte* mapped_ = nullptr;
+};
+
+/// A buffer in the device's own memory, filled once: what every fragment reads.
+class DeviceBuffer {
+  public:
+    /// How the content gets there.
+    enum class Way : std::uint8_t {
+        Shortest,  ///< written by the host, where that memory is visible to it; else copied
+        Copied,    ///< through another buffer, as on a discrete GPU
+    };
+    DeviceBuffer() = default;
+    /// Waits for the device if the content is copied.
+    DeviceBuffer(const Context& context, std::span<const std::byte> content,
+                 vk::BufferUsageFlags usage, Way way = Way::Shortest);
+
+    [[nodiscard]] vk::Buffer buffer() const { return *buffer_; }
+
+  private:
+    vk::raii::DeviceMemory memory_{nullptr};
+    vk::raii::Buffer buffer_{nullptr};
 };
 
 /// A two-dimensional image with memory of its own.
@@ -83,11 +103,5 @@ class DepthImage : public DeviceImage {
 /// stencil.
 vk::raii::ImageView make_color_view(const Context& context, vk::Image image, vk::Format format);
 vk::raii::ImageView make_depth_view(const Context& context, vk::Image image, vk::Format format);
-
-/// A layout transition of a whole image with its memory dependency.
-vk::ImageMemoryBarrier2 image_barrier(
-    vk::Image image, vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 after,
-    vk::AccessFlags2 writes, vk::PipelineStageFlags2 before, vk::AccessFlags2 reads,
-    vk::ImageAspectFlags aspect = vk::ImageAspectFlagBits::eColor);
 
 }  // namespace gazeloop::vulkan

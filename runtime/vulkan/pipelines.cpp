@@ -1,6 +1,7 @@
 #include "runtime/vulkan/pipelines.h"
 
 #include <array>
+#include <vector>
 
 #include "shaders/shader_library.h"
 
@@ -14,26 +15,24 @@ vk::raii::ShaderModule load(const vk::raii::Device& device, std::string_view nam
 
 }  // namespace
 
-vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device, Inputs inputs) {
-    using Type = vk::DescriptorType;
-    constexpr auto kFragment = vk::ShaderStageFlagBits::eFragment;
-    const std::array bindings{
-        vk::DescriptorSetLayoutBinding(kEyeUniformsBinding, Type::eUniformBuffer, 1, kFragment),
-        vk::DescriptorSetLayoutBinding(kMapTablesBinding, Type::eUniformBuffer, 1, kFragment),
-        vk::DescriptorSetLayoutBinding(kColumnTableBinding, Type::eStorageBuffer, 1, kFragment),
-        vk::DescriptorSetLayoutBinding(kRowTableBinding, Type::eStorageBuffer, 1, kFragment),
-        vk::DescriptorSetLayoutBinding(kBandsBinding, Type::eStorageBuffer, 1, kFragment),
-        vk::DescriptorSetLayoutBinding(kLpBufferBinding, Type::eCombinedImageSampler, 1, kFragment),
-        vk::DescriptorSetLayoutBinding(kDirectBufferBinding, Type::eCombinedImageSampler, 1,
-                                       kFragment),
-    };
-    const std::uint32_t count = inputs == Inputs::Uniforms ? 1 : bindings.size();
-    return {device, vk::DescriptorSetLayoutCreateInfo({}, count, bindings.data())};
+vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device,
+                                              std::span<const vk::DescriptorType> bindings,
+                                              vk::ShaderStageFlags stages) {
+    std::vector<vk::DescriptorSetLayoutBinding> stated;
+    stated.reserve(bindings.size());
+    for (const vk::DescriptorType type : bindings) {
+        stated.emplace_back(static_cast<std::uint32_t>(stated.size()), type, 1, stages);
+    }
+    return {device, vk::DescriptorSetLayoutCreateInfo({}, stated)};
 }
 
 vk::raii::PipelineLayout make_pipeline_layout(const vk::raii::Device& device,
-                                              const vk::raii::DescriptorSetLayout& set_layout) {
-    return {device, vk::PipelineLayoutCreateInfo({}, *set_layout)};
+                                              std::array<vk::DescriptorSetLayout, 3> sets,
+                                              vk::DescriptorSetLayout empty) {
+    for (vk::DescriptorSetLayout& set : sets) {
+        set = set ? set : empty;
+    }
+    return {device, vk::PipelineLayoutCreateInfo({}, sets)};
 }
 
 vk::raii::Pipeline make_pipeline(const vk::raii::Device& device,
@@ -41,17 +40,17 @@ vk::raii::Pipeline make_pipeline(const vk::raii::Device& device,
                                  const PipelineSource& source) {
     const vk::raii::ShaderModule vertex = load(device, source.vertex);
     const vk::raii::ShaderModule fragment = load(device, source.fragment);
-    // constant_id 0: kEncodeSrgb, 1: kSamples, 2: kInGazeFrame, 3: kDisc.
-    const std::array<std::uint32_t, 4> constants{source.encode_srgb ? 1U : 0U, source.samples,
-                                                 source.in_gaze_frame ? 1U : 0U,
-                                                 source.disc ? 1U : 0U};
-    const std::array entries{
-        vk::SpecializationMapEntry(0, 0, sizeof(std::uint32_t)),
-        vk::SpecializationMapEntry(1, sizeof(std::uint32_t), sizeof(std::uint32_t)),
-        vk::SpecializationMapEntry(2, 2 * sizeof(std::uint32_t), sizeof(std::uint32_t)),
-        vk::SpecializationMapEntry(3, 3 * sizeof(std::uint32_t), sizeof(std::uint32_t))};
-    const vk::SpecializationInfo specialization(entries.size(), entries.data(), sizeof constants,
-                                                constants.data());
+    std::vector<std::uint32_t> values;
+    std::vector<vk::SpecializationMapEntry> entries;
+    for (const ShaderConstant& constant : source.constants) {
+        entries.emplace_back(constant.id,
+                             static_cast<std::uint32_t>(values.size() * sizeof(std::uint32_t)),
+                             sizeof(std::uint32_t));
+        values.push_back(constant.value);
+    }
+    const vk::SpecializationInfo specialization(
+        static_cast<std::uint32_t>(entries.size()), entries.data(),
+        values.size() * sizeof(std::uint32_t), values.data());
     const std::array stages{
         vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"),
         vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main",

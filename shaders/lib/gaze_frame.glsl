@@ -13,8 +13,8 @@ float half_sine_squared(vec3 ray) {
 
 // The ray of a position in the picture, in the gaze's frame.
 vec3 gaze_ray(vec2 position_px) {
-    return eye.gaze_from_picture[0].xyz * position_px.x +
-           eye.gaze_from_picture[1].xyz * position_px.y + eye.gaze_from_picture[2].xyz;
+    return map.gaze_from_picture[0].xyz * position_px.x +
+           map.gaze_from_picture[1].xyz * position_px.y + map.gaze_from_picture[2].xyz;
 }
 
 // As lp_share in lib/log_polar.glsl.
@@ -27,4 +27,11 @@ vec2 gaze_lp_share(vec2 position_px) {
 vec3 gaze_ray_at(float rho, vec2 direction) {
     float rho2 = rho * rho;
     return vec3(2.0 * rho * direction, 1.0 - rho2) / (1.0 + rho2);
+}
+
+// The position in the picture of a ray of the view, px. Precondition: it does not lie in the view's
+// plane. Only scenes that read a picture of their own (a G-buffer) need it.
+vec2 position_of(vec3 view_ray) {
+    vec2 tangents = view_ray.xy / -view_ray.z;
+    return (tangents - eye.tangents.xz) / (eye.tangents.yw - eye.tangents.xz) * image_size();
 }

@@ -1,19 +1,34 @@
 // Log-polar maps by tables: no transcendental function of the driver is called, so that the error is
 // the tables' and the same everywhere (runtime/foveation/map_error.cpp derives it, float_map.cpp
 // mirrors this arithmetic). Here, the map in the picture's frame; gaze_frame.glsl has the other.
+
+// What of the map depends on the gaze; the C++ side is foveation/log_polar/map_uniforms.h.
+layout(std140, set = 2, binding = 0) uniform MapUniforms {
+    vec4 fovea_and_log2;        // fovea, px; log2 of the farthest radius; .5 / that
+    vec4 lp_and_disc;           // LP-buffer's width, height; disc radius and its border, px or sin(e/2)
+    vec4 radius_and_bands;      // picture frame: farthest radius, px; 1 / its square; LP-buffer's bands
+    vec4 gaze_from_picture[3];  // gaze frame: columns; (x_px, y_px, 1) to the gaze's ray
+    vec4 view_from_gaze[3];     // gaze frame: columns of its rotation into the view
+} map;
+
+// Whether the map is centred by a rotation into the gaze's frame or, in the picture, by a
+// translation.
+layout(constant_id = 2) const bool kInGazeFrame = false;
+
 const int kMantissaSteps = 512;
 const int kForwardSteps = 4096;
 
 // Entry i lies in component i % 4 of element i / 4.
-layout(std140, set = 0, binding = 1) uniform MapTables {
+layout(std140, set = 2, binding = 1) uniform MapTables {
     vec4 log2_mantissa[kMantissaSteps / 4 + 1];
     vec4 exp2_fraction[kMantissaSteps / 4 + 1];
     vec4 forward[kForwardSteps / 4 + 1];
+    vec4 turns[16];  // samples in their row: cosine, sine of y rows; unused
 } tables;
-layout(std430, set = 0, binding = 2) readonly buffer ColumnTable { float column_table[]; };
-layout(std430, set = 0, binding = 3) readonly buffer RowTable { vec2 row_table[]; };
+layout(std430, set = 2, binding = 2) readonly buffer ColumnTable { float column_table[]; };
+layout(std430, set = 2, binding = 3) readonly buffer RowTable { vec2 row_table[]; };
 
-vec2 lp_size() { return eye.lp_and_disc.xy; }
+vec2 lp_size() { return map.lp_and_disc.xy; }
 
 // log2 of a positive, finite float: exponent plus the table at the mantissa's 9 leading bits.
 float log2_by_table(float y) {
@@ -59,9 +74,9 @@ float radius_at(vec3 radii, float offset) {
     return radii.y + offset * (radii.z - radii.x + offset * bend);
 }
 
-// A sample's direction from that of its row's centre; offset as EyeUniforms has it.
-vec2 direction_at(vec2 row, vec4 offset) {
-    return vec2(row.x * offset.z - row.y * offset.w, row.y * offset.z + row.x * offset.w);
+// A sample's direction from that of its row's centre; turn as the tables have it.
+vec2 direction_at(vec2 row, vec2 turn) {
+    return vec2(row.x * turn.x - row.y * turn.y, row.y * turn.x + row.x * turn.y);
 }
 
 // The angle of a direction in turns, [0, 1]; 0 for the null vector. Odd polynomial in the smaller
@@ -89,17 +104,17 @@ float turns(vec2 d) {
 // Where the LP-buffer holds a position of the picture, as shares of its width and height; row 1 is
 // row 0.
 vec2 lp_share(vec2 position_px) {
-    vec2 d = position_px - eye.fovea_and_log2.xy;
-    return vec2(column_share(dot(d, d) * eye.radius.y, eye.fovea_and_log2.w), turns(d));
+    vec2 d = position_px - map.fovea_and_log2.xy;
+    return vec2(column_share(dot(d, d) * map.radius_and_bands.y, map.fovea_and_log2.w), turns(d));
 }
 
 // The radii of a column's inner edge, centre and outer edge, px.
 vec3 column_radii(int column) {
-    vec3 x = -column_values(column) * eye.fovea_and_log2.z;
-    return eye.radius.x * vec3(exp2_by_table(x.x), exp2_by_table(x.y), exp2_by_table(x.z));
+    vec3 x = -column_values(column) * map.fovea_and_log2.z;
+    return map.radius_and_bands.x * vec3(exp2_by_table(x.x), exp2_by_table(x.y), exp2_by_table(x.z));
 }
 
 // The position in the picture of a sample at this radius, px, and in this direction.
 vec2 picture_position(float radius, vec2 direction) {
-    return eye.fovea_and_log2.xy + radius * direction;
+    return map.fovea_and_log2.xy + radius * direction;
 }

@@ -5,8 +5,10 @@ void main() {
     vec4 sum = vec4(0.0);
     for (int s = 0; s < kSamples; ++s) {
         vec2 position = gl_FragCoord.xy + eye.offsets[s].xy;
-        sum += scene_radiance(eye.camera_and_time.xyz, ray_direction(position),
-                              eye.camera_and_time.w);
+        SceneSample seen = scene_sample(
+            SamplePlace(position, eye.camera_and_time.xyz, ray_direction(position)),
+            eye.camera_and_time.w);
+        sum += vec4(seen.radiance, seen.nearness);
     }
     sum /= float(kSamples);
     color = vec4(encoded(min(sum.rgb, kGreatestRadiance)), 1.0);

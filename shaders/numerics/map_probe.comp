@@ -7,8 +7,8 @@ layout(local_size_x = 64) in;
 #include "../lib/log_polar.glsl"
 #include "../lib/gaze_frame.glsl"
 
-layout(std430, set = 0, binding = 6) readonly buffer Inputs { vec4 inputs[]; };
-layout(std430, set = 0, binding = 7) writeonly buffer Outputs { vec4 outputs[]; };
+layout(std430, set = 2, binding = 4) readonly buffer Inputs { vec4 inputs[]; };
+layout(std430, set = 2, binding = 5) writeonly buffer Outputs { vec4 outputs[]; };
 
 // inputs: picture position (xy), column and row (zw). outputs: two vectors, share (xy) and ray of
 // the position, then the texel's position in the picture or ray in the view (xyz).
@@ -23,8 +23,8 @@ void main() {
     vec3 place;
     if (kInGazeFrame) {
         vec3 ray = gaze_ray_at(column_values(cell.x).y, direction);
-        place = eye.view_from_gaze[0].xyz * ray.x + eye.view_from_gaze[1].xyz * ray.y +
-                eye.view_from_gaze[2].xyz * ray.z;
+        place = map.view_from_gaze[0].xyz * ray.x + map.view_from_gaze[1].xyz * ray.y +
+                map.view_from_gaze[2].xyz * ray.z;
     } else {
         place = vec3(picture_position(column_radii(cell.x).y, direction), 0.0);
     }

@@ -9,15 +9,15 @@
 #include "../lib/encode.glsl"
 #include "../lib/depth.glsl"
 
-layout(set = 0, binding = 5) uniform sampler2D lp_buffer;
-layout(set = 0, binding = 6) uniform sampler2D direct_buffer;
+layout(set = 2, binding = 5) uniform sampler2D lp_buffer;
+layout(set = 2, binding = 6) uniform sampler2D direct_buffer;
 layout(location = 0) out vec4 color;
 
 float disc_weight() {
-    float radius = eye.lp_and_disc.z;
-    float border = eye.lp_and_disc.w;
+    float radius = map.lp_and_disc.z;
+    float border = map.lp_and_disc.w;
     float r = kInGazeFrame ? sqrt(half_sine_squared(gaze_ray(gl_FragCoord.xy)))
-                           : distance(gl_FragCoord.xy, eye.fovea_and_log2.xy);
+                           : distance(gl_FragCoord.xy, map.fovea_and_log2.xy);
     float t = border > 0.0 ? clamp((radius - r) / border, 0.0, 1.0) : float(r < radius);
     return t * t * (3.0 - 2.0 * t);
 }

@@ -9,7 +9,10 @@
 // returns    linear radiance, Rec.709 primaries, 0 to 4 (a white wall that faces the sun has 1.3);
 //            and 1 / distance of what is seen first, 1/m, 0 for the sky.
 //
-// Needs GL_GOOGLE_include_directive; uses no binding. Every other name that it brings starts with
+// scene_sample() answers that as lib/scene.glsl asks; motion is that of the head, as if nothing in
+// the scene moved by itself.
+//
+// Needs GL_GOOGLE_include_directive and lib/scene.glsl; uses no binding of its own. Every other name that it brings starts with
 // scene_, Scene, SCENE_, material_ or distance_to_, or ends in _stage.
 #ifndef GAZELOOP_RAYMARCH_GLSL
 #define GAZELOOP_RAYMARCH_GLSL
@@ -70,6 +73,12 @@ vec4 scene_radiance(vec3 origin_m, vec3 direction, float time_s) {
         ray = scene_ray(above_m, reflect(ray.direction, normal));
     }
     return vec4(radiance, nearness);
+}
+
+SceneSample scene_sample(SamplePlace place, float time_s) {
+    vec4 seen = scene_radiance(place.origin_m, place.direction, time_s);
+    vec3 point_m = place.origin_m + place.direction / max(seen.a, 1e-6);
+    return SceneSample(seen.rgb, seen.a, motion_of_still_px(place.position_px, point_m));
 }
 
 #endif

@@ -73,8 +73,8 @@ class Measurement {
     }
 
   private:
-    [[nodiscard]] render::RendererConfig with_method(render::Method method) const {
-        render::RendererConfig config = config_;
+    [[nodiscard]] render::MethodConfig with_method(render::Method method) const {
+        render::MethodConfig config = config_;
         config.method = method;
         return config;
     }
@@ -88,7 +88,7 @@ class Measurement {
     const Case& case_;
     unsigned rounds_;
     RaycastSetup setup_;
-    render::RendererConfig config_;
+    render::MethodConfig config_;
     Contender full_;
     Contender acuity_;
     Contender kfr_;

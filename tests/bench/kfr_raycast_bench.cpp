@@ -64,8 +64,8 @@ class Measurement {
     }
 
   private:
-    static render::RendererConfig with_method(render::RendererConfig config, render::Method method,
-                                              bool disc) {
+    static render::MethodConfig with_method(render::MethodConfig config, render::Method method,
+                                            bool disc) {
         config.method = method;
         config.kfr.disc = disc;
         return config;
@@ -118,7 +118,7 @@ class Measurement {
     const Case& case_;
     unsigned rounds_;
     RaycastSetup setup_;
-    render::RendererConfig config_;
+    render::MethodConfig config_;
     Contender full_;
     Contender kfr_;
     Contender plain_;

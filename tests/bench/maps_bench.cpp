@@ -5,8 +5,8 @@
 
 #include "runtime/error.h"
 #include "runtime/foveation/plans/acuity_plan.h"
+#include "runtime/foveation/plans/kfr_plan.h"
 #include "runtime/numerics/table_builds.h"
-#include "runtime/render/eye_uniforms.h"
 #include "tests/bench/bench.h"
 
 namespace gazeloop::bench {
@@ -26,15 +26,15 @@ gaze::EyeView square_view() {
 template <typename Plan>
 double new_gaze_ms(const Plan& plan_at) {
     const gaze::EyeView view = square_view();
-    foveation::SamplingPlan plan;
+    foveation::LogPolarPlan plan;
     std::vector<double> ms;
     double sum = 0.0;
     for (int i = 0; i < 200; ++i) {
         const gaze::PixelPosition at{i * 977 % 2160 + 0.25, i * 1471 % 2160 + 0.75};
         const auto begin = std::chrono::steady_clock::now();
         plan_at(view, at, plan);
-        sum += static_cast<double>(
-            render::eye_uniforms(view, 0.0, 1, &plan).lp_and_disc.z);  // the work is used
+        sum +=
+            static_cast<double>(foveation::map_uniforms(plan).lp_and_disc.z);  // the work is used
         ms.push_back(
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
                 .count());
@@ -61,12 +61,12 @@ std::vector<Figure> maps(const Options& options) {
         figures.push_back({kBench, kCase, metric, ms, "ms", "lower"});
     };
     add("a new gaze, kfr", new_gaze_ms([&](const gaze::EyeView&, const gaze::PixelPosition& at,
-                                           foveation::SamplingPlan& plan) {
+                                           foveation::LogPolarPlan& plan) {
             foveation::plan_kfr(kfr, lp, {2160, 2160}, at, plan);
         }));
     add("a new gaze, acuity",
         new_gaze_ms([&](const gaze::EyeView& view, const gaze::PixelPosition& at,
-                        foveation::SamplingPlan& plan) {
+                        foveation::LogPolarPlan& plan) {
             foveation::plan_acuity(acuity, profile, view, gaze::unproject(at, view), plan);
         }));
     return figures;

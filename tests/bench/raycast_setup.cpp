@@ -21,7 +21,7 @@ RaycastSetup::RaycastSetup(const vulkan::Context& context, vk::Extent2D extent,
                            double half_width_rad)
     : extents_{extent, kOtherEye}, half_width_rad_(half_width_rad) {
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-        images_[e] = vulkan::ColorImage(context, extents_[e], render::RendererConfig{}.format,
+        images_[e] = vulkan::ColorImage(context, extents_[e], render::MethodConfig{}.format,
                                         vk::ImageUsageFlagBits::eColorAttachment);
     }
 }
@@ -34,8 +34,8 @@ std::string RaycastSetup::name() const {
     return fmt::format("{}x{}", extent().width, extent().height);
 }
 
-render::RendererConfig RaycastSetup::config(const Options& options) const {
-    render::RendererConfig config;
+render::MethodConfig RaycastSetup::config(const Options& options) const {
+    render::MethodConfig config;
     config.samples = options.samples.value_or(16);
     config.extents = extents_;
     return config;
@@ -62,14 +62,19 @@ render::FrameRequest RaycastSetup::frame(double yaw_deg, const gaze::PixelPositi
     return request;
 }
 
-Contender::Contender(const vulkan::Context& context, const render::RendererConfig& config)
-    : renderer_(std::make_unique<render::FrameRenderer>(context, config)) {}
+Contender::Contender(const vulkan::Context& context, const render::MethodConfig& config)
+    : config_(config),
+      scene_(scene::make_scene(context, "raymarch")),
+      renderer_(std::make_unique<render::FrameRenderer>(context, *scene_, render::passes_of(config),
+                                                        config)) {}
 
 void Contender::round(const render::FrameRequest& request, bool keep) {
     renderer_->wait_for_slot();
-    counts_ = renderer_->render(request);
+    renderer_->begin(request);
+    counts_ = renderer_->finish(request.fovea());
     renderer_->wait_idle();
     const auto finished = renderer_->next_finished();
+    plan_ = render::plan_of(config_, request, gaze::Eye::Left);
     if (!keep || !finished) {
         return;
     }
@@ -101,7 +106,7 @@ double Contender::median_ms(std::string_view pass) const {
 double Contender::cells() const { return static_cast<double>(counts_.shaded()); }
 
 CostMap::CostMap(const vulkan::Context& context, const RaycastSetup& setup,
-                 render::RendererConfig config, double yaw_deg, double whole_ms)
+                 render::MethodConfig config, double yaw_deg, double whole_ms)
     : extent_(setup.extent()) {
     const vk::Extent2D cell(extent_.width / kCells, extent_.height / kCells);
     config.method = render::Method::Full;
@@ -148,7 +153,7 @@ double CostMap::ms_at(const gaze::PixelPosition& position) const {
                          index(position.x_px / extent_.width)];
 }
 
-double CostMap::predicted_ms(const foveation::SamplingPlan& plan,
+double CostMap::predicted_ms(const foveation::LogPolarPlan& plan,
                              const foveation::RadialMap& map) const {
     double sum_ms = 0.0;
     const auto add = [&](const std::vector<foveation::Columns>& bands, std::uint32_t height,
@@ -160,11 +165,11 @@ double CostMap::predicted_ms(const foveation::SamplingPlan& plan,
             }
         }
     };
-    add(plan.lp_bands, plan.lp.height, [&](std::uint32_t x, std::uint32_t y) {
+    add(plan.texels.bands, plan.lp.height, [&](std::uint32_t x, std::uint32_t y) {
         return map.position({(x + 0.5) / plan.lp.width, (y + 0.5) / plan.lp.height})
             .value_or(gaze::PixelPosition{});
     });
-    add(plan.disc_bands, extent_.height,
+    add(plan.disc.bands, extent_.height,
         [](std::uint32_t x, std::uint32_t y) { return gaze::PixelPosition{x + 0.5, y + 0.5}; });
     return sum_ms;
 }

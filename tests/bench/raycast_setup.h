@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "runtime/foveation/log_polar/radial_map.h"
-#include "runtime/render/frame_renderer.h"
+#include "runtime/scene/scenes.h"
 #include "tests/bench/bench.h"
+#include "tests/support/rendered_method.h"
 
 namespace gazeloop::bench {
 
@@ -26,7 +27,7 @@ class RaycastSetup {
     [[nodiscard]] const gaze::PerEye<vk::Extent2D>& extents() const { return extents_; }
     [[nodiscard]] std::string name() const;  ///< "1920x1080"
     /// Of a renderer for these pictures; 16 samples a cell unless the options say otherwise.
-    [[nodiscard]] render::RendererConfig config(const Options& options) const;
+    [[nodiscard]] render::MethodConfig config(const Options& options) const;
     [[nodiscard]] vk::Extent2D extent() const { return extents_[0]; }
 
     /// The eye at the scene's origin, the head turned to the left by yaw_deg; the gaze falls on
@@ -44,7 +45,7 @@ class RaycastSetup {
 /// One way to render, with the durations of its rounds.
 class Contender {
   public:
-    Contender(const vulkan::Context& context, const render::RendererConfig& config);
+    Contender(const vulkan::Context& context, const render::MethodConfig& config);
 
     /// Renders a frame and keeps what it took, unless it is the first of its kind, which compiles.
     void round(const render::FrameRequest& request, bool keep = true);
@@ -56,12 +57,14 @@ class Contender {
     [[nodiscard]] double median_ms(std::string_view pass) const;
     /// Of the last round: cells that were shaded, of both eyes.
     [[nodiscard]] double cells() const;
-    [[nodiscard]] const foveation::SamplingPlan& plan() const {
-        return renderer_->last_plan(gaze::Eye::Left);
-    }
+    /// Of the last round, of the measured eye; of log-polar methods.
+    [[nodiscard]] const foveation::LogPolarPlan& plan() const { return plan_; }
 
   private:
+    render::MethodConfig config_;
+    std::unique_ptr<scene::Scene> scene_;
     std::unique_ptr<render::FrameRenderer> renderer_;
+    foveation::LogPolarPlan plan_;
     std::vector<double> total_ms_;
     std::array<std::vector<double>, frame::kMostPasses> pass_ms_;
     frame::SampleCounts counts_;
@@ -76,11 +79,11 @@ class CostMap {
 
     /// Renders every cell for itself at the picture's scale, so that their sum is one full frame;
     /// then scales them to sum up to `whole_ms`.
-    CostMap(const vulkan::Context& context, const RaycastSetup& setup,
-            render::RendererConfig config, double yaw_deg, double whole_ms);
+    CostMap(const vulkan::Context& context, const RaycastSetup& setup, render::MethodConfig config,
+            double yaw_deg, double whole_ms);
 
     /// What the plan's cells would take if each cost what a pixel at its place costs.
-    [[nodiscard]] double predicted_ms(const foveation::SamplingPlan& plan,
+    [[nodiscard]] double predicted_ms(const foveation::LogPolarPlan& plan,
                                       const foveation::RadialMap& map) const;
 
   private:

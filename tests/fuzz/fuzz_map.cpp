@@ -91,9 +91,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         const glm::dvec3 gaze{bytes.number(-1.0, 1.0), bytes.number(-1.0, 1.0),
                               bytes.number(-1.0, 1.0)};
-        SamplingPlan plan;
+        LogPolarPlan plan;
         plan_acuity(parameters, *profile, view, gaze, plan);
-        require(plan.texels_shaded + plan.texels_off_screen + plan.texels_under_disc ==
+        require(plan.texels.counts.shaded + plan.texels.counts.off_screen +
+                    plan.texels.counts.covered ==
                 std::uint64_t{plan.lp.width} * plan.lp.height);
         const MapTables tables = build_map_tables(*profile);
         check(tables, FloatMap(tables, profile->lp(), plan.in_gaze_frame->uniforms), bytes);
@@ -134,7 +135,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const MapTables tables = build_map_tables(parameters.kernel, *lp);
     check(tables, FloatMap(tables, *lp, picture_frame_uniforms(fovea, map.log2_max_radius())),
           bytes);
-    SamplingPlan plan;
+    LogPolarPlan plan;
     plan_kfr(parameters, *lp, image, fovea, plan);
     require(std::isfinite(plan.disc_radius_px) && plan.disc_radius_px >= 0.0);
     return 0;

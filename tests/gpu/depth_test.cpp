@@ -19,8 +19,8 @@ constexpr std::uint32_t kHeight = 280;
 
 class Depth : public FrameRendererTest {
   protected:
-    static RendererConfig with_depth(Method method) {
-        RendererConfig made = config(method, kWidth, kHeight);
+    static MethodConfig with_depth(Method method) {
+        MethodConfig made = config(method, kWidth, kHeight);
         made.depth_format = vk::Format::eD32Sfloat;
         return made;
     }
@@ -44,7 +44,7 @@ class Depth : public FrameRendererTest {
 
 // The floor's distance is known exactly; whatever stands on it is nearer.
 TEST_F(Depth, IsTheFloorsDistanceWhereTheFloorIsSeen) {
-    const RendererConfig full = with_depth(Method::Full);
+    const MethodConfig full = with_depth(Method::Full);
     const FrameRequest request = Depth::request(full, {});
     const Rendered rendered = render(full, request);
     std::size_t below = 0;
@@ -70,7 +70,7 @@ TEST_F(Depth, IsTheFloorsDistanceWhereTheFloorIsSeen) {
 
 // A point that the left eye sees lies, for the right eye, where the depths say.
 TEST_F(Depth, OfBothEyesAgrees) {
-    const RendererConfig full = with_depth(Method::Full);
+    const MethodConfig full = with_depth(Method::Full);
     const FrameRequest request = Depth::request(full, {});
     const Rendered rendered = render(full, request);
     const gaze::EyeView& left = request.views[0];
@@ -101,10 +101,10 @@ TEST_F(Depth, OfBothEyesAgrees) {
 }
 
 TEST_F(Depth, OfALogPolarPictureIsThatOfFullResolution) {
-    const RendererConfig full = with_depth(Method::Full);
+    const MethodConfig full = with_depth(Method::Full);
     const Rendered exact = render(full, request(full, {150.0, 160.0}));
     for (const Method method : {Method::Kfr, Method::Acuity}) {
-        const RendererConfig foveated = with_depth(method);
+        const MethodConfig foveated = with_depth(method);
         const Rendered rendered = render(foveated, request(foveated, {150.0, 160.0}));
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
             std::vector<double> errors;
@@ -129,8 +129,8 @@ TEST_F(Depth, OfALogPolarPictureIsThatOfFullResolution) {
 
 TEST_F(Depth, LeavesTheColoursAlone) {
     for (const Method method : {Method::Full, Method::Kfr, Method::Acuity}) {
-        const RendererConfig with = with_depth(method);
-        RendererConfig without = with;
+        const MethodConfig with = with_depth(method);
+        MethodConfig without = with;
         without.depth_format = vk::Format::eUndefined;
         const FrameRequest frame = request(with, {100.0, 90.0});
         const Rendered a = render(with, frame);
@@ -143,7 +143,7 @@ TEST_F(Depth, LeavesTheColoursAlone) {
 
 TEST_F(Depth, IsEndlessWhereNoEyeSeesIt) {
     for (const Method method : {Method::Full, Method::Kfr, Method::Acuity}) {
-        const RendererConfig with = with_depth(method);
+        const MethodConfig with = with_depth(method);
         FrameRequest frame = request(with, {150.0, 160.0});
         // The lower left corner, floor otherwise.
         const double left = std::tan(frame.views[0].fov.left_rad);

@@ -12,13 +12,13 @@ namespace gazeloop::render {
 namespace {
 
 TEST_F(FrameRendererTest, DiscIsFullResolution) {
-    const RendererConfig kfr = config(Method::Kfr, 320, 240);
+    const MethodConfig kfr = config(Method::Kfr, 320, 240);
     const FrameRequest at = request(kfr, {140, 120});
     const Rendered foveated = render(kfr, at);
     const Rendered full = render(config(Method::Full, 320, 240), at);
     int inside = 0;
     double outside_error = 0.0;
-    const foveation::SamplingPlan& plan = foveated.plans[0];
+    const foveation::LogPolarPlan& plan = foveated.plans[0];
     const double core = plan.disc_radius_px - plan.disc_border_px;
     ASSERT_GT(core, 5.0);
     for (std::uint32_t y = 0; y < 240; ++y) {
@@ -45,7 +45,7 @@ TEST_F(FrameRendererTest, DiscIsFullResolution) {
 }
 
 TEST_F(FrameRendererTest, ReadsNoTexelThatWasLeftOut) {
-    RendererConfig kfr = config(Method::Kfr);
+    MethodConfig kfr = config(Method::Kfr);
     for (const bool disc : {true, false}) {
         kfr.kfr.disc = disc;
         for (const gaze::PixelPosition fovea :
@@ -53,9 +53,9 @@ TEST_F(FrameRendererTest, ReadsNoTexelThatWasLeftOut) {
               gaze::PixelPosition{160, 120}, gaze::PixelPosition{-40, 30},
               gaze::PixelPosition{100, 300}, gaze::PixelPosition{80.5, 60.5}}) {
             const FrameRequest at = request(kfr, fovea);
-            kfr.lp_background = {0.0F, 0.0F, 0.0F, 1.0F};
+            kfr.unshaded = {0.0F, 0.0F, 0.0F, 1.0F};
             const Rendered on_black = render(kfr, at);
-            kfr.lp_background = {5e4F, 0.0F, 5e4F, 1.0F};
+            kfr.unshaded = {5e4F, 0.0F, 5e4F, 1.0F};
             const Rendered on_poison = render(kfr, at);
             for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
                 EXPECT_EQ(largest_difference(on_black.pictures[e], on_poison.pictures[e]), 0)
@@ -68,7 +68,7 @@ TEST_F(FrameRendererTest, ReadsNoTexelThatWasLeftOut) {
 // Where the scene is smooth (the sky overhead), sampling it less must not show: neither where the
 // angle wraps, nor along the disc's border, nor at the fovea.
 TEST_F(FrameRendererTest, ShowsNoSeamInASmoothPicture) {
-    RendererConfig kfr = config(Method::Kfr, 256, 256);
+    MethodConfig kfr = config(Method::Kfr, 256, 256);
     FrameRequest at = request(kfr, {128.5, 128.5});
     for (gaze::EyeView& view : at.views) {
         view.pose.orientation = glm::angleAxis(1.3, glm::dvec3(1, 0, 0));
@@ -86,7 +86,7 @@ TEST_F(FrameRendererTest, ShowsNoSeamInASmoothPicture) {
 // wherever they meet, the picture goes on: there too, where the last row meets the first.
 TEST_F(FrameRendererTest, JoinsTheLastRowToTheFirst) {
     for (const Method method : {Method::Kfr, Method::Acuity}) {
-        RendererConfig coarse = config(method, 256, 256);
+        MethodConfig coarse = config(method, 256, 256);
         coarse.kfr.lp_height = 8;
         coarse.kfr.disc = false;
         coarse.acuity.lp_height = 8;
@@ -112,7 +112,7 @@ TEST_F(FrameRendererTest, JoinsTheLastRowToTheFirst) {
 }
 
 TEST_F(FrameRendererTest, CountsAddUp) {
-    const RendererConfig kfr = config(Method::Kfr);
+    const MethodConfig kfr = config(Method::Kfr);
     const Rendered foveated = render(kfr, request(kfr, {0, 60}));
     const frame::SampleCounts& counts = foveated.counts;
     const frame::GridCounts& lp = counts.grids[0];
@@ -126,7 +126,7 @@ TEST_F(FrameRendererTest, CountsAddUp) {
 }
 
 TEST_F(FrameRendererTest, TimesThePassesThatRan) {
-    const RendererConfig kfr = config(Method::Kfr);
+    const MethodConfig kfr = config(Method::Kfr);
     const Rendered foveated = render(kfr, request(kfr, {80, 60}));
     const auto ns = [](const Rendered& rendered, std::string_view pass) {
         const auto at = rendered.passes.find(pass);
@@ -142,7 +142,7 @@ TEST_F(FrameRendererTest, TimesThePassesThatRan) {
     EXPECT_GE(foveated.gpu.gpu_end.ns - foveated.gpu.gpu_begin.ns,
               *ns(foveated, "pass_i") + *ns(foveated, "disc"));
 
-    RendererConfig unprofiled = kfr;
+    MethodConfig unprofiled = kfr;
     unprofiled.profile = false;
     const Rendered plain = render(unprofiled, request(kfr, {80, 60}));
     EXPECT_EQ(ns(plain, "pass_i"), std::nullopt);
@@ -151,7 +151,7 @@ TEST_F(FrameRendererTest, TimesThePassesThatRan) {
 }
 
 TEST_F(FrameRendererTest, SkipsTheLpBufferWhereTheDiscCoversTheScreen) {
-    RendererConfig kfr = config(Method::Kfr, 16, 16);
+    MethodConfig kfr = config(Method::Kfr, 16, 16);
     kfr.kfr.sigma = 0.5;
     const FrameRequest at = request(kfr, {8, 8});
     const Rendered foveated = render(kfr, at);
@@ -162,7 +162,7 @@ TEST_F(FrameRendererTest, SkipsTheLpBufferWhereTheDiscCoversTheScreen) {
 }
 
 TEST_F(FrameRendererTest, HashesWhatItRenders) {
-    RendererConfig kfr = config(Method::Kfr);
+    MethodConfig kfr = config(Method::Kfr);
     kfr.hash = true;
     const FrameRequest at = request(kfr, {80, 60});
     const auto first = render(kfr, at).gpu.pixel_hash;
@@ -176,10 +176,10 @@ TEST_F(FrameRendererTest, HashesWhatItRenders) {
 }
 
 TEST_F(FrameRendererTest, EncodesByHandWhatTheFormatDoesNot) {
-    RendererConfig srgb = config(Method::Full);
-    RendererConfig unorm = srgb;
+    MethodConfig srgb = config(Method::Full);
+    MethodConfig unorm = srgb;
     unorm.format = vk::Format::eR8G8B8A8Unorm;
-    RendererConfig bgra = srgb;
+    MethodConfig bgra = srgb;
     bgra.format = vk::Format::eB8G8R8A8Srgb;
     const FrameRequest at = request(srgb, {80, 60});
     const Rendered reference = render(srgb, at);
@@ -188,8 +188,8 @@ TEST_F(FrameRendererTest, EncodesByHandWhatTheFormatDoesNot) {
 }
 
 TEST_F(FrameRendererTest, MoreSamplesSmoothThePicture) {
-    RendererConfig one = config(Method::Full);
-    RendererConfig sixteen = one;
+    MethodConfig one = config(Method::Full);
+    MethodConfig sixteen = one;
     sixteen.samples = 16;
     const auto roughness = [](const Picture& picture) {
         double sum = 0.0;
@@ -207,7 +207,7 @@ TEST_F(FrameRendererTest, MoreSamplesSmoothThePicture) {
 
 // The left eye, being further left, sees near things further right.
 TEST_F(FrameRendererTest, RendersEachEyeFromItsOwnPlace) {
-    const RendererConfig full = config(Method::Full, 320, 240);
+    const MethodConfig full = config(Method::Full, 320, 240);
     const Rendered rendered = render(full, request(full, {}));
     const auto mismatch = [&](int shift) {
         double sum = 0.0;
@@ -231,10 +231,10 @@ TEST_F(FrameRendererTest, RendersEachEyeFromItsOwnPlace) {
 }
 
 TEST_F(FrameRendererTest, KeepsFramesInFlightApart) {
-    RendererConfig kfr = config(Method::Kfr);
+    MethodConfig kfr = config(Method::Kfr);
     kfr.hash = true;
     FrameRequest at = request(kfr, {80, 60});
-    FrameRenderer renderer(context(), kfr);
+    FrameRenderer renderer(context(), scene(), passes_of(kfr), kfr);
     gaze::PerEye<vulkan::ColorImage> images;
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
         images[e] = vulkan::ColorImage(
@@ -255,7 +255,8 @@ TEST_F(FrameRendererTest, KeepsFramesInFlightApart) {
         for (gaze::PixelPosition& fovea : at.foveae) {
             fovea.x_px = i % 2 == 0 ? 40.0 : 120.0;
         }
-        renderer.render(at);
+        renderer.begin(at);
+        renderer.finish(at.fovea());
     }
     renderer.wait_idle();
     drain();
@@ -268,25 +269,23 @@ TEST_F(FrameRendererTest, KeepsFramesInFlightApart) {
 }
 
 TEST_F(FrameRendererTest, TakesTheSmallestAndTheWidestPicture) {
-    RendererConfig smallest = config(Method::Kfr, 2, 2);
+    MethodConfig smallest = config(Method::Kfr, 2, 2);
     smallest.kfr.sigma = 0.5;
     EXPECT_EQ(render(smallest, request(smallest, {1, 1})).counts.pixels_output, 8U);
-    RendererConfig widest = config(Method::Kfr, 16384, 8);
+    MethodConfig widest = config(Method::Kfr, 16384, 8);
     widest.kfr.sigma = 2.0;
     const Rendered rendered = render(widest, request(widest, {8192, 4}));
     EXPECT_EQ(rendered.counts.grids[0].planned, 2U * 8192 * 4);
 }
 
 TEST_F(FrameRendererTest, RefusesWhatItCannotDo) {
-    RendererConfig bad = config(Method::Kfr);
+    MethodConfig bad = config(Method::Kfr);
     bad.samples = 17;
-    EXPECT_THROW(FrameRenderer(context(), bad), SetupError);
-    bad = config(Method::Kfr);
-    bad.scene = "nowhere";
-    EXPECT_THROW(FrameRenderer(context(), bad), SetupError);
+    EXPECT_THROW(FrameRenderer(context(), scene(), passes_of(bad), bad), SetupError);
+    EXPECT_THROW(scene::make_scene(context(), "nowhere"), SetupError);
     bad = config(Method::Kfr);
     bad.kfr.sigma = std::nan("");
-    EXPECT_THROW(FrameRenderer(context(), bad), SetupError);
+    EXPECT_THROW(FrameRenderer(context(), scene(), passes_of(bad), bad), SetupError);
 }
 
 }  // namespace

@@ -9,9 +9,10 @@
 #include <random>
 #include <vector>
 
+#include "runtime/foveation/plans/kfr_plan.h"
 #include "runtime/numerics/map_probe.h"
-#include "runtime/render/eye_uniforms.h"
-#include "runtime/render/log_polar_eye.h"
+#include "runtime/render/frame_uniforms.h"
+#include "runtime/render/map_buffers.h"
 
 namespace gazeloop::render {
 namespace {
@@ -25,9 +26,9 @@ class Probe {
   public:
     Probe() : context_({.validation = true, .device = ""}, nullptr), probe_(context_) {}
 
-    std::vector<Output> run(const LogPolarEye& eye, const EyeUniforms& uniforms,
+    std::vector<Output> run(const MapBuffers& tables, const numerics::ProbeUniforms& uniforms,
                             const std::vector<Input>& inputs) {
-        return probe_.run(eye.map_buffers(), uniforms, false, inputs);
+        return probe_.run(tables, uniforms, false, inputs);
     }
 
     [[nodiscard]] const vulkan::Context& context() const { return context_; }
@@ -47,18 +48,21 @@ struct Worst {
 /// result stands for, and of picture_position.
 Worst worst_errors(Probe& probe, const foveation::KfrParameters& parameters,
                    foveation::ImageSize image, const gaze::PixelPosition& fovea) {
-    const LogPolarEye eye(probe.context(), parameters, image);
-    foveation::SamplingPlan plan;
-    foveation::plan_kfr(parameters, eye.lp(), image, fovea, plan);
+    const foveation::LpSize lp = value_or_throw(foveation::lp_buffer_size(parameters, image));
+    const MapBuffers eye(probe.context(), foveation::build_map_tables(parameters.kernel, lp), 1,
+                         lp.height);
+    foveation::LogPolarPlan plan;
+    foveation::plan_kfr(parameters, lp, image, fovea, plan);
     gaze::EyeView view{
         .fov = {-0.8, 0.8, 0.8, -0.8}, .width_px = image.width_px, .height_px = image.height_px};
-    const EyeUniforms uniforms = eye_uniforms(view, 0.0, 1, &plan);
+    const numerics::ProbeUniforms uniforms{frame_uniforms(view, 0.0, 1, nullptr),
+                                           foveation::map_uniforms(plan)};
 
     std::mt19937 random(11);
     std::uniform_int_distribution<std::uint32_t> x(0, image.width_px - 1);
     std::uniform_int_distribution<std::uint32_t> y(0, image.height_px - 1);
-    std::uniform_int_distribution<std::uint32_t> column(0, eye.lp().width - 1);
-    std::uniform_int_distribution<std::uint32_t> row(0, eye.lp().height - 1);
+    std::uniform_int_distribution<std::uint32_t> column(0, lp.width - 1);
+    std::uniform_int_distribution<std::uint32_t> row(0, lp.height - 1);
     std::vector<Input> inputs;
     inputs.reserve(20004);
     for (int i = 0; i < 20000; ++i) {
@@ -88,8 +92,8 @@ Worst worst_errors(Probe& probe, const foveation::KfrParameters& parameters,
             const glm::dvec2 back = radius * glm::dvec2(std::cos(angle), std::sin(angle));
             worst.forward_px = std::max(worst.forward_px, glm::length(back - d));
         }
-        const double true_radius = map.radius_px((inputs[i].cell.x + 0.5) / eye.lp().width);
-        const double true_angle = (inputs[i].cell.y + 0.5) / eye.lp().height * kTurn;
+        const double true_radius = map.radius_px((inputs[i].cell.x + 0.5) / lp.width);
+        const double true_angle = (inputs[i].cell.y + 0.5) / lp.height * kTurn;
         const glm::dvec2 true_position =
             glm::dvec2(fovea.x_px, fovea.y_px) +
             true_radius * glm::dvec2(std::cos(true_angle), std::sin(true_angle));
@@ -157,11 +161,14 @@ TEST_F(MapOnDevice, WrapsTheAngleOnce) {
     const foveation::KfrParameters parameters{.sigma = 2.0, .kernel = {4}};
     const foveation::ImageSize image{640, 480};
     const gaze::PixelPosition fovea{320.5, 240.5};
-    const LogPolarEye eye(probe().context(), parameters, image);
-    foveation::SamplingPlan plan;
-    foveation::plan_kfr(parameters, eye.lp(), image, fovea, plan);
-    const EyeUniforms uniforms =
-        eye_uniforms({.fov = {-1, 1, 1, -1}, .width_px = 640, .height_px = 480}, 0.0, 1, &plan);
+    const foveation::LpSize lp = value_or_throw(foveation::lp_buffer_size(parameters, image));
+    const MapBuffers eye(probe().context(), foveation::build_map_tables(parameters.kernel, lp), 1,
+                         lp.height);
+    foveation::LogPolarPlan plan;
+    foveation::plan_kfr(parameters, lp, image, fovea, plan);
+    const numerics::ProbeUniforms uniforms{
+        frame_uniforms({.fov = {-1, 1, 1, -1}, .width_px = 640, .height_px = 480}, 0.0, 1, nullptr),
+        foveation::map_uniforms(plan)};
     const std::vector<Output> outputs =
         probe().run(eye, uniforms,
                     {{{320.5F, 240.5F}, {0, 0}},    // the fovea itself: direction (0, 0)
@@ -183,16 +190,19 @@ TEST_F(MapOnDevice, WrapsTheAngleOnce) {
 TEST_F(MapOnDevice, ShootsTheRaysOfTheView) {
     const foveation::KfrParameters parameters{.sigma = 2.0, .kernel = {4}};
     const foveation::ImageSize image{640, 480};
-    const LogPolarEye eye(probe().context(), parameters, image);
-    foveation::SamplingPlan plan;
-    foveation::plan_kfr(parameters, eye.lp(), image, {320, 240}, plan);
+    const foveation::LpSize lp = value_or_throw(foveation::lp_buffer_size(parameters, image));
+    const MapBuffers eye(probe().context(), foveation::build_map_tables(parameters.kernel, lp), 1,
+                         lp.height);
+    foveation::LogPolarPlan plan;
+    foveation::plan_kfr(parameters, lp, image, {320, 240}, plan);
     gaze::EyeView view{.fov = {-0.9, 0.7, 0.6, -0.8}, .width_px = 640, .height_px = 480};
     view.pose.orientation = glm::normalize(glm::dquat(0.9, 0.1, -0.4, 0.05));
     const std::vector<Input> inputs{{{0.5F, 0.5F}, {0, 0}},
                                     {{639.5F, 0.5F}, {0, 0}},
                                     {{0.5F, 479.5F}, {0, 0}},
                                     {{411.5F, 77.5F}, {0, 0}}};
-    const std::vector<Output> outputs = probe().run(eye, eye_uniforms(view, 0.0, 1, &plan), inputs);
+    const std::vector<Output> outputs = probe().run(
+        eye, {frame_uniforms(view, 0.0, 1, nullptr), foveation::map_uniforms(plan)}, inputs);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         const glm::dvec3 expected =
             view.pose.orientation *

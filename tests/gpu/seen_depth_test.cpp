@@ -19,9 +19,9 @@ constexpr double kFloor_m = -1.4;  // of the scene, below the world's origin
 
 class SeenDepth : public FrameRendererTest {
   protected:
-    static RendererConfig with_seen_depth(Method method, std::uint32_t width = 320,
-                                          std::uint32_t height = 280) {
-        RendererConfig made = config(method, width, height);
+    static MethodConfig with_seen_depth(Method method, std::uint32_t width = 320,
+                                        std::uint32_t height = 280) {
+        MethodConfig made = config(method, width, height);
         made.depth_format = vk::Format::eD32Sfloat;
         made.seen_depth = true;
         return made;
@@ -42,10 +42,10 @@ TEST_F(SeenDepth, IsWhatTheDepthImagesHold) {
     for (const Method method : {Method::Kfr, Method::Acuity}) {
         for (const gaze::PixelPosition fovea :
              {gaze::PixelPosition{150.0, 160.0}, {90.3, 140.8}, {2.0, 270.0}}) {
-            const RendererConfig with = with_seen_depth(method);
+            const MethodConfig with = with_seen_depth(method);
             const Rendered rendered = render(with, request(with, fovea));
-            const RendererConfig full = [] {
-                RendererConfig made = config(Method::Full, 320, 280);
+            const MethodConfig full = [] {
+                MethodConfig made = config(Method::Full, 320, 280);
                 made.depth_format = vk::Format::eD32Sfloat;
                 return made;
             }();
@@ -76,7 +76,7 @@ TEST_F(SeenDepth, IsWhatTheDepthImagesHold) {
 // Everything together: where a gaze meets the floor, from the middle between the eyes.
 TEST_F(SeenDepth, SaysHowFarTheFloorIs) {
     for (const Method method : {Method::Kfr, Method::Acuity}) {
-        const RendererConfig with = with_seen_depth(method, 640, 560);
+        const MethodConfig with = with_seen_depth(method, 640, 560);
         std::size_t on_floor = 0;
         std::size_t found = 0;
         for (double right = -0.5; right <= 0.5; right += 0.1) {
@@ -104,7 +104,7 @@ TEST_F(SeenDepth, SaysHowFarTheFloorIs) {
 }
 
 TEST_F(SeenDepth, IsNoneWhereTheFoveaHasNoDisc) {
-    const auto expect_none = [&](const RendererConfig& with, gaze::PixelPosition fovea) {
+    const auto expect_none = [&](const MethodConfig& with, gaze::PixelPosition fovea) {
         const Rendered rendered = render(with, request(with, fovea));
         for (const gaze::DepthPatch& patch : rendered.seen_depth) {
             EXPECT_TRUE(patch.nearness.empty());
@@ -117,20 +117,20 @@ TEST_F(SeenDepth, IsNoneWhereTheFoveaHasNoDisc) {
         }
     }
     expect_none(with_seen_depth(Method::Full), {150.0, 160.0});
-    RendererConfig no_disc = with_seen_depth(Method::Kfr);
+    MethodConfig no_disc = with_seen_depth(Method::Kfr);
     no_disc.kfr.disc = false;
     expect_none(no_disc, {150.0, 160.0});
     no_disc = with_seen_depth(Method::Acuity);
     no_disc.acuity.disc = false;
     expect_none(no_disc, {150.0, 160.0});
-    RendererConfig unasked = with_seen_depth(Method::Kfr);
+    MethodConfig unasked = with_seen_depth(Method::Kfr);
     unasked.seen_depth = false;
     expect_none(unasked, {150.0, 160.0});
 }
 
 TEST_F(SeenDepth, WorksForTheSmallestPicturesAndBesideHiddenOnes) {
     for (const Method method : {Method::Kfr, Method::Acuity}) {
-        RendererConfig with = with_seen_depth(method, 2, 2);
+        MethodConfig with = with_seen_depth(method, 2, 2);
         with.kfr.sigma = 0.5;
         const Rendered rendered = render(with, request(with, {0.5, 1.5}));
         for (const gaze::DepthPatch& patch : rendered.seen_depth) {
@@ -139,7 +139,7 @@ TEST_F(SeenDepth, WorksForTheSmallestPicturesAndBesideHiddenOnes) {
                 EXPECT_EQ(patch.nearness.size(), 4U);
             }
         }
-        const RendererConfig masked = with_seen_depth(method);
+        const MethodConfig masked = with_seen_depth(method);
         FrameRequest frame = request(masked, {10.0, 275.0});
         const double left = std::tan(frame.views[0].fov.left_rad);
         const double down = std::tan(frame.views[0].fov.down_rad);
@@ -158,10 +158,10 @@ TEST_F(SeenDepth, WorksForTheSmallestPicturesAndBesideHiddenOnes) {
 TEST_F(SeenDepth, LeavesTheRestAlone) {
     for (const bool profile : {true, false}) {
         for (const Method method : {Method::Full, Method::Kfr, Method::Acuity}) {
-            RendererConfig with = with_seen_depth(method);
+            MethodConfig with = with_seen_depth(method);
             with.hash = true;
             with.profile = profile;
-            RendererConfig without = with;
+            MethodConfig without = with;
             without.seen_depth = false;
             const FrameRequest frame = request(with, {100.0, 90.0});
             const Rendered a = render(with, frame);
@@ -177,8 +177,8 @@ TEST_F(SeenDepth, LeavesTheRestAlone) {
 
 // Frames in flight: each one's depth is that of its own view and fovea.
 TEST_F(SeenDepth, BelongsToTheFrameThatIsFinished) {
-    const RendererConfig with = with_seen_depth(Method::Kfr);
-    FrameRenderer renderer(context(), with);
+    const MethodConfig with = with_seen_depth(Method::Kfr);
+    FrameRenderer renderer(context(), scene(), passes_of(with), with);
     gaze::PerEye<vulkan::ColorImage> images;
     gaze::PerEye<vulkan::DepthImage> depths;
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
@@ -202,7 +202,8 @@ TEST_F(SeenDepth, BelongsToTheFrameThatIsFinished) {
         }
         renderer.wait_for_slot();
         take_finished();
-        renderer.render(frame);
+        renderer.begin(frame);
+        renderer.finish(frame.fovea());
     }
     renderer.wait_idle();
     take_finished();

@@ -12,6 +12,8 @@
 #include "runtime/present/openxr/openxr_target.h"
 #include "runtime/session/session_file.h"
 #include "runtime/vulkan/memory.h"
+#include "runtime/vulkan/run_once.h"
+#include "runtime/vulkan/tracked_image.h"
 #include "tests/support/faults/injected.h"
 #include "tests/support/run_program.h"
 
@@ -19,40 +21,24 @@ namespace gazeloop::present {
 namespace {
 
 using Layout = vk::ImageLayout;
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
 
 void clear(const vulkan::Context& context, const render::EyeTarget& target, vk::Extent2D extent) {
-    const vk::raii::Device& device = context.device();
-    const vk::raii::CommandPool pool(device, vk::CommandPoolCreateInfo({}, context.queue_family()));
-    const vk::raii::CommandBuffers buffers(
-        device, vk::CommandBufferAllocateInfo(*pool, vk::CommandBufferLevel::ePrimary, 1));
-    const vk::raii::CommandBuffer& commands = buffers[0];
-    commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-    const auto color_barrier =
-        vulkan::image_barrier(target.image, Layout::eUndefined, Layout::eColorAttachmentOptimal,
-                              Stage::eColorAttachmentOutput, Access::eNone,
-                              Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-    constexpr auto kTests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
-    const auto depth_barrier = vulkan::image_barrier(
-        target.depth_image, Layout::eUndefined, Layout::eDepthStencilAttachmentOptimal, kTests,
-        Access::eNone, kTests, Access::eDepthStencilAttachmentWrite,
-        vk::ImageAspectFlagBits::eDepth);
-    const std::array barriers{color_barrier, depth_barrier};
-    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barriers));
-    const vk::RenderingAttachmentInfo color(target.view, Layout::eColorAttachmentOptimal, {}, {},
-                                            {}, vk::AttachmentLoadOp::eClear,
-                                            vk::AttachmentStoreOp::eStore);
-    const vk::RenderingAttachmentInfo depth(
-        target.depth_view, Layout::eDepthStencilAttachmentOptimal, {}, {}, {},
-        vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
-        vk::ClearValue(vk::ClearDepthStencilValue(0.5F, 0)));
-    commands.beginRendering(vk::RenderingInfo({}, vk::Rect2D({0, 0}, extent), 1, 0, color, &depth));
-    commands.endRendering();
-    commands.end();
-    const vk::CommandBufferSubmitInfo info(*commands);
-    context.queue().submit2(vk::SubmitInfo2({}, {}, info));
-    device.waitIdle();
+    vulkan::run_once(context, [&](const vk::raii::CommandBuffer& commands) {
+        vulkan::TrackedImage::of_earlier_frames(target.image, vk::ImageAspectFlagBits::eColor)
+            .use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
+        vulkan::TrackedImage::of_earlier_frames(target.depth_image, vk::ImageAspectFlagBits::eDepth)
+            .use(commands, vulkan::Use::DepthTarget, vulkan::Keep::Nothing);
+        const vk::RenderingAttachmentInfo color(target.view, Layout::eColorAttachmentOptimal, {},
+                                                {}, {}, vk::AttachmentLoadOp::eClear,
+                                                vk::AttachmentStoreOp::eStore);
+        const vk::RenderingAttachmentInfo depth(
+            target.depth_view, Layout::eDepthStencilAttachmentOptimal, {}, {}, {},
+            vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+            vk::ClearValue(vk::ClearDepthStencilValue(0.5F, 0)));
+        commands.beginRendering(
+            vk::RenderingInfo({}, vk::Rect2D({0, 0}, extent), 1, 0, color, &depth));
+        commands.endRendering();
+    });
 }
 
 /// Frames until `rendered` of them were asked for and drawn.

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "runtime/render/frame_renderer.h"
+#include "runtime/render/off_screen.h"
 #include "runtime/render/picture.h"
+#include "runtime/scene/scenes.h"
+#include "tests/support/rendered_method.h"
 
 namespace gazeloop::render {
 
@@ -19,19 +21,23 @@ class FrameRendererTest : public testing::Test {
         static vulkan::Context context({.validation = true, .device = ""}, nullptr);
         return context;
     }
+    static scene::Scene& scene() {
+        static const std::unique_ptr<scene::Scene> made = scene::make_scene(context(), "raymarch");
+        return *made;
+    }
 
     void TearDown() override { EXPECT_EQ(context().validation_messages(), 0U); }
 
-    static RendererConfig config(Method method, std::uint32_t width = 160,
-                                 std::uint32_t height = 120) {
-        RendererConfig config;
+    static MethodConfig config(Method method, std::uint32_t width = 160,
+                               std::uint32_t height = 120) {
+        MethodConfig config;
         config.method = method;
         config.extents = {vk::Extent2D(width, height), vk::Extent2D(width, height)};
         return config;
     }
 
     /// Both eyes from where a head at the origin has them; both foveae at the same position.
-    static FrameRequest request(const RendererConfig& config, gaze::PixelPosition fovea) {
+    static FrameRequest request(const MethodConfig& config, gaze::PixelPosition fovea) {
         FrameRequest request;
         request.scene_time_s = 2.5;
         for (const gaze::Eye eye : gaze::kEyes) {
@@ -54,43 +60,24 @@ class FrameRendererTest : public testing::Test {
         frame::FrameGpuRecord gpu;
         frame::PassList passes;  ///< as they name those of gpu
         gaze::SeenDepth seen_depth;
-        gaze::PerEye<foveation::SamplingPlan> plans;
+        gaze::PerEye<foveation::LogPolarPlan> plans;  ///< of log-polar methods
     };
 
-    static Rendered render(const RendererConfig& config, FrameRequest request) {
-        FrameRenderer renderer(context(), config);
-        const bool depth = config.depth_format != vk::Format::eUndefined;
-        gaze::PerEye<vulkan::ColorImage> images;
-        gaze::PerEye<vulkan::DepthImage> depths;
-        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            images[e] = vulkan::ColorImage(
-                context(), config.extents[e], config.format,
-                vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc);
-            request.targets[e] = {images[e].image(), images[e].view()};
-            if (depth) {
-                depths[e] = vulkan::DepthImage(context(), config.extents[e], config.depth_format);
-                request.targets[e].depth_image = depths[e].image();
-                request.targets[e].depth_view = depths[e].view();
-            }
-        }
+    static Rendered render(const MethodConfig& config, const FrameRequest& request) {
+        OffScreen off_screen(context(), scene(), passes_of(config), config);
+        const OffScreen::Rendered done = off_screen.render(request, request.fovea());
         Rendered rendered;
-        rendered.passes = renderer.passes();
-        renderer.wait_for_slot();
-        rendered.counts = renderer.render(request);
-        renderer.wait_idle();
-        const auto finished = renderer.next_finished();
-        EXPECT_TRUE(finished.has_value());
-        rendered.gpu = finished.value_or(frame::FrameGpuRecord{});
-        rendered.seen_depth = renderer.seen_depth();
-        EXPECT_FALSE(renderer.next_finished().has_value());
-        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            rendered.pictures[e] =
-                read_back(context(), images[e].image(), config.extents[e], config.format,
-                          vk::ImageLayout::eColorAttachmentOptimal);
-            if (depth) {
-                rendered.depths[e] = read_back_depth(context(), depths[e]);
+        rendered.passes = off_screen.renderer().passes();
+        rendered.counts = done.counts;
+        rendered.gpu = done.gpu;
+        rendered.seen_depth = off_screen.renderer().seen_depth();
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const std::size_t e = gaze::index(eye);
+            rendered.pictures[e] = off_screen.picture(eye);
+            if (config.depth_format != vk::Format::eUndefined) {
+                rendered.depths[e] = off_screen.depth(eye);
             }
-            rendered.plans[e] = renderer.last_plan(gaze::kEyes[e]);
+            rendered.plans[e] = plan_of(config, request, eye);
         }
         return rendered;
     }

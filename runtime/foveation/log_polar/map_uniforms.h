@@ -8,7 +8,7 @@
 
 namespace gazeloop::foveation {
 
-/// What of a map depends on the gaze, as the shaders take it (shaders/lib/frame.glsl): everything
+/// What of a map depends on the gaze, as the shaders take it (shaders/lib/log_polar.glsl): everything
 /// else lies in MapTables, so that a new gaze costs these few numbers.
 ///
 /// Picture frame, with rmax the farthest radius:
@@ -25,5 +25,14 @@ struct GazeFrameUniforms {
     std::array<glm::vec4, 3> view_from_gaze{};     ///< columns of a rotation
 };
 GazeFrameUniforms gaze_frame_uniforms(const GazeFrame& frame);
+
+/// Both, with what of the plan the shaders read; std140.
+struct MapUniforms {
+    glm::vec4 fovea_and_log2{0.0F};
+    glm::vec4 lp_and_disc{0.0F};       ///< LP-buffer's width, height; disc radius and its border
+    glm::vec4 radius_and_bands{0.0F};  ///< rmax, px; 1 / rmax^2; bands of the LP-buffer; unused
+    GazeFrameUniforms gaze_frame{};
+};
+static_assert(sizeof(MapUniforms) == std::size_t{16} * 9);
 
 }  // namespace gazeloop::foveation

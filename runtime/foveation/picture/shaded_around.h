@@ -10,7 +10,7 @@
 namespace gazeloop::foveation {
 
 /// A rectangle of pixels around a place: as many as `reach_x_px` to both sides of it, `reach_y_px`
-/// above and below, of the picture's pixels that a plan shades directly (SamplingPlan's
+/// above and below, of the picture's pixels that a plan shades directly (LogPolarPlan's
 /// disc_bands). Where the disc grows narrow towards its ends, rows that would leave less than half
 /// of the columns are left out. Empty where the place is off screen, not a number or in a pixel
 /// that is not shaded.

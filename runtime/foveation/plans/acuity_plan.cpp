@@ -16,43 +16,33 @@ constexpr double kDiscSlackRad = 4.0 / (1 << 24);
 /// Pixels beside the disc's edge that are shaded with it, against rounding of the row's span.
 constexpr double kRowSlackPx = 0.02;
 
-void plan_disc_tiles(const GazeFrame& frame, double eccentricity_rad, const HiddenArea* hidden,
-                     SamplingPlan& plan) {
-    const std::uint32_t height = frame.view().height_px;
+/// The columns of the pixels of rows [y0, y1) within an eccentricity, and of all between them.
+Columns disc_band(const GazeFrame& frame, double eccentricity_rad, std::uint32_t y0,
+                  std::uint32_t y1) {
     const double width = frame.view().width_px;
-    plan.disc_bands.clear();
-    for (std::uint32_t y0 = 0; y0 < height; y0 += kBandRows) {
-        const std::uint32_t y1 = std::min(y0 + kBandRows, height);
-        Columns& band = plan.disc_bands.emplace_back();
-        for (std::uint32_t y = y0; y < y1; ++y) {
-            const auto span = frame.row_within(y + 0.5, eccentricity_rad + kDiscSlackRad);
-            if (!span) {
-                continue;
-            }
-            const double first = std::ceil(span->from_x_px - kRowSlackPx - 0.5);
-            const double end = std::floor(span->to_x_px + kRowSlackPx + 0.5);
-            const Columns row{static_cast<std::uint32_t>(std::clamp(first, 0.0, width)),
-                              static_cast<std::uint32_t>(std::clamp(end, 0.0, width))};
-            if (!row.empty()) {
-                band = band.empty()
-                           ? row
-                           : Columns{std::min(band.first, row.first), std::max(band.end, row.end)};
-            }
+    Columns band{};
+    for (std::uint32_t y = y0; y < y1; ++y) {
+        const auto span = frame.row_within(y + 0.5, eccentricity_rad + kDiscSlackRad);
+        if (!span) {
+            continue;
         }
-        if (hidden != nullptr) {
-            band = common(band, hidden->visible_columns(y0));
-        }
-        if (!band.empty()) {
-            plan.pixels_direct += std::uint64_t{y1 - y0} * (band.end - band.first);
+        const double first = std::ceil(span->from_x_px - kRowSlackPx - 0.5);
+        const double end = std::floor(span->to_x_px + kRowSlackPx + 0.5);
+        const Columns row{static_cast<std::uint32_t>(std::clamp(first, 0.0, width)),
+                          static_cast<std::uint32_t>(std::clamp(end, 0.0, width))};
+        if (!row.empty()) {
+            band = band.empty()
+                       ? row
+                       : Columns{std::min(band.first, row.first), std::max(band.end, row.end)};
         }
     }
-    append_band_tiles(plan.disc_bands, height, plan.disc_tiles);
+    return band;
 }
 
 }  // namespace
 
 void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profile,
-                 const gaze::EyeView& view, const glm::dvec3& gaze, SamplingPlan& plan,
+                 const gaze::EyeView& view, const glm::dvec3& gaze, LogPolarPlan& plan,
                  const HiddenArea* hidden) {
     const AcuityMap map(profile, GazeFrame(view, gaze));
     plan.lp = profile.lp();
@@ -60,10 +50,10 @@ void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profil
     plan.log2_max_radius = 0.0;
     plan.disc_radius_px = 0.0;
     plan.disc_border_px = 0.0;
-    plan.disc_bands.clear();
-    plan.disc_tiles.clear();
-    plan.pixels_direct = 0;
-    SamplingPlan::InGazeFrame in_frame{.uniforms = gaze_frame_uniforms(map.frame())};
+    plan.disc.bands.clear();
+    plan.disc.tiles.clear();
+    plan.disc.counts = {};
+    LogPolarPlan::InGazeFrame in_frame{.uniforms = gaze_frame_uniforms(map.frame())};
     double core_u = kNoCore;
     if (parameters.disc) {
         const double disc_deg = std::max(map.disc_eccentricity_deg(plan.lp),
@@ -76,10 +66,45 @@ void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profil
         in_frame.disc_half_sine = half_sine(disc_deg);
         in_frame.border_half_sine = in_frame.disc_half_sine - half_sine(disc_deg - border_deg);
         core_u = profile.u(disc_deg - border_deg);
-        plan_disc_tiles(map.frame(), disc_deg * kRadiansPerDegree, hidden, plan);
+        plan_disc_tiles(
+            view.height_px, hidden,
+            [&](std::uint32_t y0, std::uint32_t y1) {
+                return disc_band(map.frame(), disc_deg * kRadiansPerDegree, y0, y1);
+            },
+            plan.disc);
     }
     plan.in_gaze_frame = in_frame;
     plan_lp_tiles(map, core_u, hidden, plan);
+}
+
+bool AcuityPlan::fits(const gaze::StereoView& views) const {
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        if (!profiles_[e] || fov_[e] != views[e].fov || images_[e].width_px != views[e].width_px ||
+            images_[e].height_px != views[e].height_px) {
+            return false;
+        }
+    }
+    return true;
+}
+
+Expected<void> AcuityPlan::prepare(const gaze::StereoView& views) {
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        auto profile = AcuityProfile::create(parameters_, views[e]);
+        if (!profile) {
+            return std::unexpected(profile.error());
+        }
+        profiles_[e] = *std::move(profile);
+        fov_[e] = views[e].fov;
+        images_[e] = {views[e].width_px, views[e].height_px};
+    }
+    return {};
+}
+
+void AcuityPlan::plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
+                      const HiddenArea* hidden, EyePlan& plan) const {
+    plan_log_polar(plan, [&](LogPolarPlan& made) {
+        plan_acuity(parameters_, *profiles_[gaze::index(eye)], view, fovea.direction, made, hidden);
+    });
 }
 
 }  // namespace gazeloop::foveation

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "runtime/foveation/log_polar/acuity_map.h"
-#include "runtime/foveation/plans/sampling_plan.h"
+#include "runtime/foveation/picture/image_size.h"
+#include "runtime/foveation/plans/log_polar_plan.h"
 
 namespace gazeloop::foveation {
 
@@ -15,7 +16,30 @@ namespace gazeloop::foveation {
 /// a hidden area, which must be of this picture, only visible pixels count (up to their convex
 /// hull); null: all do.
 void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profile,
-                 const gaze::EyeView& view, const glm::dvec3& gaze, SamplingPlan& plan,
+                 const gaze::EyeView& view, const glm::dvec3& gaze, LogPolarPlan& plan,
                  const HiddenArea* hidden = nullptr);
+
+/// The acuity-derived map, made for one pair of fields of view.
+class AcuityPlan final : public MethodPlan {
+  public:
+    explicit AcuityPlan(const AcuityParameters& parameters) : parameters_(parameters) {}
+
+    [[nodiscard]] const frame::GridList& grids() const override { return log_polar_grids(); }
+    [[nodiscard]] bool fits(const gaze::StereoView& views) const override;
+    Expected<void> prepare(const gaze::StereoView& views) override;
+    void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
+              const HiddenArea* hidden, EyePlan& plan) const override;
+
+    /// Precondition: prepare().
+    [[nodiscard]] const AcuityProfile& profile(gaze::Eye eye) const {
+        return *profiles_[gaze::index(eye)];
+    }
+
+  private:
+    AcuityParameters parameters_;
+    gaze::PerEye<std::optional<AcuityProfile>> profiles_;
+    gaze::PerEye<gaze::FieldOfView> fov_{};
+    gaze::PerEye<ImageSize> images_{};
+};
 
 }  // namespace gazeloop::foveation

@@ -14,10 +14,13 @@
 #include "drivers/openxr/openxr_source.h"
 #include "drivers/trace/trace_source.h"
 #include "runtime/frame_loop.h"
+#include "runtime/methods/registry.h"
 #include "runtime/present/headless_target.h"
 #include "runtime/present/openxr/openxr_target.h"
 #include "runtime/profiles/profiles.h"
+#include "runtime/run/program_settings.h"
 #include "runtime/run/run_observers.h"
+#include "runtime/scene/scenes.h"
 #include "runtime/time/clock.h"
 #include "sim/gaze_generator.h"
 #include "tests/support/watch/watched_call.h"
@@ -126,12 +129,17 @@ std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
     watch_vulkan(*context);
     target->start(*context);
     render::RendererConfig config;
-    config.method = options.method == "full" ? render::Method::Full : render::Method::Kfr;
     config.extents = target->extents();
     config.format = target->format();
     config.hash = options.hash;
     config.seen_depth = options.openxr_gaze && options.from_depth;
-    render::FrameRenderer renderer(*context, config);
+    const run::ProgramSettings settings;
+    const std::unique_ptr<scene::Scene> scene = scene::make_scene(*context, "raymarch");
+    render::FrameRenderer renderer(
+        *context, *scene,
+        value_or_throw(
+            methods::find_method(options.method)->passes(settings.values().methods, settings)),
+        config);
     gaze::GazeToFovea gaze{gaze::FoveaPolicy{}};
 
     latency::LatencySummary summary(

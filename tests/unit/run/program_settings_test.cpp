@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "runtime/methods/plan_methods.h"
+#include "runtime/methods/registry.h"
 #include "runtime/settings/recorded_values.h"
 #include "sim/simulation_settings.h"
 #include "tests/support/member_count.h"
@@ -75,7 +75,7 @@ TEST(ProgramSettings, OfMethodsAreInUseUnderTheirs) {
     const std::map<std::string, std::vector<std::string>> also{{"acuity.mar", {"layers", "rings"}}};
     const ProgramSettings settings;
     std::set<std::string> groups;
-    for (const methods::PlanMethod& method : methods::plan_methods()) {
+    for (const methods::Method& method : methods::all_methods()) {
         groups.emplace(method.name);
     }
     for (const SettingRow& row : settings.rows()) {

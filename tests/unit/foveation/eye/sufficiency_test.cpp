@@ -10,7 +10,7 @@
 #include "runtime/foveation/eye/stela_acuity.h"
 #include "runtime/foveation/plans/kfr_density.h"
 #include "runtime/foveation/plans/layer_plan.h"
-#include "runtime/foveation/plans/sampling_plan.h"
+#include "runtime/foveation/plans/kfr_plan.h"
 #include "runtime/foveation/plans/shading_rings.h"
 #include "tests/unit/foveation/picture/example_views.h"
 
@@ -147,7 +147,7 @@ TEST(Sufficiency, OfKfrChangesWithTheGaze) {
         const KfrParameters parameters{.sigma = sigma, .kernel = {}};
         const LpSize lp = lp_buffer_size(parameters, image).value();
         const GazeField field = GazeField::create(square_2160_view(), gaze).value();
-        SamplingPlan plan;
+        LogPolarPlan plan;
         plan_kfr(parameters, lp, image, field.fovea(), plan);
         const LogPolarMap map(parameters.kernel, image, field.fovea());
         return check_sufficiency(

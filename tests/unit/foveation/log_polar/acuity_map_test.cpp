@@ -246,7 +246,7 @@ TEST_P(AcuityPlans, ShadeWhatIsReadAndLittleElse) {
         tests::visible_pixels(hidden, {view.width_px, view.height_px});
     for (const glm::dvec3& gaze : gazes()) {
         SCOPED_TRACE(testing::Message() << gaze.x << ' ' << gaze.y << ' ' << gaze.z);
-        SamplingPlan plan;
+        LogPolarPlan plan;
         plan_acuity(parameters, profile, view, gaze, plan,
                     GetParam().mask.empty() ? nullptr : &hidden);
         ASSERT_TRUE(plan.in_gaze_frame.has_value());
@@ -257,7 +257,7 @@ TEST_P(AcuityPlans, ShadeWhatIsReadAndLittleElse) {
         const AcuityMap map(profile, GazeFrame(view, gaze));
         std::vector<bool> read(w * h, false);
         const std::vector<int> direct =
-            cells_drawn(plan.disc_bands, plan.disc_tiles, view.width_px, view.height_px);
+            cells_drawn(plan.disc.bands, plan.disc.tiles, view.width_px, view.height_px);
         for (std::uint32_t y = 0; y < view.height_px; ++y) {
             for (std::uint32_t x = 0; x < view.width_px; ++x) {
                 const gaze::PixelPosition at{x + 0.5, y + 0.5};
@@ -292,23 +292,23 @@ TEST_P(AcuityPlans, ShadeWhatIsReadAndLittleElse) {
             }
         }
         const std::vector<int> shaded =
-            cells_drawn(plan.lp_bands, plan.lp_tiles, plan.lp.width, plan.lp.height);
+            cells_drawn(plan.texels.bands, plan.texels.tiles, plan.lp.width, plan.lp.height);
         std::uint64_t covered = 0;
         for (std::size_t i = 0; i < read.size(); ++i) {
             ASSERT_LE(shaded[i], 1);
             ASSERT_TRUE(!read[i] || shaded[i] == 1) << "column " << i % w << " row " << i / w;
             covered += static_cast<std::uint64_t>(shaded[i]);
         }
-        EXPECT_EQ(covered, plan.texels_shaded);
-        EXPECT_EQ(plan.texels_shaded + plan.texels_off_screen + plan.texels_under_disc +
-                      plan.texels_hidden,
+        EXPECT_EQ(covered, plan.texels.counts.shaded);
+        EXPECT_EQ(plan.texels.counts.shaded + plan.texels.counts.off_screen +
+                      plan.texels.counts.covered + plan.texels.counts.hidden,
                   w * h);
         if (!GetParam().mask.empty()) {
-            SamplingPlan whole;
+            LogPolarPlan whole;
             plan_acuity(parameters, profile, view, gaze, whole);
-            EXPECT_EQ(whole.texels_hidden, 0U);
-            EXPECT_LE(plan.texels_shaded, whole.texels_shaded);
-            EXPECT_EQ(plan.texels_off_screen, whole.texels_off_screen);
+            EXPECT_EQ(whole.texels.counts.hidden, 0U);
+            EXPECT_LE(plan.texels.counts.shaded, whole.texels.counts.shaded);
+            EXPECT_EQ(plan.texels.counts.off_screen, whole.texels.counts.off_screen);
         }
     }
 }
@@ -327,20 +327,20 @@ TEST(AcuityPlan, LeavesOutWhatOnlyHiddenPixelsRead) {
     const AcuityParameters parameters;
     const auto profile = value_or_throw(AcuityProfile::create(parameters, view));
     const HiddenArea hidden(tests::outside_ellipse(1.0, 64), view);
-    SamplingPlan whole;
+    LogPolarPlan whole;
     plan_acuity(parameters, profile, view, {0, 0, -1}, whole);
-    SamplingPlan plan;
+    LogPolarPlan plan;
     plan_acuity(parameters, profile, view, {0, 0, -1}, plan, &hidden);
-    EXPECT_EQ(plan.texels_shaded + plan.texels_hidden, whole.texels_shaded);
-    const double share =
-        static_cast<double>(plan.texels_hidden) / static_cast<double>(whole.texels_shaded);
+    EXPECT_EQ(plan.texels.counts.shaded + plan.texels.counts.hidden, whole.texels.counts.shaded);
+    const double share = static_cast<double>(plan.texels.counts.hidden) /
+                         static_cast<double>(whole.texels.counts.shaded);
     EXPECT_GT(share, 0.02);
     EXPECT_LT(share, 0.215);
     // Looking at a corner that nobody sees: most of what is dear is hidden.
     plan_acuity(parameters, profile, view, {1, 1, -1}, whole);
     plan_acuity(parameters, profile, view, {1, 1, -1}, plan, &hidden);
-    EXPECT_LT(plan.texels_shaded + plan.pixels_direct,
-              0.8 * static_cast<double>(whole.texels_shaded + whole.pixels_direct));
+    EXPECT_LT(plan.texels.counts.shaded + plan.disc.counts.shaded,
+              0.8 * static_cast<double>(whole.texels.counts.shaded + whole.disc.counts.shaded));
 }
 
 // The figures a prototype reached: 149910 of 154860 texels on screen without the disc.
@@ -349,10 +349,10 @@ TEST(AcuityPlan, SaysHowLargeTheDiscLooks) {
     const gaze::EyeView view = square_view(2160, 45.0);
     const AcuityParameters parameters;
     const auto profile = value_or_throw(AcuityProfile::create(parameters, view));
-    SamplingPlan plan;
+    LogPolarPlan plan;
     plan_acuity(parameters, profile, view, {0, 0, -1}, plan);
     ASSERT_GT(plan.disc_radius_px, 10.0);
-    EXPECT_NEAR(std::sqrt(static_cast<double>(plan.pixels_direct) / std::numbers::pi),
+    EXPECT_NEAR(std::sqrt(static_cast<double>(plan.disc.counts.shaded) / std::numbers::pi),
                 plan.disc_radius_px, 0.06 * plan.disc_radius_px)
         << "a little more than the disc: bands are as wide as their widest row";
     plan_acuity({.disc = false}, profile, view, {0, 0, -1}, plan);
@@ -364,16 +364,16 @@ TEST(AcuityPlan, NeedsAFewPercentOfThePixels) {
     const double p = pixels_per_degree(view, {0, 0, -1}).finest;
     const AcuityParameters plain{.pixels_per_degree = p, .disc = false};
     const auto profile = value_or_throw(AcuityProfile::create(plain, view));
-    SamplingPlan plan;
+    LogPolarPlan plan;
     plan_acuity(plain, profile, view, {0, 0, -1}, plan);
-    EXPECT_NEAR(static_cast<double>(plan.texels_shaded), 149910.0, 3000.0);
+    EXPECT_NEAR(static_cast<double>(plan.texels.counts.shaded), 149910.0, 3000.0);
     // Tables for every gaze shade no more than tables for this one, once the disc is there.
     const auto shaded = [&](double pixels_per_degree) {
         const AcuityParameters parameters{.pixels_per_degree = pixels_per_degree};
-        SamplingPlan with_disc;
+        LogPolarPlan with_disc;
         plan_acuity(parameters, value_or_throw(AcuityProfile::create(parameters, view)), view,
                     {0, 0, -1}, with_disc);
-        return static_cast<double>(with_disc.texels_shaded + with_disc.pixels_direct);
+        return static_cast<double>(with_disc.texels.counts.shaded + with_disc.disc.counts.shaded);
     };
     EXPECT_NEAR(shaded(0.0) / shaded(p), 1.0, 0.02);
     EXPECT_LT(shaded(0.0), 0.035 * 2160 * 2160);

@@ -9,7 +9,7 @@
 #include "runtime/foveation/log_polar/degenerate_map.h"
 #include "runtime/foveation/log_polar/float_map.h"
 #include "runtime/foveation/log_polar/map_error.h"
-#include "runtime/foveation/plans/sampling_plan.h"
+#include "runtime/foveation/plans/kfr_plan.h"
 
 namespace gazeloop::foveation {
 namespace {
@@ -102,11 +102,11 @@ TEST(MapTrap, AnglesGoOnceAroundAndWrap) {
 TEST(MapTrap, TheSeamsRowsAreBothPlanned) {
     const KfrParameters kfr{.sigma = 2.0, .kernel = {4}, .disc = false};
     const LpSize lp = value_or_throw(lp_buffer_size(kfr, {320, 240}));
-    SamplingPlan plan;
+    LogPolarPlan plan;
     plan_kfr(kfr, lp, {320, 240}, {160.0, 120.0}, plan);
     bool first = false;
     bool last = false;
-    for (const Tile& tile : plan.lp_tiles) {
+    for (const Tile& tile : plan.texels.tiles) {
         first = first || (tile.y0 == 0 && tile.x1 > lp.width / 2);
         last = last || (tile.y1 == lp.height && tile.x1 > lp.width / 2);
     }
@@ -180,17 +180,17 @@ TEST(MapTrap, TheHoleIsClosedOnRequest) {
     const LpSize lp = value_or_throw(lp_buffer_size(open, image));
     const LogPolarMap map(4.0, image, {640, 720});
     EXPECT_LT(map.density(2.0, lp).radial, 0.6);
-    SamplingPlan plan;
+    LogPolarPlan plan;
     plan_kfr(open, lp, image, {640, 720}, plan);
-    EXPECT_EQ(plan.pixels_direct, 0U);
-    const std::uint64_t texels = plan.texels_shaded;
+    EXPECT_EQ(plan.disc.counts.shaded, 0U);
+    const std::uint64_t texels = plan.texels.counts.shaded;
     plan_kfr(closed, lp, image, {640, 720}, plan);
     ASSERT_GT(plan.disc_radius_px, plan.disc_border_px);
-    EXPECT_LT(plan.pixels_direct, 400U);  // no full pass: a thousandth of the texels
+    EXPECT_LT(plan.disc.counts.shaded, 400U);  // no full pass: a thousandth of the texels
     for (double r = plan.disc_radius_px - plan.disc_border_px; r < 100.0; r *= 1.01) {
         EXPECT_GE(map.density(r, lp).radial, 0.999) << r;
     }
-    EXPECT_LE(plan.texels_shaded, texels);
+    EXPECT_LE(plan.texels.counts.shaded, texels);
 }
 
 // Parameters that leave nothing to draw, however exact the arithmetic.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "runtime/foveation/plans/sampling_plan.h"
+#include "runtime/foveation/plans/kfr_plan.h"
 
 namespace gazeloop::foveation {
 namespace {
@@ -15,9 +15,9 @@ constexpr ImageSize kImage{200, 160};
 
 std::vector<Columns> disc_of(const gaze::PixelPosition& fovea, ImageSize image = kImage) {
     const KfrParameters parameters;
-    SamplingPlan plan;
+    LogPolarPlan plan;
     plan_kfr(parameters, value_or_throw(lp_buffer_size(parameters, image)), image, fovea, plan);
-    return plan.disc_bands;
+    return plan.disc.bands;
 }
 
 bool operator==(const Tile& a, const Tile& b) {

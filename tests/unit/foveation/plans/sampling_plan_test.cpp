@@ -1,4 +1,4 @@
-#include "runtime/foveation/plans/sampling_plan.h"
+#include "runtime/foveation/plans/kfr_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -30,8 +30,8 @@ HiddenArea hidden_of(const Case& at) {
     return {at.mask, tests::square_view(at.image.width_px, at.image.height_px)};
 }
 
-SamplingPlan plan_of(const Case& at) {
-    SamplingPlan plan;
+LogPolarPlan plan_of(const Case& at) {
+    LogPolarPlan plan;
     const HiddenArea hidden = hidden_of(at);
     plan_kfr(at.parameters, value_or_throw(lp_buffer_size(at.parameters, at.image)), at.image,
              at.fovea, plan, at.mask.empty() ? nullptr : &hidden);
@@ -40,7 +40,7 @@ SamplingPlan plan_of(const Case& at) {
 
 /// Texels that the bilinear read of some visible pixel outside the disc's core touches with some
 /// weight.
-std::vector<bool> read_texels(const Case& at, const SamplingPlan& plan) {
+std::vector<bool> read_texels(const Case& at, const LogPolarPlan& plan) {
     const LogPolarMap map(at.parameters.kernel, at.image, at.fovea);
     const std::vector<bool> visible = tests::visible_pixels(hidden_of(at), at.image);
     std::vector<bool> read(std::size_t{plan.lp.width} * plan.lp.height, false);
@@ -77,9 +77,9 @@ std::vector<bool> read_texels(const Case& at, const SamplingPlan& plan) {
 class SamplingPlans : public testing::TestWithParam<Case> {};
 
 TEST_P(SamplingPlans, ShadeWhatIsReadAndLittleElse) {
-    const SamplingPlan plan = plan_of(GetParam());
+    const LogPolarPlan plan = plan_of(GetParam());
     const std::vector<int> shaded =
-        cells_drawn(plan.lp_bands, plan.lp_tiles, plan.lp.width, plan.lp.height);
+        cells_drawn(plan.texels.bands, plan.texels.tiles, plan.lp.width, plan.lp.height);
     const std::vector<bool> read = read_texels(GetParam(), plan);
     std::uint64_t needed = 0;
     std::uint64_t covered = 0;
@@ -92,10 +92,10 @@ TEST_P(SamplingPlans, ShadeWhatIsReadAndLittleElse) {
         }
         covered += static_cast<std::uint64_t>(shaded[i]);
     }
-    EXPECT_EQ(covered, plan.texels_shaded);
-    EXPECT_EQ(
-        plan.texels_shaded + plan.texels_off_screen + plan.texels_under_disc + plan.texels_hidden,
-        read.size());
+    EXPECT_EQ(covered, plan.texels.counts.shaded);
+    EXPECT_EQ(plan.texels.counts.shaded + plan.texels.counts.off_screen +
+                  plan.texels.counts.covered + plan.texels.counts.hidden,
+              read.size());
     // Where the buffer is finer than the picture (near the fovea) texels between the read ones are
     // shaded too; elsewhere only the bands' steps are.
     if (plan.disc_radius_px > 0.0 && plan.lp.width > 100) {
@@ -105,11 +105,11 @@ TEST_P(SamplingPlans, ShadeWhatIsReadAndLittleElse) {
 
 TEST_P(SamplingPlans, DiscHoldsEveryVisiblePixelWithinItsRadiusOnce) {
     const Case& at = GetParam();
-    const SamplingPlan plan = plan_of(at);
+    const LogPolarPlan plan = plan_of(at);
     const std::vector<bool> visible = tests::visible_pixels(hidden_of(at), at.image);
     const std::vector<int> direct =
-        cells_drawn(plan.disc_bands, plan.disc_tiles, at.image.width_px, at.image.height_px);
-    EXPECT_EQ(plan.pixels_direct,
+        cells_drawn(plan.disc.bands, plan.disc.tiles, at.image.width_px, at.image.height_px);
+    EXPECT_EQ(plan.disc.counts.shaded,
               static_cast<std::uint64_t>(std::count(direct.begin(), direct.end(), 1)));
     for (std::uint32_t y = 0; y < at.image.height_px; ++y) {
         for (std::uint32_t x = 0; x < at.image.width_px; ++x) {
@@ -166,29 +166,29 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"left_half", {.kernel = {4}}, {320, 240}, {40, 120}, tests::left_of(0.0)}),
     [](const auto& instance) { return instance.param.name; });
 
-TEST(SamplingPlan, LeavesOutWhatOnlyHiddenPixelsRead) {
+TEST(LogPolarPlan, LeavesOutWhatOnlyHiddenPixelsRead) {
     const KfrParameters kfr{.sigma = 1.8, .kernel = {4}};
     const Case open{"", kfr, {1280, 1440}, {640, 720}};
     Case masked = open;
     masked.mask = tests::outside_ellipse(1.0, 64);
-    const SamplingPlan whole = plan_of(open);
-    const SamplingPlan plan = plan_of(masked);
-    EXPECT_EQ(whole.texels_hidden, 0U);
-    EXPECT_EQ(plan.texels_off_screen, whole.texels_off_screen);
-    EXPECT_EQ(plan.texels_shaded + plan.texels_hidden, whole.texels_shaded);
+    const LogPolarPlan whole = plan_of(open);
+    const LogPolarPlan plan = plan_of(masked);
+    EXPECT_EQ(whole.texels.counts.hidden, 0U);
+    EXPECT_EQ(plan.texels.counts.off_screen, whole.texels.counts.off_screen);
+    EXPECT_EQ(plan.texels.counts.shaded + plan.texels.counts.hidden, whole.texels.counts.shaded);
     // The corners are 21.5 % of the pixels, and the texels out there are few.
-    const double share =
-        static_cast<double>(plan.texels_hidden) / static_cast<double>(whole.texels_shaded);
+    const double share = static_cast<double>(plan.texels.counts.hidden) /
+                         static_cast<double>(whole.texels.counts.shaded);
     EXPECT_GT(share, 0.05);
     EXPECT_LT(share, 0.215);
 }
 
 // Figures of a prototype and of the reference, variant B, alpha 4, sigma 1.8, without disc.
-TEST(SamplingPlan, CountsTheTexelsOnScreen) {
+TEST(LogPolarPlan, CountsTheTexelsOnScreen) {
     const KfrParameters plain{.sigma = 1.8, .kernel = {4}, .disc = false};
     const auto share = [&](double x, double y) {
-        const SamplingPlan plan = plan_of({"", plain, {1920, 1080}, {x, y}});
-        return static_cast<double>(plan.texels_shaded) / (1067.0 * 600.0);
+        const LogPolarPlan plan = plan_of({"", plain, {1920, 1080}, {x, y}});
+        return static_cast<double>(plan.texels.counts.shaded) / (1067.0 * 600.0);
     };
     EXPECT_NEAR(share(960, 540), 524252.0 / 640200.0, 0.01);
     EXPECT_NEAR(share(0, 540), .34, .01);
@@ -196,29 +196,29 @@ TEST(SamplingPlan, CountsTheTexelsOnScreen) {
     EXPECT_NEAR(share(-480, 540), .09, .01);
 }
 
-TEST(SamplingPlan, ReplacesTexelsByFewerPixels) {
+TEST(LogPolarPlan, ReplacesTexelsByFewerPixels) {
     const KfrParameters kfr{.sigma = 1.8, .kernel = {4}};
-    const SamplingPlan plan = plan_of({"", kfr, {1920, 1080}, {960, 540}});
-    EXPECT_NEAR(static_cast<double>(plan.pixels_direct), 65000.0, 2000.0);
-    EXPECT_NEAR(static_cast<double>(plan.texels_under_disc), 161000.0, 12000.0);
+    const LogPolarPlan plan = plan_of({"", kfr, {1920, 1080}, {960, 540}});
+    EXPECT_NEAR(static_cast<double>(plan.disc.counts.shaded), 65000.0, 2000.0);
+    EXPECT_NEAR(static_cast<double>(plan.texels.counts.covered), 161000.0, 12000.0);
 }
 
-TEST(SamplingPlan, NeedsNoLpBufferWhereTheDiscCoversTheScreen) {
-    const SamplingPlan plan = plan_of({"", {.sigma = 0.5, .kernel = {4}}, {16, 16}, {8, 8}});
-    EXPECT_TRUE(plan.lp_tiles.empty());
-    EXPECT_EQ(plan.pixels_direct, 256U);
-    EXPECT_EQ(plan.texels_shaded, 0U);
+TEST(LogPolarPlan, NeedsNoLpBufferWhereTheDiscCoversTheScreen) {
+    const LogPolarPlan plan = plan_of({"", {.sigma = 0.5, .kernel = {4}}, {16, 16}, {8, 8}});
+    EXPECT_TRUE(plan.texels.tiles.empty());
+    EXPECT_EQ(plan.disc.counts.shaded, 256U);
+    EXPECT_EQ(plan.texels.counts.shaded, 0U);
 }
 
-TEST(SamplingPlan, ReusesItsMemory) {
+TEST(LogPolarPlan, ReusesItsMemory) {
     const KfrParameters kfr{.sigma = 1.8, .kernel = {4}};
     const ImageSize image{640, 480};
     const LpSize lp = value_or_throw(lp_buffer_size(kfr, image));
-    SamplingPlan plan;
+    LogPolarPlan plan;
     plan_kfr(kfr, lp, image, {320, 240}, plan);
-    const Tile* const tiles = plan.lp_tiles.data();
+    const Tile* const tiles = plan.texels.tiles.data();
     plan_kfr(kfr, lp, image, {10, 20}, plan);
-    EXPECT_EQ(plan.lp_tiles.data(), tiles);
+    EXPECT_EQ(plan.texels.tiles.data(), tiles);
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "runtime/foveation/log_polar/log_polar_map.h"
+#include "runtime/foveation/picture/image_size.h"
+#include "runtime/foveation/plans/log_polar_plan.h"
+
+namespace gazeloop::foveation {
+
+/// Plans an eye's picture by KFR. Reuses the plan's memory: no allocation once it has grown.
+///
+/// A texel is in the plan exactly if the bilinear read of some pixel centre outside the disc's
+/// unblended core touches it (up to the granularity of kBandRows rows). With a hidden area, which
+/// must be of this picture, only visible pixels count (up to their convex hull); null: all do.
+void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
+              const gaze::PixelPosition& fovea, LogPolarPlan& plan,
+              const HiddenArea* hidden = nullptr);
+
+/// Kernel foveated rendering (Meng et al. 2018), for pictures whose sizes may differ.
+class KfrPlan final : public MethodPlan {
+  public:
+    explicit KfrPlan(const KfrParameters& parameters) : parameters_(parameters) {}
+
+    [[nodiscard]] const frame::GridList& grids() const override { return log_polar_grids(); }
+    [[nodiscard]] bool fits(const gaze::StereoView& views) const override;
+    Expected<void> prepare(const gaze::StereoView& views) override;
+    void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
+              const HiddenArea* hidden, EyePlan& plan) const override;
+
+    [[nodiscard]] const KfrParameters& parameters() const { return parameters_; }
+    /// Precondition: prepare().
+    [[nodiscard]] LpSize lp(gaze::Eye eye) const { return lp_[gaze::index(eye)]; }
+
+  private:
+    KfrParameters parameters_;
+    gaze::PerEye<ImageSize> images_{};
+    gaze::PerEye<LpSize> lp_{};
+};
+
+}  // namespace gazeloop::foveation

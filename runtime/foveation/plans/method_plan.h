@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "runtime/error.h"
+#include "runtime/foveation/picture/band_tiles.h"
+#include "runtime/foveation/picture/hidden_area.h"
+#include "runtime/foveation/picture/tile.h"
+#include "runtime/frame/sample_counts.h"
+#include "runtime/gaze/fovea_point.h"
+#include "runtime/gaze/view.h"
+
+namespace gazeloop::foveation {
+
+/// What one eye's picture takes of one grid, and what it leaves out.
+struct ShadedGrid {
+    std::vector<Columns> bands;  ///< cells that are shaded, kBandRows rows each; none: no cell is
+    std::vector<Tile> tiles;     ///< what is drawn for them
+    frame::GridCounts counts;    ///< of this eye
+};
+
+/// One eye's picture at one gaze.
+struct EyePlan {
+    std::vector<ShadedGrid> grids;  ///< in the order of MethodPlan::grids()
+    /// What of the method depends on the gaze, as its shaders take it (descriptor set 2, binding 0).
+    std::array<glm::vec4, 16> uniforms{};
+    double ring_px = 0.0;  ///< radius of the ring to draw around the fovea; 0: none
+};
+
+/// Which samples a method takes: pure, the same for the same arguments. A method is some grids of
+/// samples and a resolve.
+class MethodPlan {
+  public:
+    MethodPlan() = default;
+    MethodPlan(const MethodPlan&) = delete;
+    MethodPlan& operator=(const MethodPlan&) = delete;
+    virtual ~MethodPlan() = default;
+
+    /// Their names; fixed for the run.
+    [[nodiscard]] virtual const frame::GridList& grids() const = 0;
+
+    /// Whether it was made for views with these fields of view and sizes.
+    [[nodiscard]] virtual bool fits(const gaze::StereoView& views) const = 0;
+
+    /// Makes what depends on fields of view and sizes, where they are others. May take milliseconds:
+    /// before the gaze is read. Errors (Usage): parameters that the pictures do not allow.
+    virtual Expected<void> prepare(const gaze::StereoView& views) = 0;
+
+    /// Plans one eye's picture at one gaze, in microseconds. Reuses the plan's memory: no allocation
+    /// once it has grown. `hidden` must be of this picture; null: nothing is hidden. Precondition:
+    /// prepare() for views that this one belongs to.
+    virtual void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
+                      const HiddenArea* hidden, EyePlan& plan) const = 0;
+};
+
+}  // namespace gazeloop::foveation

@@ -1,0 +1,48 @@
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "runtime/foveation/plans/layer_plan.h"
+#include "runtime/methods/method.h"
+
+namespace gazeloop::methods {
+namespace {
+
+std::vector<settings::SettingRow> rows(MethodSettings& values) { return rows_of(values.layers); }
+
+Expected<PlannedMethod> plan(const PlanSubject& subject) {
+    const LayersSettings& set = subject.values.layers;
+    auto plan = foveation::plan_layers(subject.field, subject.line, parameters(set));
+    if (!plan) {
+        return std::unexpected(plan.error());
+    }
+    PlannedMethod method{
+        .parameters = fmt::format("n {}{}, m {}", set.n, set.s2_fixed ? " with s2 = 2" : "",
+                                  subject.line.slope),
+        .samples = plan->samples(),
+        .density = nullptr,
+        .figures = {{"weighted_samples", plan->weighted_samples()}}};
+    for (std::size_t i = 0; i < plan->layers.size(); ++i) {
+        const foveation::PlannedLayer& layer = plan->layers[i];
+        const auto add = [&](const char* what, double value) {
+            method.figures.push_back({fmt::format("layer{}_{}", i + 1, what), value});
+        };
+        add("radius_deg", layer.radius_deg);
+        add("factor", layer.factor);
+        add("width", layer.width);
+        add("height", layer.height);
+    }
+    method.density = std::make_unique<foveation::LayerDensity>(std::move(*plan));
+    return method;
+}
+
+}  // namespace
+
+Method layers_method() {
+    return {.name = "layers",
+            .description = "eccentricity layers (Guenter et al. 2012): rectangles, coarser outward",
+            .rows = rows,
+            .plan = plan};
+}
+
+}  // namespace gazeloop::methods

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/methods/method.h"
+
+namespace gazeloop::methods {
+
+/// All methods, full resolution first.
+[[nodiscard]] std::span<const Method> all_methods();
+
+/// A method by its name; null: there is none.
+[[nodiscard]] const Method* find_method(std::string_view name);
+
+/// Names of the methods that can be rendered.
+[[nodiscard]] std::vector<std::string> rendered_methods();
+
+/// The rows of all methods' settings.
+[[nodiscard]] std::vector<settings::SettingRow> rows_of(MethodSettings& values);
+
+}  // namespace gazeloop::methods

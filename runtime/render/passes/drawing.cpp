@@ -1,0 +1,59 @@
+#include "runtime/render/passes/drawing.h"
+
+#include "runtime/vulkan/pipelines.h"
+
+namespace gazeloop::render {
+
+bool encodes_srgb(vk::Format format) {
+    return format == vk::Format::eR8G8B8A8Srgb || format == vk::Format::eB8G8R8A8Srgb;
+}
+
+void begin_rendering(const vk::raii::CommandBuffer& commands, vk::ImageView view,
+                     vk::Extent2D extent, vk::AttachmentLoadOp load,
+                     const std::array<float, 4>& background, vk::ImageView depth_view) {
+    const vk::RenderingAttachmentInfo attachment(view, vk::ImageLayout::eColorAttachmentOptimal, {},
+                                                 {}, {}, load, vk::AttachmentStoreOp::eStore,
+                                                 vk::ClearColorValue(background));
+    const vk::RenderingAttachmentInfo depth(
+        depth_view, vk::ImageLayout::eDepthStencilAttachmentOptimal, {}, {}, {}, load,
+        vk::AttachmentStoreOp::eStore, vk::ClearValue(vk::ClearDepthStencilValue(0.0F, 0)));
+    const vk::Rect2D area({0, 0}, extent);
+    commands.beginRendering(
+        vk::RenderingInfo({}, area, 1, 0, attachment, depth_view ? &depth : nullptr));
+    commands.setViewport(0, vk::Viewport(0.0F, 0.0F, static_cast<float>(extent.width),
+                                         static_cast<float>(extent.height), 0.0F, 1.0F));
+    commands.setScissor(0, area);
+}
+
+void draw_tiles(const vk::raii::CommandBuffer& commands, std::span<const foveation::Tile> tiles,
+                std::uint32_t instance) {
+    for (const foveation::Tile& tile : tiles) {
+        commands.setScissor(
+            0, vk::Rect2D({static_cast<std::int32_t>(tile.x0), static_cast<std::int32_t>(tile.y0)},
+                          {tile.x1 - tile.x0, tile.y1 - tile.y0}));
+        commands.draw(3, 1, 0, instance);
+    }
+}
+
+void draw_visible(const vk::raii::CommandBuffer& commands, const foveation::HiddenArea* hidden) {
+    if (hidden != nullptr) {
+        draw_tiles(commands, hidden->visible_tiles(), 0);
+    } else {
+        commands.draw(3, 1, 0, 0);
+    }
+}
+
+void bind_sets(const vk::raii::CommandBuffer& commands, const vk::raii::PipelineLayout& layout,
+               const FrameRecording& frame, std::size_t eye, vk::DescriptorSet method) {
+    constexpr auto kGraphics = vk::PipelineBindPoint::eGraphics;
+    commands.bindDescriptorSets(kGraphics, *layout, vulkan::kFrameSet, frame.frame_sets[eye], {});
+    if (frame.scene_sets[eye]) {
+        commands.bindDescriptorSets(kGraphics, *layout, vulkan::kSceneSet, frame.scene_sets[eye],
+                                    {});
+    }
+    if (method) {
+        commands.bindDescriptorSets(kGraphics, *layout, vulkan::kMethodSet, method, {});
+    }
+}
+
+}  // namespace gazeloop::render

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vulkan/vulkan_raii.hpp>
+
+#include "runtime/foveation/picture/hidden_area.h"
+#include "runtime/foveation/picture/tile.h"
+#include "runtime/render/passes/method_passes.h"
+
+namespace gazeloop::render {
+
+/// constant_id of the shaders' specialization constants (shaders/lib, shaders/resolve).
+enum ShaderConstantId : std::uint32_t {
+    kEncodeSrgb = 0,
+    kSamples = 1,
+    kInGazeFrame = 2,
+    kWithDisc = 3
+};
+
+/// Whether a format encodes sRGB by itself; else the pass that writes it does.
+[[nodiscard]] bool encodes_srgb(vk::Format format);
+
+/// Begins rendering into a colour image and, unless its view is null, a depth image; viewport and
+/// scissor are the whole. Cleared depth is infinitely far.
+void begin_rendering(const vk::raii::CommandBuffer& commands, vk::ImageView view,
+                     vk::Extent2D extent, vk::AttachmentLoadOp load,
+                     const std::array<float, 4>& background = {}, vk::ImageView depth_view = {});
+
+/// One large triangle for each tile, which the scissor cuts.
+void draw_tiles(const vk::raii::CommandBuffer& commands, std::span<const foveation::Tile> tiles,
+                std::uint32_t instance);
+
+/// The whole picture, or what of it is visible.
+void draw_visible(const vk::raii::CommandBuffer& commands, const foveation::HiddenArea* hidden);
+
+/// Draws both eyes' pictures, less what no eye sees of them. `draw_eye(e)` draws one, into the
+/// target that is bound.
+template <typename DrawEye>  // no std::function: no allocation per frame
+void draw_pictures(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
+                   const PassSetup& setup, const DrawEye& draw_eye) {
+    const bool depth = setup.depth_format != vk::Format::eUndefined;
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        const EyeTarget& target = frame.view.targets[e];
+        frame.color[e].use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
+        if (depth) {
+            frame.depth[e].use(commands, vulkan::Use::DepthTarget, vulkan::Keep::Nothing);
+        }
+        const bool hidden = frame.view.hidden[e] != nullptr;
+        begin_rendering(commands, target.view, setup.extents[e],
+                        hidden ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare, {},
+                        depth ? target.depth_view : vk::ImageView{});
+        draw_eye(e);
+        commands.endRendering();
+    }
+}
+
+/// Binds the sets of frame and scene, and of the method unless it is null.
+void bind_sets(const vk::raii::CommandBuffer& commands, const vk::raii::PipelineLayout& layout,
+               const FrameRecording& frame, std::size_t eye, vk::DescriptorSet method = {});
+
+}  // namespace gazeloop::render

@@ -1,0 +1,327 @@
+#include "runtime/render/passes/log_polar_passes.h"
+
+#include <fmt/core.h>
+
+#include "runtime/foveation/plans/acuity_plan.h"
+#include "runtime/foveation/plans/kfr_plan.h"
+#include "runtime/render/fovea_depth.h"
+#include "runtime/render/passes/drawing.h"
+#include "runtime/render/passes/log_polar_eye.h"
+#include "runtime/vulkan/pipelines.h"
+
+namespace gazeloop::render {
+namespace {
+
+using Type = vk::DescriptorType;
+
+/// Set 2 (shaders/lib/log_polar.glsl, bands.glsl, resolve/log_polar.frag).
+constexpr std::array kBindings{Type::eUniformBuffer,          // MapUniforms
+                               Type::eUniformBuffer,          // MapTables
+                               Type::eStorageBuffer,          // columns
+                               Type::eStorageBuffer,          // rows
+                               Type::eStorageBuffer,          // bands
+                               Type::eCombinedImageSampler,   // LP-buffer
+                               Type::eCombinedImageSampler};  // disc
+
+/// Places of the grids in log_polar_grids().
+constexpr std::size_t kTexels = 0;
+constexpr std::size_t kDisc = 1;
+
+/// The plan of a log-polar method, and what its map needs on the GPU.
+class Map {
+  public:
+    Map() = default;
+    Map(const Map&) = delete;
+    Map& operator=(const Map&) = delete;
+    virtual ~Map() = default;
+    [[nodiscard]] virtual foveation::MethodPlan& plan() = 0;
+    [[nodiscard]] virtual bool in_gaze_frame() const = 0;
+    /// Precondition: the plan is prepared.
+    [[nodiscard]] virtual foveation::LpSize lp(gaze::Eye eye) const = 0;
+    [[nodiscard]] virtual foveation::MapTables tables(gaze::Eye eye) const = 0;
+};
+
+class KfrMap final : public Map {
+  public:
+    explicit KfrMap(const foveation::KfrParameters& parameters) : plan_(parameters) {}
+    [[nodiscard]] foveation::MethodPlan& plan() override { return plan_; }
+    [[nodiscard]] bool in_gaze_frame() const override { return false; }
+    [[nodiscard]] foveation::LpSize lp(gaze::Eye eye) const override { return plan_.lp(eye); }
+    [[nodiscard]] foveation::MapTables tables(gaze::Eye eye) const override {
+        return foveation::build_map_tables(plan_.parameters().kernel, plan_.lp(eye));
+    }
+
+  private:
+    foveation::KfrPlan plan_;
+};
+
+class AcuityDerivedMap final : public Map {
+  public:
+    explicit AcuityDerivedMap(const foveation::AcuityParameters& parameters) : plan_(parameters) {}
+    [[nodiscard]] foveation::MethodPlan& plan() override { return plan_; }
+    [[nodiscard]] bool in_gaze_frame() const override { return true; }
+    [[nodiscard]] foveation::LpSize lp(gaze::Eye eye) const override {
+        return plan_.profile(eye).lp();
+    }
+    [[nodiscard]] foveation::MapTables tables(gaze::Eye eye) const override {
+        return foveation::build_map_tables(plan_.profile(eye));
+    }
+
+  private:
+    foveation::AcuityPlan plan_;
+};
+
+class LogPolarPasses final : public MethodPasses {
+  public:
+    LogPolarPasses(const PassSetup& setup, std::unique_ptr<Map> map)
+        : setup_(setup), map_(std::move(map)) {
+        const vk::raii::Device& device = setup.context.device();
+        set_layout_ =
+            vulkan::make_set_layout(device, kBindings, vk::ShaderStageFlagBits::eFragment);
+        layout_ = vulkan::make_pipeline_layout(
+            device, {setup.frame_layout, setup.scene.inputs(), *set_layout_}, setup.empty_layout);
+        make_pipelines();
+        using Mode = vk::SamplerAddressMode;
+        sampler_ = vk::raii::Sampler(
+            device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear,
+                                          vk::SamplerMipmapMode::eNearest, Mode::eClampToEdge,
+                                          Mode::eRepeat, Mode::eClampToEdge));
+        const std::uint32_t sets = setup.slots * static_cast<std::uint32_t>(gaze::kEyeCount);
+        const std::array sizes{vk::DescriptorPoolSize(Type::eUniformBuffer, 2 * sets),
+                               vk::DescriptorPoolSize(Type::eStorageBuffer, 3 * sets),
+                               vk::DescriptorPoolSize(Type::eCombinedImageSampler, 2 * sets)};
+        pool_ = vk::raii::DescriptorPool(
+            device, vk::DescriptorPoolCreateInfo(
+                        vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, sets, sizes));
+        slots_.resize(setup.slots);
+        for (auto& slot : slots_) {
+            for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+                EyeSlot& at = slot[e];
+                at.uniforms = vulkan::HostBuffer(setup.context, sizeof(foveation::MapUniforms),
+                                                 vk::BufferUsageFlagBits::eUniformBuffer);
+                at.set = std::move(vk::raii::DescriptorSets(
+                    device, vk::DescriptorSetAllocateInfo(*pool_, *set_layout_))[0]);
+                if (setup.seen_depth) {
+                    at.depth.emplace(setup.context, setup.extents[e]);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] const frame::PassList& passes() const override { return passes_; }
+    [[nodiscard]] const foveation::MethodPlan& plan() const override { return map_->plan(); }
+    [[nodiscard]] bool fits(const gaze::StereoView& views) const override {
+        return map_->plan().fits(views);
+    }
+
+    void prepare(const gaze::StereoView& views) override {
+        value_or_throw(map_->plan().prepare(views));
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const std::size_t e = gaze::index(eye);
+            eyes_[e].emplace(setup_.context, map_->tables(eye), map_->lp(eye), setup_.extents[e],
+                             setup_.samples);
+            attach_eye(e);
+        }
+    }
+
+    void record_after_gaze(vulkan::PassRecorder& recorder, const FrameRecording& frame,
+                           const gaze::PerEye<foveation::EyePlan>& plans) override {
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            EyeSlot& at = slots_[frame.slot][e];
+            at.uniforms.write(std::span(plans[e].uniforms).first(kUniformVectors));
+            std::size_t bytes = 0;
+            for (const foveation::ShadedGrid& grid : plans[e].grids) {
+                at.bands.write(std::span<const foveation::Columns>(grid.bands), bytes);
+                bytes += grid.bands.size() * sizeof(foveation::Columns);
+            }
+        }
+        const auto any = [&](std::size_t grid) {
+            return !plans[0].grids[grid].tiles.empty() || !plans[1].grids[grid].tiles.empty();
+        };
+        const auto shade = [&](const vk::raii::CommandBuffer& commands, std::size_t grid) {
+            for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+                shade_tiles(commands, frame, e, grid, plans[e].grids[grid].tiles);
+            }
+        };
+        // A pass without any tile is not submitted for itself; what it has to prepare goes along
+        // with the resolve.
+        if (any(kTexels)) {
+            shade(recorder.begin("pass_i"), kTexels);
+        }
+        if (any(kDisc)) {
+            shade(recorder.begin("disc"), kDisc);
+        }
+        const vk::raii::CommandBuffer& commands = recorder.begin("resolve");
+        for (const std::size_t grid : {kTexels, kDisc}) {
+            if (!any(grid)) {
+                shade(commands, grid);
+            }
+        }
+        draw_pictures(commands, frame, setup_, [&](std::size_t e) {
+            bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
+            draw_resolve(commands, plans[e], frame.view.hidden[e].get());
+        });
+    }
+
+    [[nodiscard]] bool keeps_depth() const override { return setup_.seen_depth; }
+
+    void record_depth_copies(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
+                             const gaze::PerEye<foveation::EyePlan>& plans,
+                             const gaze::FrameFovea& fovea) override {
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            slots_[frame.slot][e].depth->record(commands, eyes_[e]->direct_buffer().tracked,
+                                                frame.view.views[e], fovea.eyes[e].position,
+                                                plans[e].grids[kDisc].bands);
+        }
+    }
+
+    void collect_depth(std::size_t slot, gaze::SeenDepth& seen) const override {
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            slots_[slot][e].depth->collect(seen[e]);
+        }
+    }
+
+    [[nodiscard]] std::vector<BufferPicture> buffers(
+        gaze::Eye eye, const foveation::EyePlan& plan) const override {
+        const auto& at = eyes_[gaze::index(eye)];
+        if (!at || plan.grids[kTexels].tiles.empty()) {
+            return {};
+        }
+        return {{"lp", &at->lp_buffer().image, &plan.grids[kTexels]}};
+    }
+
+  private:
+    static constexpr std::size_t kUniformVectors =
+        sizeof(foveation::MapUniforms) / sizeof(glm::vec4);
+
+    /// What a frame owns until the GPU has finished it.
+    struct EyeSlot {
+        vulkan::HostBuffer uniforms;
+        vulkan::HostBuffer bands;
+        std::optional<FoveaDepth> depth;
+        vk::raii::DescriptorSet set{nullptr};
+    };
+
+    void make_pipelines() {
+        const vk::raii::Device& device = setup_.context.device();
+        const std::uint32_t in_gaze_frame = map_->in_gaze_frame() ? 1 : 0;
+        const std::array pass_constants{vulkan::ShaderConstant{kSamples, setup_.samples},
+                                        vulkan::ShaderConstant{kInGazeFrame, in_gaze_frame}};
+        pass_i_ = vulkan::make_pipeline(
+            device, layout_,
+            {.vertex = "tiles.vert",
+             .fragment = fmt::format("{}.log_polar.frag", setup_.scene.shader()),
+             .format = kLpFormat,
+             .constants = pass_constants});
+        // A variant of its own: the mere statement of a depth costs a third of a resolve.
+        const std::string resolve = setup_.depth_format == vk::Format::eUndefined
+                                        ? "log_polar.frag"
+                                        : "log_polar.depth.frag";
+        for (const std::uint32_t disc : {0U, 1U}) {
+            const std::array constants{
+                vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup_.format) ? 0U : 1U},
+                vulkan::ShaderConstant{kInGazeFrame, in_gaze_frame},
+                vulkan::ShaderConstant{kWithDisc, disc}};
+            (disc == 1 ? resolve_disc_ : resolve_) =
+                vulkan::make_pipeline(device, layout_,
+                                      {.vertex = "full_screen.vert",
+                                       .fragment = resolve,
+                                       .format = setup_.format,
+                                       .depth_format = setup_.depth_format,
+                                       .constants = constants});
+        }
+    }
+
+    /// Lets the sets of all slots read an eye's tables and buffers.
+    void attach_eye(std::size_t e) {
+        const vk::raii::Device& device = setup_.context.device();
+        LogPolarEye& eye = *eyes_[e];
+        for (auto& slot : slots_) {
+            EyeSlot& at = slot[e];
+            at.bands =
+                vulkan::HostBuffer(setup_.context, eye.max_bands() * sizeof(foveation::Columns),
+                                   vk::BufferUsageFlagBits::eStorageBuffer);
+            const std::array buffers{at.uniforms.buffer(), eye.map_buffers().map_tables(),
+                                     eye.map_buffers().column_table(),
+                                     eye.map_buffers().row_table(), at.bands.buffer()};
+            std::uint32_t binding = 0;
+            for (const vk::Buffer buffer : buffers) {
+                const vk::DescriptorBufferInfo info(buffer, 0, VK_WHOLE_SIZE);
+                device.updateDescriptorSets(
+                    vk::WriteDescriptorSet(*at.set, binding, 0, kBindings.at(binding), {}, info),
+                    {});
+                ++binding;
+            }
+            for (const LogPolarEye::Buffer* image : {&eye.lp_buffer(), &eye.direct_buffer()}) {
+                const vk::DescriptorImageInfo info(*sampler_, image->image.view(),
+                                                   vk::ImageLayout::eShaderReadOnlyOptimal);
+                device.updateDescriptorSets(
+                    vk::WriteDescriptorSet(*at.set, binding, 0, kBindings.at(binding), info), {});
+                ++binding;
+            }
+        }
+    }
+
+    /// Shades tiles of one eye into a buffer and makes it readable for the resolve. Tiles may be
+    /// none: the resolve then reads nothing of it, but its layout must be right.
+    void shade_tiles(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
+                     std::size_t e, std::size_t grid, std::span<const foveation::Tile> tiles) {
+        LogPolarEye::Buffer& target =
+            grid == kDisc ? eyes_[e]->direct_buffer() : eyes_[e]->lp_buffer();
+        target.tracked.use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
+        const bool clear = setup_.unshaded.has_value();
+        if (!tiles.empty() || clear) {
+            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pass_i_);
+            bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
+            begin_rendering(commands, target.image.view(), target.image.extent(),
+                            clear ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare,
+                            setup_.unshaded.value_or(std::array<float, 4>{}));
+            draw_tiles(commands, tiles, grid == kDisc ? 1 : 0);
+            commands.endRendering();
+        }
+        target.tracked.use(commands, vulkan::Use::Sampled);
+    }
+
+    /// The whole picture from the LP-buffer, then the disc over it.
+    void draw_resolve(const vk::raii::CommandBuffer& commands, const foveation::EyePlan& plan,
+                      const foveation::HiddenArea* hidden) const {
+        if (!plan.grids[kTexels].tiles.empty()) {
+            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_);
+            draw_visible(commands, hidden);
+        }
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_disc_);
+        draw_tiles(commands, plan.grids[kDisc].tiles, 0);
+    }
+
+    PassSetup setup_;
+    std::unique_ptr<Map> map_;
+    frame::PassList passes_{"pass_i", "disc", "resolve"};
+    vk::raii::DescriptorSetLayout set_layout_{nullptr};
+    vk::raii::PipelineLayout layout_{nullptr};
+    vk::raii::Pipeline pass_i_{nullptr};
+    vk::raii::Pipeline resolve_{nullptr};
+    vk::raii::Pipeline resolve_disc_{nullptr};
+    vk::raii::Sampler sampler_{nullptr};
+    vk::raii::DescriptorPool pool_{nullptr};
+    gaze::PerEye<std::optional<LogPolarEye>> eyes_;
+    std::vector<gaze::PerEye<EyeSlot>> slots_;
+};
+
+}  // namespace
+
+std::unique_ptr<MethodPasses> make_kfr_passes(const PassSetup& setup,
+                                              const foveation::KfrParameters& parameters) {
+    for (const vk::Extent2D extent : setup.extents) {
+        // Now, not with the first frame: a setting that cannot be is no matter of the fields of
+        // view.
+        (void)value_or_throw(foveation::lp_buffer_size(parameters, {extent.width, extent.height}));
+    }
+    return std::make_unique<LogPolarPasses>(setup, std::make_unique<KfrMap>(parameters));
+}
+
+std::unique_ptr<MethodPasses> make_acuity_passes(const PassSetup& setup,
+                                                 const foveation::AcuityParameters& parameters) {
+    return std::make_unique<LogPolarPasses>(setup, std::make_unique<AcuityDerivedMap>(parameters));
+}
+
+}  // namespace gazeloop::render

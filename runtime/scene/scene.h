@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string_view>
+#include <vulkan/vulkan_raii.hpp>
+
+#include "runtime/gaze/eye.h"
+#include "runtime/gaze/view.h"
+#include "runtime/vulkan/pass_recorder.h"
+
+namespace gazeloop::scene {
+
+/// What is rendered: one for all renderers of a process. Its shader answers radiance, distance and
+/// motion at a place of the picture (shaders/lib/scene.glsl); inputs of that shader are descriptor
+/// set 1.
+class Scene {
+  public:
+    Scene() = default;
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+    virtual ~Scene() = default;
+
+    /// shaders/scenes/NAME.glsl.
+    [[nodiscard]] virtual std::string_view shader() const = 0;
+
+    /// Passes of its own, recorded before those of the method.
+    [[nodiscard]] virtual frame::PassList passes() const { return {}; }
+
+    /// Layout of the inputs, set 1; null: the shader has none.
+    [[nodiscard]] virtual vk::DescriptorSetLayout inputs() const { return {}; }
+    /// The inputs of one eye's picture in a frame slot. Null: none.
+    [[nodiscard]] virtual vk::DescriptorSet inputs_of(gaze::Eye /*eye*/,
+                                                      std::size_t /*slot*/) const {
+        return {};
+    }
+
+    /// Records what must be drawn before the shader can be asked, for these views: needs no gaze.
+    virtual void record_geometry(vulkan::PassRecorder& /*recorder*/,
+                                 const gaze::StereoView& /*views*/, double /*time_s*/,
+                                 std::size_t /*slot*/) {}
+};
+
+}  // namespace gazeloop::scene

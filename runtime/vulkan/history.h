@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vulkan/vulkan_raii.hpp>
+
+#include "runtime/vulkan/memory.h"
+#include "runtime/vulkan/tracked_image.h"
+
+namespace gazeloop::vulkan {
+
+/// This frame's and the last frame's image of the same name, for what is accumulated over frames.
+/// The first frame after a reset has no last one. 32-bit floats belong in it: half images truncate
+/// on lavapipe, which adds up.
+class History {
+  public:
+    struct Entry {
+        ColorImage image;
+        TrackedImage tracked;
+    };
+
+    History() = default;
+    History(const Context& context, vk::Extent2D extent, vk::Format format);
+
+    /// Begins a frame: what was now becomes before, and the older image is used anew.
+    void advance();
+    /// Forgets the past: before() is null until a whole frame has passed.
+    void reset() { frames_ = 0; }
+
+    /// Precondition: advance() was called since the reset.
+    [[nodiscard]] Entry& now() { return images_[newest_]; }
+    [[nodiscard]] Entry* before() { return frames_ > 1 ? &images_[1 - newest_] : nullptr; }
+
+  private:
+    std::array<Entry, 2> images_;
+    std::size_t newest_ = 0;
+    std::uint64_t frames_ = 0;  ///< since the reset
+};
+
+}  // namespace gazeloop::vulkan

@@ -1,0 +1,25 @@
+// What every scene answers: scene_sample(), stated in scenes/NAME.glsl. What of the answer a pass
+// does not use costs nothing: the compiler leaves it out.
+struct SamplePlace {
+    vec2 position_px;   // in the picture; may lie off screen
+    vec3 origin_m;      // of the ray, in world
+    vec3 direction;     // unit, in world
+};
+
+struct SceneSample {
+    vec3 radiance;      // linear Rec.709, finite, not negative
+    float nearness;     // 1 / distance of what is seen first, 1/m; 0: infinitely far
+    vec2 motion_px;     // where it is in this frame less where it was in the last one
+};
+
+// How far a point that stands still in world has moved in the picture since the last frame. Nothing
+// where there is no last frame, and where the point was behind the eye.
+vec2 motion_of_still_px(vec2 position_px, vec3 point_m) {
+    vec3 from_eye = point_m - eye.last_camera.xyz;
+    vec3 local = vec3(dot(eye.last_view_axes[0].xyz, from_eye),
+                      dot(eye.last_view_axes[1].xyz, from_eye),
+                      dot(eye.last_view_axes[2].xyz, from_eye));
+    vec4 t = eye.last_tangents;
+    vec2 was = (local.xy / max(-local.z, 1e-6) - t.xz) / (t.yw - t.xz) * image_size();
+    return eye.last_camera.w > 0.0 && local.z < 0.0 ? position_px - was : vec2(0.0);
+}
