@@ -152,34 +152,30 @@ ExitCode devices(const DevicesCommand& command) {
 
 }  // namespace
 
-void add_devices_command(CLI::App& program, Action& action) {
-    CLI::App* const app = program.add_subcommand(
+void add_devices_command(Command program) {
+    Command app = program.command(
         "devices", "list eye trackers, listen to each, and say why one does not track");
     const auto command = std::make_shared<DevicesCommand>();
-    command->log.add_to(*app);
-    app->add_option("--config", command->config_files, "TOML file with settings; may be repeated")
-        ->type_name("FILE")
-        ->allow_extra_args(false);
-    app->add_option("--set", command->assignments, "a setting; may be repeated")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    CLI::Option* const seconds =
-        app->add_option("--seconds", command->seconds,
-                        "how long to listen to each (2), or to watch (until interrupted)")
-            ->type_name("S")
-            ->check(number_between(0.1, 1e9));
-    CLI::Option* const json =
-        app->add_option("--json", command->json, "write it as JSON; without a file, to stdout")
-            ->expected(0, 1)
-            ->default_str("-")
-            ->type_name("[FILE]");
-    app->add_flag("--watch", command->watch, "show live gaze")->excludes(json);
-    app->callback([=, &action] {
+    command->log.add_to(app);
+    app.option("--config", command->config_files, "TOML file with settings; may be repeated")
+        .type("FILE");
+    app.option("--set", command->assignments, "a setting; may be repeated").type("KEY=VALUE");
+    const Option seconds =
+        app.option("--seconds", command->seconds,
+                   "how long to listen to each (2), or to watch (until interrupted)")
+            .type("S")
+            .number_between(0.1, 1e9);
+    const Option json =
+        app.option("--json", command->json, "write it as JSON; without a file, to stdout")
+            .value_optional("-")
+            .type("[FILE]");
+    app.flag("--watch", command->watch, "show live gaze").not_with(json);
+    app.does([=] {
         command->log.apply();
-        if (command->watch && seconds->count() == 0) {
+        if (command->watch && !seconds.given()) {
             command->seconds = 1e9;
         }
-        action = [=] { return devices(*command); };
+        return devices(*command);
     });
 }
 

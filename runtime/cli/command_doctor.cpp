@@ -152,26 +152,25 @@ ExitCode run_doctor(const DoctorCommand& command) {
 
 }  // namespace
 
-void add_doctor_command(CLI::App& program, Action& action) {
-    CLI::App* const app = program.add_subcommand(
+void add_doctor_command(Command program) {
+    Command app = program.command(
         "doctor", "check what the loop needs of this machine; exit code 4: it cannot run");
     const auto command = std::make_shared<DoctorCommand>();
-    app->add_option("--json", command->json, "write it as JSON; without a file, to stdout")
-        ->expected(0, 1)
-        ->default_str("-")
-        ->type_name("[FILE]");
-    command->options.log.add_to(*app);
-    command->options.add_settings_to(*app);
-    app->add_option("--folder", command->folder, "where recordings are to go")->type_name("DIR");
-    app->add_option("--patience", command->patience_s,
-                    "how long a driver or runtime may take before it counts as hanging")
-        ->type_name("SECONDS")
-        ->check(number_between(0.1, 600.0));
+    app.option("--json", command->json, "write it as JSON; without a file, to stdout")
+        .value_optional("-")
+        .type("[FILE]");
+    command->options.log.add_to(app);
+    command->options.add_settings_to(app);
+    app.option("--folder", command->folder, "where recordings are to go").type("DIR");
+    app.option("--patience", command->patience_s,
+               "how long a driver or runtime may take before it counts as hanging")
+        .type("SECONDS")
+        .number_between(0.1, 600.0);
     // Stands in for the machine's /sys and /dev, for tests.
-    app->add_option("--root", command->root)->group("");
-    app->callback([=, &action] {
+    app.option("--root", command->root, "").hidden();
+    app.does([=] {
         command->options.log.apply();
-        action = [=] { return run_doctor(*command); };
+        return run_doctor(*command);
     });
 }
 

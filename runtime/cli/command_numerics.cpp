@@ -44,22 +44,20 @@ ExitCode measure(const NumericsCommand& command) {
 
 }  // namespace
 
-void add_numerics_command(CLI::App& program, Action& action) {
-    CLI::App* const app = program.add_subcommand(
+void add_numerics_command(Command program) {
+    Command app = program.command(
         "numerics", "how exact every map is on this device; exit code 1 if a target is missed");
     const auto command = std::make_shared<NumericsCommand>();
-    app->add_flag("--quick", command->options.quick, "one picture size, fewer maps and draws");
-    app->add_option("--seed", command->options.seed, "of the random probes");
-    app->add_option("--device", command->device, "part of the Vulkan device's name")
-        ->type_name("NAME");
-    app->add_option("--html", command->html, "also write a page with plots; - is stdout")
-        ->type_name("FILE");
-    app->add_option("--json", command->json, "also write every figure as JSON; - is stdout")
-        ->type_name("FILE");
-    command->log.add_to(*app);
-    app->callback([=, &action] {
+    app.flag("--quick", command->options.quick, "one picture size, fewer maps and draws");
+    app.option("--seed", command->options.seed, "of the random probes");
+    app.option("--device", command->device, "part of the Vulkan device's name").type("NAME");
+    app.option("--html", command->html, "also write a page with plots; - is stdout").type("FILE");
+    app.option("--json", command->json, "also write every figure as JSON; - is stdout")
+        .type("FILE");
+    command->log.add_to(app);
+    app.does([=] {
         command->log.apply();
-        action = [=] { return measure(*command); };
+        return measure(*command);
     });
 }
 

@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -195,9 +194,8 @@ ExitCode plan(const PlanCommand& command) {
 
 }  // namespace
 
-void add_plan_command(CLI::App& program, Action& action) {
-    CLI::App* const app =
-        program.add_subcommand("plan", "what methods sample, and what eyes need, on a display");
+void add_plan_command(Command program) {
+    Command app = program.command("plan", "what methods sample, and what eyes need, on a display");
     const auto command = std::make_shared<PlanCommand>();
     RunOptions& options = command->options;
     options.aliases = {
@@ -207,31 +205,29 @@ void add_plan_command(CLI::App& program, Action& action) {
         {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16", ""},
         {"--mar", "acuity.mar", "slope of the acuity line, e.g. .022", ""},
     };
-    options.log.add_to(*app);
-    options.add_settings_to(*app);
-    app->add_option("--method", command->method, "full, kfr, acuity, layers, rings, sparse or all");
-    app->add_option("--model", command->model, "guenter, geisler-perry, stelacsf or all");
-    app->add_option("--gaze", command->gaze, "direction of gaze, degrees to the right and up")
-        ->type_name("AZ,EL");
-    app->add_option("--eye", command->eye, "left or right")
-        ->check(CLI::IsMember({"left", "right"}));
-    app->add_option("--widen", command->widening,
-                    "by how much the gaze may be off, degrees, or as much as the tracker's figures "
-                    "(sim.*) say: what eyes then need")
-        ->type_name("DEG|tracker");
-    app->add_option("--json", options.json, "write the plan as JSON; without a file, to stdout")
-        ->expected(0, 1)
-        ->default_str("-")
-        ->type_name("[FILE]");
-    app->add_option("--png", command->chart,
-                    "draw densities over eccentricity, all methods; .png or .svg")
-        ->type_name("FILE");
-    app->add_option("--figures", command->figures,
-                    "instead: what layers save by field of view, as CSV and charts")
-        ->type_name("DIR");
-    app->callback([=, &action] {
+    options.log.add_to(app);
+    options.add_settings_to(app);
+    app.option("--method", command->method, "full, kfr, acuity, layers, rings, sparse or all");
+    app.option("--model", command->model, "guenter, geisler-perry, stelacsf or all");
+    app.option("--gaze", command->gaze, "direction of gaze, degrees to the right and up")
+        .type("AZ,EL");
+    app.option("--eye", command->eye, "left or right").one_of({"left", "right"});
+    app.option("--widen", command->widening,
+               "by how much the gaze may be off, degrees, or as much as the tracker's figures "
+               "(sim.*) say: what eyes then need")
+        .type("DEG|tracker");
+    app.option("--json", options.json, "write the plan as JSON; without a file, to stdout")
+        .value_optional("-")
+        .type("[FILE]");
+    app.option("--png", command->chart,
+               "draw densities over eccentricity, all methods; .png or .svg")
+        .type("FILE");
+    app.option("--figures", command->figures,
+               "instead: what layers save by field of view, as CSV and charts")
+        .type("DIR");
+    app.does([=] {
         command->options.log.apply();
-        action = [=] { return plan(*command); };
+        return plan(*command);
     });
 }
 

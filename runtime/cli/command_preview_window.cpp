@@ -3,10 +3,10 @@
 
 namespace gazeloop::cli {
 
-void add_preview_window_command(CLI::App& program, Action& action) {
-    program.add_subcommand(preview::kWindowCommand)->group("")->callback([&action] {
-        action = [] { return preview::preview_window() == 0 ? ExitCode::Ok : ExitCode::NoDevice; };
-    });
+void add_preview_window_command(Command program) {
+    Command app = program.command(preview::kWindowCommand, "");
+    app.hide();
+    app.does([] { return preview::preview_window() == 0 ? ExitCode::Ok : ExitCode::NoDevice; });
 }
 
 }  // namespace gazeloop::cli

@@ -177,24 +177,23 @@ ExitCode replay(const ReplayCommand& command, const std::string& command_line) {
 
 }  // namespace
 
-void add_replay_command(CLI::App& program, const std::string& command_line, Action& action) {
-    CLI::App* const app =
-        program.add_subcommand("replay", "replay a gaze trace or a recorded session");
+void add_replay_command(Command program, const std::string& command_line) {
+    Command app = program.command("replay", "replay a gaze trace or a recorded session");
     const auto command = std::make_shared<ReplayCommand>();
-    app->add_option("file", command->file, "a trace, or a session written by --record")
-        ->required()
-        ->type_name("TRACE|SESSION");
-    app->add_option("--format", command->format, "auto, gazeloop, htc-vive-pro");
-    app->add_option("--clock", command->clock,
-                    "virtual: the same result on every run; wall: in real time")
-        ->check(CLI::IsMember({"virtual", "wall"}));
-    app->add_option("--speed", command->speed, "how many times as fast as recorded")
-        ->type_name("X")
-        ->check(number_between(1e-3, 1e3));
-    command->options.add_to(*app);
-    app->callback([=, &action] {
+    app.option("file", command->file, "a trace, or a session written by --record")
+        .required()
+        .type("TRACE|SESSION");
+    app.option("--format", command->format, "auto, gazeloop, htc-vive-pro");
+    app.option("--clock", command->clock,
+               "virtual: the same result on every run; wall: in real time")
+        .one_of({"virtual", "wall"});
+    app.option("--speed", command->speed, "how many times as fast as recorded")
+        .type("X")
+        .number_between(1e-3, 1e3);
+    command->options.add_to(app);
+    app.does([=] {
         command->options.log.apply();
-        action = [=] { return replay(*command, command_line); };
+        return replay(*command, command_line);
     });
 }
 

@@ -66,18 +66,15 @@ ExitCode report(const ReportCommand& command) {
 
 }  // namespace
 
-void add_report_command(CLI::App& program, Action& action) {
-    CLI::App* const app = program.add_subcommand("report", "where a session's latency went");
+void add_report_command(Command program) {
+    Command app = program.command("report", "where a session's latency went");
     const auto command = std::make_shared<ReportCommand>();
-    app->add_option("file", command->file, "a session written by --record")
-        ->required()
-        ->type_name("SESSION");
-    app->add_option("--json", command->json, "write the report as JSON; - is stdout")
-        ->type_name("FILE");
-    command->log.add_to(*app);
-    app->callback([=, &action] {
+    app.option("file", command->file, "a session written by --record").required().type("SESSION");
+    app.option("--json", command->json, "write the report as JSON; - is stdout").type("FILE");
+    command->log.add_to(app);
+    app.does([=] {
         command->log.apply();
-        action = [=] { return report(*command); };
+        return report(*command);
     });
 }
 

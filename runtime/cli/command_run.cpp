@@ -49,19 +49,19 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
 
 }  // namespace
 
-void add_run_command(CLI::App& program, const std::string& command_line, Action& action) {
-    CLI::App* const app = program.add_subcommand("run", "run the gaze-contingent frame loop");
+void add_run_command(Command program, const std::string& command_line) {
+    Command app = program.command("run", "run the gaze-contingent frame loop");
     const auto command = std::make_shared<RunCommand>();
-    app->add_option("--gaze", command->gaze,
-                    "hid, psvr2, openxr, trace:FILE, fixed:AZ,EL (degrees, right, up), or sim")
-        ->type_name("SOURCE");
-    app->add_option("--clock", command->clock,
-                    "wall: in real time; virtual: the same result on every run")
-        ->check(CLI::IsMember({"wall", "virtual"}));
-    command->options.add_to(*app);
-    app->callback([=, &action] {
+    app.option("--gaze", command->gaze,
+               "hid, psvr2, openxr, trace:FILE, fixed:AZ,EL (degrees, right, up), or sim")
+        .type("SOURCE");
+    app.option("--clock", command->clock,
+               "wall: in real time; virtual: the same result on every run")
+        .one_of({"wall", "virtual"});
+    command->options.add_to(app);
+    app.does([=] {
         command->options.log.apply();
-        action = [=] { return run(*command, command_line); };
+        return run(*command, command_line);
     });
 }
 

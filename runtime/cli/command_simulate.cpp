@@ -46,26 +46,24 @@ ExitCode simulate_gaze(const SimulateGazeCommand& command) {
 
 }  // namespace
 
-void add_simulate_command(CLI::App& program, Action& action) {
-    CLI::App* const app = program.add_subcommand("simulate", "make input without a device");
-    app->require_subcommand(1);
-    add_simulate_tracker_command(*app, action);
-    CLI::App* const gaze = app->add_subcommand("gaze", "write a trace of simulated gaze");
+void add_simulate_command(Command program) {
+    Command app = program.command("simulate", "make input without a device");
+    app.require_command();
+    add_simulate_tracker_command(app);
+    Command gaze = app.command("gaze", "write a trace of simulated gaze");
     const auto command = std::make_shared<SimulateGazeCommand>();
-    gaze->add_option("file", command->file, "the trace to write (overwritten)")
-        ->required()
-        ->type_name("OUT");
-    gaze->add_option("--seconds", command->seconds, "length")->check(number_between(1e-3, 1e5));
+    gaze.option("file", command->file, "the trace to write (overwritten)").required().type("OUT");
+    gaze.option("--seconds", command->seconds, "length").number_between(1e-3, 1e5);
     command->options.aliases = {
         {"--rate", "sim.rate_hz", "samples a second, 1 to 10000", ""},
         {"--seed", "sim.seed", "the same seed gives the same trace", ""},
         {"--tracker", "profile.tracker", "tracker profile, by name or .toml file", ""},
     };
-    command->options.log.add_to(*gaze);
-    command->options.add_settings_to(*gaze);
-    gaze->callback([=, &action] {
+    command->options.log.add_to(gaze);
+    command->options.add_settings_to(gaze);
+    gaze.does([=] {
         command->options.log.apply();
-        action = [=] { return simulate_gaze(*command); };
+        return simulate_gaze(*command);
     });
 }
 

@@ -3,8 +3,6 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
-#include <charconv>
-
 #include "runtime/preview/preview_memory.h"
 #include "runtime/preview/preview_window.h"
 
@@ -23,54 +21,12 @@ std::uint32_t eyes_named(std::string_view text) {
     return text == "right" ? preview::kRightEye : 0;
 }
 
-const CLI::Validator kNotEmpty(
-    [](const std::string& text) {
-        return text.empty() ? std::string("a name is needed") : std::string();
-    },
-    "", "NOT_EMPTY");
-
-const CLI::Validator kEyes(
-    [](const std::string& text) {
-        return text.empty() || eyes_named(text) != 0
-                   ? std::string()
-                   : fmt::format("'{}' must be left, right or both", text);
-    },
-    "", "");
-
 }  // namespace
 
-CLI::Validator number_between(double least, double greatest) {
-    return {[least, greatest](const std::string& text) {
-                double value = 0.0;
-                const auto [end, error] =
-                    std::from_chars(text.data(), text.data() + text.size(), value);
-                const bool good = error == std::errc{} && end == text.data() + text.size() &&
-                                  value >= least && value <= greatest;
-                return good ? std::string()
-                            : fmt::format("'{}' must be a number in [{}, {}]", text, least,
-                                          greatest);
-            },
-            "", "NUMBER"};
-}
-
-CLI::Validator whole_number(std::uint64_t greatest) {
-    return {[greatest](const std::string& text) {
-                std::uint64_t value = 0;
-                const auto [end, error] =
-                    std::from_chars(text.data(), text.data() + text.size(), value);
-                const bool good =
-                    error == std::errc{} && end == text.data() + text.size() && value <= greatest;
-                return good
-                           ? std::string()
-                           : fmt::format("'{}' must be a whole number, at most {}", text, greatest);
-            },
-            "", "N"};
-}
-
-void LogOptions::add_to(CLI::App& command) {
-    command.add_option("--log-level", log_level, "what goes to stderr")
-        ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
-    command.add_flag("--quiet", quiet, "no log below warnings, no summary");
+void LogOptions::add_to(Command command) {
+    command.option("--log-level", log_level, "what goes to stderr")
+        .one_of({"trace", "debug", "info", "warn", "error", "off"});
+    command.flag("--quiet", quiet, "no log below warnings, no summary");
 }
 
 void LogOptions::apply() const {
@@ -78,50 +34,48 @@ void LogOptions::apply() const {
                                                    : spdlog::level::from_str(log_level));
 }
 
-void RunOptions::add_to(CLI::App& command) {
+void RunOptions::add_to(Command command) {
     log.add_to(command);
     add_settings_to(command);
-    command.add_option("--frames", frames, "end after N frames")
-        ->type_name("N")
-        ->check(whole_number(1'000'000'000'000'000));
-    command.add_option("--seconds", seconds, "end after S seconds")
-        ->type_name("S")
-        ->check(number_between(0, 1e9));
-    command.add_option("--record", record, "write a session (must not exist yet)")
-        ->type_name("FILE")
-        ->check(kNotEmpty);
-    CLI::Option* const pictures =
-        command.add_option("--snapshot", snapshot, "write pictures of the last frame")
-            ->type_name("DIR")
-            ->check(kNotEmpty);
-    command.add_flag("--mark-fovea", mark_fovea, "draw the fovea into the snapshot")
-        ->needs(pictures);
-    command.add_flag("--hash", hash, "hash every frame's foveae and pixels");
-    command.add_option("--json", json, "write the summary as JSON; - is stdout")
-        ->type_name("FILE")
-        ->check(kNotEmpty);
+    command.option("--frames", frames, "end after N frames")
+        .type("N")
+        .whole_number(1'000'000'000'000'000);
+    command.option("--seconds", seconds, "end after S seconds").type("S").number_between(0, 1e9);
+    command.option("--record", record, "write a session (must not exist yet)")
+        .type("FILE")
+        .not_empty();
+    const Option pictures =
+        command.option("--snapshot", snapshot, "write pictures of the last frame")
+            .type("DIR")
+            .not_empty();
+    command.flag("--mark-fovea", mark_fovea, "draw the fovea into the snapshot")
+        .only_with(pictures);
+    command.flag("--hash", hash, "hash every frame's foveae and pixels");
+    command.option("--json", json, "write the summary as JSON; - is stdout")
+        .type("FILE")
+        .not_empty();
     command
-        .add_option("--preview", preview,
-                    fmt::format("show the result in a window: left, right or both eyes. Keys: {}",
-                                preview::kWindowKeys))
-        ->type_name("[left|right|both]")
-        ->expected(0, 1)
-        ->check(kEyes);
+        .option("--preview", preview,
+                fmt::format("show the result in a window: left, right or both eyes. Keys: {}",
+                            preview::kWindowKeys))
+        .type("[left|right|both]")
+        .value_optional()
+        .check([](const std::string& text) {
+            return eyes_named(text) != 0 ? std::string()
+                                         : fmt::format("'{}' must be left, right or both", text);
+        });
 }
 
-void RunOptions::add_settings_to(CLI::App& command) {
-    command.add_option("--config", config_files, "TOML file with settings; may be repeated")
-        ->type_name("FILE")
-        ->allow_extra_args(false);
-    command.add_option("--set", assignments, "a setting, e.g. kfr.disc=false; may be repeated")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
+void RunOptions::add_settings_to(Command command) {
+    command.option("--config", config_files, "TOML file with settings; may be repeated")
+        .type("FILE");
+    command.option("--set", assignments, "a setting, e.g. kfr.disc=false; may be repeated")
+        .type("KEY=VALUE");
     for (Alias& alias : aliases) {
-        command
-            .add_option(alias.flag, alias.text, fmt::format("{} ({})", alias.meaning, alias.key))
-            ->check(kNotEmpty);
+        command.option(alias.flag, alias.text, fmt::format("{} ({})", alias.meaning, alias.key))
+            .not_empty();
     }
-    command.add_flag("--print-config", print_config, "show every setting and where it comes from");
+    command.flag("--print-config", print_config, "show every setting and where it comes from");
 }
 
 Expected<void> RunOptions::apply_to(run::ProgramSettings& settings, bool standard_files) const {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "runtime/cli/command_line.h"
 #include "runtime/run/frame_run.h"
 #include "runtime/settings/settings.h"
 
@@ -15,12 +15,9 @@ struct LogOptions {
     std::string log_level = "info";
     bool quiet = false;
 
-    void add_to(CLI::App& command);
+    void add_to(Command command);
     void apply() const;
 };
-
-/// A number in a range; not-a-number is none.
-CLI::Validator number_between(double least, double greatest);
 
 /// The options that `run` and `replay` share.
 struct RunOptions {
@@ -56,9 +53,9 @@ struct RunOptions {
     bool hash = false;
     bool print_config = false;
 
-    void add_to(CLI::App& command);
+    void add_to(Command command);
     /// Of them only those about settings: --config, --set, the aliases and --print-config.
-    void add_settings_to(CLI::App& command);
+    void add_settings_to(Command command);
 
     /// Applies --config, --set and the aliases, in this order, and reads the file of a kernel
     /// table. `standard_files`: the user's and the system's configuration first.

@@ -89,21 +89,20 @@ ExitCode simulate_tracker(const SimulateTrackerCommand& command) {
 
 }  // namespace
 
-void add_simulate_tracker_command(CLI::App& simulate, Action& action) {
-    CLI::App* const app = simulate.add_subcommand(
-        "tracker", "be a HID eye tracker (usage page 0x12), through /dev/uhid");
+void add_simulate_tracker_command(Command simulate) {
+    Command app =
+        simulate.command("tracker", "be a HID eye tracker (usage page 0x12), through /dev/uhid");
     const auto command = std::make_shared<SimulateTrackerCommand>();
-    app->add_option("--trace", command->trace, "what it sees; without: simulated gaze")
-        ->type_name("FILE");
-    app->add_option("--seconds", command->seconds, "end after S seconds (until interrupted)")
-        ->check(number_between(0.0, 1e9));
-    app->add_option("--rate", command->gaze.tracker.rate_hz, "samples a second, Hz")
-        ->check(number_between(1.0, 1e4));
-    app->add_option("--seed", command->gaze.seed, "the same seed gives the same gaze");
-    command->log.add_to(*app);
-    app->callback([=, &action] {
+    app.option("--trace", command->trace, "what it sees; without: simulated gaze").type("FILE");
+    app.option("--seconds", command->seconds, "end after S seconds (until interrupted)")
+        .number_between(0.0, 1e9);
+    app.option("--rate", command->gaze.tracker.rate_hz, "samples a second, Hz")
+        .number_between(1.0, 1e4);
+    app.option("--seed", command->gaze.seed, "the same seed gives the same gaze");
+    command->log.add_to(app);
+    app.does([=] {
         command->log.apply();
-        action = [=] { return simulate_tracker(*command); };
+        return simulate_tracker(*command);
     });
 }
 

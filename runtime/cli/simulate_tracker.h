@@ -1,10 +1,10 @@
 #pragma once
 
-#include "runtime/cli/commands.h"
+#include "runtime/cli/command_line.h"
 
 namespace gazeloop::cli {
 
 /// Adds `tracker` to `gazeloop simulate`.
-void add_simulate_tracker_command(CLI::App& simulate, Action& action);
+void add_simulate_tracker_command(Command simulate);
 
 }  // namespace gazeloop::cli

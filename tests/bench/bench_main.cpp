@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -9,11 +8,13 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "runtime/error.h"
+#include "runtime/cli/command_line.h"
 #include "tests/bench/bench.h"
 
 namespace gazeloop::bench {
 namespace {
+
+int code(cli::ExitCode exit_code) { return static_cast<int>(exit_code); }
 
 struct Named {
     std::string_view name;
@@ -63,19 +64,23 @@ nlohmann::ordered_json json(const std::vector<Figure>& figures) {
 }
 
 int bench_main(int count, char** arguments) {
-    CLI::App program("Measures gazeloop", "gazeloop_bench");
+    cli::CommandLine line("gazeloop_bench", "Measures gazeloop");
+    cli::Command program = line.program();
     std::string name;
     std::string json_file;
     Options options;
-    program.add_option("name", name, "which one; all without it");
-    program.add_option("--json", json_file, "also write the figures as JSON");
-    program.add_option("--spp", options.samples, "samples a texel or pixel")
-        ->check(CLI::Range(1, 16));
-    program.add_option("--rounds", options.rounds, "interleaved rounds; medians are printed")
-        ->check(CLI::Range(1, 100));
-    program.add_option("--case", options.cases, "only these cases");
-    program.add_option("--trace", options.trace, "recorded gaze, for benches that follow one");
-    CLI11_PARSE(program, count, arguments);
+    program.option("name", name, "which one; all without it");
+    program.option("--json", json_file, "also write the figures as JSON");
+    program.option("--spp", options.samples, "samples per texel or pixel").number_between(1, 16);
+    program.option("--rounds", options.rounds, "interleaved rounds; medians are printed")
+        .number_between(1, 100);
+    program.option("--case", options.cases, "only this case; may be repeated");
+    program.option("--trace", options.trace, "recorded gaze, for benches that follow one");
+    const auto parsed =
+        line.parse(std::vector<std::string>(arguments + std::min(count, 1), arguments + count));
+    if (!parsed) {
+        return code(say(parsed.error()));
+    }
     if (name.empty() || name == "devices") {
         begin_under_umockdev(arguments);
     }
@@ -94,7 +99,7 @@ int bench_main(int count, char** arguments) {
             fmt::print(stderr, " {}", bench.name);
         }
         fmt::print(stderr, "\n");
-        return static_cast<int>(ErrorKind::Usage);
+        return code(cli::ExitCode::Usage);
     }
     print(figures);
     if (!json_file.empty()) {
@@ -102,14 +107,14 @@ int bench_main(int count, char** arguments) {
         out << json(figures).dump(2) << '\n';
         if (!out.flush()) {
             fmt::print(stderr, "error: {} cannot be written\n", json_file);
-            return static_cast<int>(ErrorKind::BadInput);
+            return code(cli::ExitCode::BadInput);
         }
     }
     for (const std::string& wanted : options.cases) {
         if (std::ranges::find(figures, wanted, &Figure::name) == figures.end()) {
             fmt::print(stderr, "error: {} no case '{}'; a run without --case names them\n",
                        name.empty() ? "there is" : fmt::format("bench {} has", name), wanted);
-            return static_cast<int>(ErrorKind::Usage);
+            return code(cli::ExitCode::Usage);
         }
     }
     return 0;
@@ -132,8 +137,11 @@ double median(std::vector<double> values) {
 int main(int count, char** arguments) {
     try {
         return gazeloop::bench::bench_main(count, arguments);
+    } catch (const gazeloop::SetupError& error) {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return static_cast<int>(gazeloop::cli::exit_code(error.kind()));
     } catch (const std::exception& error) {
         fmt::print(stderr, "error: {}\n", error.what());
-        return static_cast<int>(gazeloop::ErrorKind::NoDevice);
+        return static_cast<int>(gazeloop::cli::ExitCode::NoDevice);
     }
 }

@@ -32,16 +32,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         begin = end + 1;
     }
-    std::ranges::reverse(words);  // as CLI11 takes them
 
-    CLI::App app;
+    cli::CommandLine line("", "");
     cli::RunOptions options;
     std::string gaze;
-    options.add_to(app);
-    app.add_option("--gaze", gaze);
+    options.add_to(line.program());
+    line.program().option("--gaze", gaze, "");
     try {
-        app.parse(words);
-    } catch (const CLI::ParseError&) {
+        if (!line.parse(words)) {
+            return 0;
+        }
+    } catch (const SetupError& refusal) {
+        require(refusal.kind() == ErrorKind::Usage);
         return 0;
     }
     require(options.frames.value_or(0) >= 0);
