@@ -7,7 +7,6 @@
 #include <glm/trigonometric.hpp>
 #include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "drivers/hid/hid_source.h"
@@ -140,9 +139,7 @@ ExitCode devices(const DevicesCommand& command) {
         return ExitCode::Interrupted;
     }
     if (!command.json.empty()) {
-        nlohmann::ordered_json list = doctor::devices_json(probes);
-        list.push_back(doctor::openxr_gaze_json(openxr));
-        value_or_throw(report::write_text(command.json, list.dump(2) + "\n"));
+        value_or_throw(report::write_text(command.json, doctor::devices_json(probes, openxr)));
     }
     if (command.json != "-") {
         fmt::print("{}{}", doctor::devices_text(probes), doctor::openxr_gaze_text(openxr));

@@ -9,6 +9,7 @@
 #include "runtime/numerics/envelope_json.h"
 #include "runtime/numerics/envelope_text.h"
 #include "runtime/report/output_file.h"
+#include "runtime/vulkan/context.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -33,8 +34,7 @@ ExitCode measure(const NumericsCommand& command) {
         fmt::print("{}", numerics::envelope_text(envelope));
     }
     if (!command.json.empty()) {
-        value_or_throw(
-            report::write_text(command.json, numerics::envelope_json(envelope).dump(2) + "\n"));
+        value_or_throw(report::write_text(command.json, numerics::envelope_json(envelope)));
     }
     if (!command.html.empty()) {
         value_or_throw(report::write_text(command.html, numerics::envelope_html(envelope)));

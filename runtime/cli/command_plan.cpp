@@ -178,8 +178,7 @@ ExitCode plan(const PlanCommand& command) {
         fmt::print("{}", trade::plan_report_text(report));
     }
     if (!command.options.json.empty()) {
-        value_or_throw(report::write_text(command.options.json,
-                                          trade::plan_report_json(report).dump(2) + "\n"));
+        value_or_throw(report::write_text(command.options.json, trade::plan_report_json(report)));
     }
     if (!command.chart.empty()) {
         // One method is to be seen among the others.

@@ -12,6 +12,7 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/profiles/profiles_in_force.h"
+#include "runtime/run/frame_run.h"
 #include "runtime/run/gaze_sources.h"
 #include "runtime/session/session_file.h"
 #include "runtime/settings/recorded_values.h"

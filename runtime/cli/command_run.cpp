@@ -6,6 +6,7 @@
 #include "runtime/cli/run_options.h"
 #include "runtime/methods/registry.h"
 #include "runtime/profiles/profiles_in_force.h"
+#include "runtime/run/frame_run.h"
 #include "runtime/run/gaze_sources.h"
 
 namespace gazeloop::cli {

@@ -5,6 +5,7 @@
 
 #include "runtime/preview/preview_memory.h"
 #include "runtime/preview/preview_window.h"
+#include "runtime/run/frame_run.h"
 
 namespace gazeloop::cli {
 

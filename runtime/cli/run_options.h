@@ -5,8 +5,11 @@
 #include <vector>
 
 #include "runtime/cli/command_line.h"
-#include "runtime/run/frame_run.h"
 #include "runtime/settings/settings.h"
+
+namespace gazeloop::run {
+struct FrameRunRequest;
+}
 
 namespace gazeloop::cli {
 

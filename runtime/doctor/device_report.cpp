@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "drivers/device/sample_clock.h"
+#include "runtime/doctor/openxr_gaze_report.h"
 
 namespace gazeloop::doctor {
 namespace {
@@ -146,7 +147,7 @@ std::string devices_text(const std::vector<TrackerProbe>& probes) {
     return text;
 }
 
-Json devices_json(const std::vector<TrackerProbe>& probes) {
+std::string devices_json(const std::vector<TrackerProbe>& probes, const Findings& openxr) {
     Json list = Json::array();
     for (const TrackerProbe& probe : probes) {
         const drivers::TrackerFacts& facts = probe.facts;
@@ -184,7 +185,8 @@ Json devices_json(const std::vector<TrackerProbe>& probes) {
                         {"remarks", probe.remarks},
                         {"problems", diagnosis(probe)}});
     }
-    return list;
+    list.push_back(openxr_gaze_json(openxr));
+    return list.dump(2) + "\n";
 }
 
 bool any_gaze(const std::vector<TrackerProbe>& probes) {

@@ -12,7 +12,7 @@
 #include "runtime/foveation/picture/image_size.h"
 #include "runtime/foveation/picture/offered_density.h"
 #include "runtime/methods/method_settings.h"
-#include "runtime/render/passes/method_passes.h"
+#include "runtime/render/passes/make_passes.h"
 #include "runtime/settings/settings.h"
 
 namespace gazeloop::methods {

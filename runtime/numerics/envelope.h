@@ -8,7 +8,10 @@
 #include "runtime/foveation/log_polar/lp_size.h"
 #include "runtime/foveation/picture/image_size.h"
 #include "runtime/numerics/table_builds.h"
-#include "runtime/vulkan/context.h"
+
+namespace gazeloop::vulkan {
+class Context;
+}
 
 namespace gazeloop::numerics {
 

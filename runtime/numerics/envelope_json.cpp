@@ -1,5 +1,7 @@
 #include "runtime/numerics/envelope_json.h"
 
+#include <nlohmann/json.hpp>
+
 namespace gazeloop::numerics {
 namespace {
 
@@ -13,7 +15,7 @@ nlohmann::ordered_json errors_json(const EnvelopeRow::Errors& errors) {
 
 }  // namespace
 
-nlohmann::ordered_json envelope_json(const Envelope& envelope) {
+std::string envelope_json(const Envelope& envelope) {
     auto rows = nlohmann::ordered_json::array();
     for (const EnvelopeRow& row : envelope.rows) {
         rows.push_back({{"map", row.map},
@@ -41,20 +43,21 @@ nlohmann::ordered_json envelope_json(const Envelope& envelope) {
     for (const TableBuild& build : envelope.tables) {
         tables.push_back({{"map", build.map}, {"build_ms", build.milliseconds}});
     }
-    return {{"device", envelope.device},
-            {"driver", envelope.driver},
-            {"met", envelope.met()},
-            {"counts",
-             {{"useful", counts.useful},
-              {"met", counts.met},
-              {"met_for_float32", counts.for_float32},
-              {"useless", counts.useless}}},
-            {"draws", envelope.draws},
-            {"draws_not_finite", envelope.draws_not_finite},
-            {"draws_outside", envelope.draws_outside},
-            {"seconds", envelope.seconds},
-            {"tables_2160x2160", tables},
-            {"rows", rows}};
+    const nlohmann::ordered_json json{{"device", envelope.device},
+                                      {"driver", envelope.driver},
+                                      {"met", envelope.met()},
+                                      {"counts",
+                                       {{"useful", counts.useful},
+                                        {"met", counts.met},
+                                        {"met_for_float32", counts.for_float32},
+                                        {"useless", counts.useless}}},
+                                      {"draws", envelope.draws},
+                                      {"draws_not_finite", envelope.draws_not_finite},
+                                      {"draws_outside", envelope.draws_outside},
+                                      {"seconds", envelope.seconds},
+                                      {"tables_2160x2160", tables},
+                                      {"rows", rows}};
+    return json.dump(2) + "\n";
 }
 
 }  // namespace gazeloop::numerics

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <string>
 
 #include "runtime/numerics/envelope.h"
 
 namespace gazeloop::numerics {
 
-/// Every row with every figure.
-nlohmann::ordered_json envelope_json(const Envelope& envelope);
+/// Every row with every figure, as JSON.
+std::string envelope_json(const Envelope& envelope);
 
 }  // namespace gazeloop::numerics

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "runtime/foveation/eye/fewest_samples.h"
@@ -98,7 +99,7 @@ std::string plan_report_text(const PlanReport& report) {
     return text;
 }
 
-nlohmann::ordered_json plan_report_json(const PlanReport& report) {
+std::string plan_report_json(const PlanReport& report) {
     using nlohmann::ordered_json;
     const PlanQuestion& asked = report.question;
     const gaze::EyeView& view = asked.field->view();
@@ -151,7 +152,7 @@ nlohmann::ordered_json plan_report_json(const PlanReport& report) {
         methods.push_back(std::move(entry));
     }
     json["methods"] = std::move(methods);
-    return json;
+    return json.dump(2) + "\n";
 }
 
 report::LineChart density_chart(const PlanReport& report) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -45,7 +44,7 @@ struct PlanReport {
 [[nodiscard]] PlanReport make_plan_report(PlanQuestion question, std::vector<PlanRow> rows);
 
 [[nodiscard]] std::string plan_report_text(const PlanReport& report);
-[[nodiscard]] nlohmann::ordered_json plan_report_json(const PlanReport& report);
+[[nodiscard]] std::string plan_report_json(const PlanReport& report);
 
 /// Offered density by eccentricity of the methods, and what the models ask for, dashed.
 [[nodiscard]] report::LineChart density_chart(const PlanReport& report);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/seen_depth.h"
 #include "runtime/render/frame_view.h"
+#include "runtime/render/passes/make_passes.h"
 #include "runtime/scene/scene.h"
 #include "runtime/vulkan/memory.h"
 #include "runtime/vulkan/pass_recorder.h"
@@ -91,8 +91,5 @@ class MethodPasses {
         return {};
     }
 };
-
-/// Throws SetupError (Usage) for parameters that the pictures do not allow.
-using MakePasses = std::function<std::unique_ptr<MethodPasses>(const PassSetup&)>;
 
 }  // namespace gazeloop::render
