@@ -9,7 +9,7 @@
 
 #include "runtime/cli/exit_code.h"
 
-// CLI11 takes ten seconds a file to compile: its header stays in command_line.cpp.
+// CLI11 takes ten seconds per file to compile: its header stays in command_line.cpp.
 namespace CLI {
 class App;
 class Option;
