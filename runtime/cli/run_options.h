@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "runtime/cli/command_line.h"
-#include "runtime/settings/settings.h"
+#include "runtime/run/program_settings.h"
 
 namespace gazeloop::run {
 struct FrameRunRequest;

@@ -8,8 +8,8 @@
 
 namespace gazeloop::foveation {
 
-/// What of a map depends on the gaze, as the shaders take it (shaders/lib/log_polar.glsl): everything
-/// else lies in MapTables, so that a new gaze costs these few numbers.
+/// What of a map depends on the gaze, as the shaders take it (shaders/lib/log_polar.glsl):
+/// everything else lies in MapTables, so that a new gaze costs these few numbers.
 ///
 /// Picture frame, with rmax the farthest radius:
 struct PictureFrameUniforms {

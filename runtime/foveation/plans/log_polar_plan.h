@@ -21,7 +21,8 @@ struct LogPolarPlan {
     gaze::PixelPosition fovea;
     double log2_max_radius = 0.0;
     double disc_border_px = 0.0;  ///< the blend lies inside the radius
-    /// 0: no disc. Of plan_acuity, it only says how large a ring to draw (exact for a centred gaze).
+    /// 0: no disc. Of plan_acuity, it only says how large a ring to draw (exact for a centred
+    /// gaze).
     double disc_radius_px = 0.0;
     /// Set by plan_acuity only, whose map is centred by a rotation.
     struct InGazeFrame {
@@ -37,9 +38,9 @@ struct LogPolarPlan {
 /// Names of the two grids, in this order: "lp", "picture".
 [[nodiscard]] const frame::GridList& log_polar_grids();
 
-/// The LP part of every plan: fills `texels` with what the bilinear reads of pixel centres at columns
-/// beyond `core_u` touch (a negative one: of all pixel centres), and of visible ones where an area
-/// is hidden. Precondition: plan.lp.
+/// The LP part of every plan: fills `texels` with what the bilinear reads of pixel centres at
+/// columns beyond `core_u` touch (a negative one: of all pixel centres), and of visible ones where
+/// an area is hidden. Precondition: plan.lp.
 void plan_lp_tiles(const RadialMap& map, double core_u, const HiddenArea* hidden,
                    LogPolarPlan& plan);
 

@@ -24,7 +24,8 @@ struct ShadedGrid {
 /// One eye's picture at one gaze.
 struct EyePlan {
     std::vector<ShadedGrid> grids;  ///< in the order of MethodPlan::grids()
-    /// What of the method depends on the gaze, as its shaders take it (descriptor set 2, binding 0).
+    /// What of the method depends on the gaze, as its shaders take it (descriptor set 2, binding
+    /// 0).
     std::array<glm::vec4, 16> uniforms{};
     double ring_px = 0.0;  ///< radius of the ring to draw around the fovea; 0: none
 };
@@ -44,13 +45,14 @@ class MethodPlan {
     /// Whether it was made for views with these fields of view and sizes.
     [[nodiscard]] virtual bool fits(const gaze::StereoView& views) const = 0;
 
-    /// Makes what depends on fields of view and sizes, where they are others. May take milliseconds:
-    /// before the gaze is read. Errors (Usage): parameters that the pictures do not allow.
+    /// Makes what depends on fields of view and sizes, where they are others. May take
+    /// milliseconds: before the gaze is read. Errors (Usage): parameters that the pictures do not
+    /// allow.
     virtual Expected<void> prepare(const gaze::StereoView& views) = 0;
 
-    /// Plans one eye's picture at one gaze, in microseconds. Reuses the plan's memory: no allocation
-    /// once it has grown. `hidden` must be of this picture; null: nothing is hidden. Precondition:
-    /// prepare() for views that this one belongs to.
+    /// Plans one eye's picture at one gaze, in microseconds. Reuses the plan's memory: no
+    /// allocation once it has grown. `hidden` must be of this picture; null: nothing is hidden.
+    /// Precondition: prepare() for views that this one belongs to.
     virtual void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
                       const HiddenArea* hidden, EyePlan& plan) const = 0;
 };

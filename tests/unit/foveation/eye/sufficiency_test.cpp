@@ -9,8 +9,8 @@
 #include "runtime/foveation/eye/guenter_acuity.h"
 #include "runtime/foveation/eye/stela_acuity.h"
 #include "runtime/foveation/plans/kfr_density.h"
-#include "runtime/foveation/plans/layer_plan.h"
 #include "runtime/foveation/plans/kfr_plan.h"
+#include "runtime/foveation/plans/layer_plan.h"
 #include "runtime/foveation/plans/shading_rings.h"
 #include "tests/unit/foveation/picture/example_views.h"
 
