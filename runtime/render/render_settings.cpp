@@ -33,6 +33,8 @@ std::vector<settings::SettingRow> rows_of(RenderSettings& render,
          Concerns::Picture},
         {"render.spp", "samples per texel or pixel", Whole{&render.spp, 1, kMaxSamples},
          Concerns::Picture},
+        {"render.wait_before_latch", "read the gaze only after what needs none is drawn",
+         &render.wait_before_latch, Concerns::Output},
     };
 }
 

@@ -18,6 +18,7 @@ struct RenderSettings {
     bool depth = true;
     bool hidden_area = true;
     std::int64_t frames_in_flight = 2;
+    bool wait_before_latch = false;
 };
 
 /// `methods`: the names that render.method may have.

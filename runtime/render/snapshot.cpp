@@ -42,7 +42,8 @@ Snapshot::Snapshot(const vulkan::Context& context, const FrameRenderer& renderer
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
         copies_[e] = vulkan::ColorImage(
             context, config.extents[e], config.format,
-            vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc);
+            vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc |
+                vk::ImageUsageFlagBits::eSampled);  // views need a use besides copies
     }
     pool_ = vk::raii::CommandPool(
         device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient,

@@ -242,6 +242,7 @@ class FrameRun {
         LoopOptions options = request_.loop;
         options.stop = [this] { return why_stop(); };
         options.hidden_area = values_.render.hidden_area;
+        options.wait_before_latch = values_.render.wait_before_latch;
         try {
             result_ = run_frame_loop(parts, options);
             if (result_.end == LoopEnd::Interrupted) {

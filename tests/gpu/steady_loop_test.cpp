@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "runtime/methods/registry.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/watch/watched_call.h"
@@ -39,10 +40,12 @@ TEST(WatchedThread, CountsItsAllocationsAndLeavesOutThoseInsideCalls) {
 }
 
 TEST(SteadyLoop, AllocatesNothingHeadless) {
-    for (const char* method : {"kfr", "full"}) {
+    for (const std::string& method : methods::rendered_methods()) {
         const TemporaryFolder folder;
-        expect_no_allocations(run_watched_loop(
-            {.paced = false, .frames = 400, .method = method, .record = folder / "session.gaze"}));
+        expect_no_allocations(run_watched_loop({.paced = false,
+                                                .frames = 400,
+                                                .method = method.c_str(),
+                                                .record = folder / "session.gaze"}));
     }
 }
 

@@ -89,5 +89,20 @@ INSTANTIATE_TEST_SUITE_P(
                                 4, "ErrorDeviceLost"}),
     [](const auto& instance) { return instance.param.name; });
 
+// Compiling ahead of the first frame takes the renderer itself: a second one would create its
+// pipelines once more. Kernel foveated rendering has three.
+TEST(WarmUp, CreatesNoPipelineTwice) {
+    const std::vector<std::string> run{"run",      "--gaze",   "fixed:1,1", "--frames",         "3",
+                                       "--target", "headless", "--set",     "render.scale=0.05"};
+    const char* const plan = "vkCreateGraphicsPipelines@%=VK_ERROR_OUT_OF_HOST_MEMORY";
+    const auto failing_at = [&](const std::string& call) {
+        std::string text = plan;
+        return run_gazeloop(run,
+                            {.environment = vulkan_faults(text.replace(text.find('%'), 1, call))});
+    };
+    EXPECT_EQ(failing_at("4").exit_code, 0);
+    EXPECT_NE(failing_at("3").exit_code, 0) << "the count is not that of this method any more";
+}
+
 }  // namespace
 }  // namespace gazeloop::tests

@@ -1,7 +1,8 @@
 // A Vulkan layer that makes a healthy device fail on demand: VK_LAYER_GAZELOOP_faults.
 // GAZELOOP_VULKAN_FAULTS says which calls (see fault_plan.h) of vkQueueSubmit2, vkWaitSemaphores,
-// vkAllocateMemory and vkCreateImage; the effect is the name of a VkResult. Once
-// VK_ERROR_DEVICE_LOST has been given, the device stays lost for everything that uses it.
+// vkAllocateMemory, vkCreateImage and vkCreateGraphicsPipelines; the effect is the name of a
+// VkResult. Once VK_ERROR_DEVICE_LOST has been given, the device stays lost for everything that
+// uses it.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
@@ -97,6 +98,17 @@ VKAPI_ATTR VkResult VKAPI_CALL create_image(VkDevice device, const VkImageCreate
                : next<PFN_vkCreateImage>("vkCreateImage")(device, info, callbacks, image);
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL create_pipelines(VkDevice device, VkPipelineCache cache,
+                                                std::uint32_t count,
+                                                const VkGraphicsPipelineCreateInfo* infos,
+                                                const VkAllocationCallbacks* callbacks,
+                                                VkPipeline* pipelines) {
+    const VkResult fault = fault_at("vkCreateGraphicsPipelines", false);
+    return fault != VK_SUCCESS ? fault
+                               : next<PFN_vkCreateGraphicsPipelines>("vkCreateGraphicsPipelines")(
+                                     device, cache, count, infos, callbacks, pipelines);
+}
+
 /// The loader's link to the layer below, which this layer moves on by one.
 template <typename LinkInfo>
 LinkInfo* link_of(const void* chain, VkStructureType type) {
@@ -161,6 +173,9 @@ PFN_vkVoidFunction device_hook(std::string_view name) {
     }
     if (name == "vkAllocateMemory") {
         return as(&allocate_memory);
+    }
+    if (name == "vkCreateGraphicsPipelines") {
+        return as(&create_pipelines);
     }
     return name == "vkCreateImage" ? as(&create_image) : nullptr;
 }

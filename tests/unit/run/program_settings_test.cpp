@@ -48,7 +48,7 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
                          "sparse.wide_spread"}},
     {Concerns::Output,
      {"acuity.luminance_cd_m2", "acuity.nasal", "render.depth", "render.frames_in_flight",
-      "render.profile"}},
+      "render.profile", "render.wait_before_latch"}},
     {Concerns::Machine,
      {"target.name", "target.validation", "vulkan.device", "vulkan.validation"}}};
 
