@@ -1,5 +1,7 @@
 #include "runtime/render/passes/drawing.h"
 
+#include <algorithm>
+
 #include "runtime/vulkan/pipelines.h"
 
 namespace gazeloop::render {
@@ -40,6 +42,25 @@ void draw_visible(const vk::raii::CommandBuffer& commands, const foveation::Hidd
         draw_tiles(commands, hidden->visible_tiles(), 0);
     } else {
         commands.draw(3, 1, 0, 0);
+    }
+}
+
+void draw_visible_tiles(const vk::raii::CommandBuffer& commands,
+                        std::span<const foveation::Tile> tiles,
+                        const foveation::HiddenArea* hidden) {
+    if (hidden == nullptr) {
+        draw_tiles(commands, tiles, 0);
+        return;
+    }
+    for (const foveation::Tile& tile : tiles) {
+        for (const foveation::Tile& visible : hidden->visible_tiles()) {
+            const foveation::Tile both{std::max(tile.x0, visible.x0), std::max(tile.y0, visible.y0),
+                                       std::min(tile.x1, visible.x1),
+                                       std::min(tile.y1, visible.y1)};
+            if (both.x0 < both.x1 && both.y0 < both.y1) {
+                draw_tiles(commands, std::span(&both, 1), 0);
+            }
+        }
     }
 }
 

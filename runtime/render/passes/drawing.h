@@ -34,6 +34,11 @@ void draw_tiles(const vk::raii::CommandBuffer& commands, std::span<const foveati
 /// The whole picture, or what of it is visible.
 void draw_visible(const vk::raii::CommandBuffer& commands, const foveation::HiddenArea* hidden);
 
+/// Of the tiles, what of them is visible.
+void draw_visible_tiles(const vk::raii::CommandBuffer& commands,
+                        std::span<const foveation::Tile> tiles,
+                        const foveation::HiddenArea* hidden);
+
 /// Draws both eyes' pictures, less what no eye sees of them. `draw_eye(e)` draws one, into the
 /// target that is bound.
 template <typename DrawEye>  // no std::function: no allocation per frame

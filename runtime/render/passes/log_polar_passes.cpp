@@ -290,7 +290,8 @@ class LogPolarPasses final : public MethodPasses {
             draw_visible(commands, hidden);
         }
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_disc_);
-        draw_tiles(commands, plan.grids[kDisc].tiles, 0);
+        // Hidden pixels of the disc were not shaded: what lies in their places must not show.
+        draw_visible_tiles(commands, plan.grids[kDisc].tiles, hidden);
     }
 
     PassSetup setup_;
