@@ -16,8 +16,8 @@ struct SourceEvent {
     std::string text;  ///< one line
 };
 
-/// Where gaze comes from. A source that owns a device reads it on a thread of its own and hands the
-/// samples over here; a source that computes them does so here.
+/// Where gaze comes from. A source that owns a device reads it on its own thread and hands the
+/// samples over in poll(); a source that computes samples does so in poll().
 class GazeSource {
   public:
     GazeSource() = default;
@@ -29,9 +29,10 @@ class GazeSource {
     /// in the order of arrival. Never blocks.
     virtual void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) = 0;
 
-    /// How far away it was around the foveae of the newest frame that the GPU has finished, some
-    /// frames ago: for sources that know one ray for both eyes and must find where they meet. A
-    /// frame's gaze is recorded as it was split, so that a replay needs no depth.
+    /// How far away the scene was around the foveae of the newest frame that the GPU has finished,
+    /// some frames ago. For sources that know one ray for both eyes and must find where the eyes'
+    /// rays meet. A frame's gaze is recorded after the split into two rays, so that a replay needs
+    /// no depth.
     virtual void take_seen_depth(const gaze::SeenDepth& /*seen*/) {}
 
     /// What happened since the last call: devices that came and went, changes of status and clock.
@@ -40,8 +41,8 @@ class GazeSource {
     /// The head motion that belongs to the gaze, or null where the source knows none.
     [[nodiscard]] virtual const gaze::HeadMotion* head_track() const { return nullptr; }
 
-    /// Whether its samples are directions in the head on purpose, whatever the head does (fixed
-    /// foveation), so that they are not to be held in world.
+    /// Whether its samples are fixed in the head on purpose (fixed foveation), so that they must
+    /// not be held in world.
     [[nodiscard]] virtual bool fixed_in_head() const { return false; }
 
     /// Whether no sample can come any more (the end of a trace).

@@ -7,13 +7,13 @@
 
 namespace gazeloop::sim {
 
-/// When the lids close: pauses of at least half a second, exponential beyond; durations of 100 to
-/// 400 ms (uniform), of which the closing takes a third. Not at 0 s.
+/// When the lids close. Pauses are at least half a second, exponential beyond; closures last 100 to
+/// 400 ms (uniform), a third of it closing. The lids are open at 0 s.
 class Blinks {
   public:
     Blinks(const EyeTerms& terms, std::uint64_t seed);
 
-    /// Plans up to a time, before anything is asked about it.
+    /// Plans up to a time; to be called before anything is asked about that time.
     void plan_until(double time_s);
 
     /// 1 open .. 0 closed, at a time >= 0 s that was planned.

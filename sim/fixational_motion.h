@@ -16,13 +16,13 @@ struct FixationalOffset {
 };
 
 /// The small movements on top of fixation: drift and microsaccades (tremor, below an arc minute, is
-/// left out). Both eyes make them together. They go on during saccades, where nobody can tell.
+/// left out). Both eyes make them together. They go on during saccades, where nobody can see them.
 ///
-/// - Drift: per axis three sines between .8 and 4.8 Hz with amplitudes as one over their frequency,
-///   scaled so that within a window of 224 ms the expected SD about the window's mean, both axes
-///   together, is drift_deg.
+/// - Drift: per axis three sines between .8 and 4.8 Hz, with amplitudes as one over their
+///   frequency. They are scaled so that drift_deg is the expected SD about the mean within a window
+///   of 224 ms, both axes together.
 /// - Microsaccades: a Poisson process; amplitudes of .1 to 1 deg (uniform in the logarithm), on the
-///   main sequence, each back towards the centre within 60 deg of its direction.
+///   main sequence. Each goes back towards the centre, within 60 deg of that direction.
 class FixationalMotion {
   public:
     FixationalMotion(const EyeTerms& terms, std::uint64_t seed);
@@ -36,7 +36,7 @@ class FixationalMotion {
   private:
     struct Sine {
         double amplitude_rad = 0.0;
-        double angular_hz = 0.0;  ///< radians a second
+        double angular_hz = 0.0;  ///< radians per second
         double phase_rad = 0.0;
     };
     using Drift = std::array<Sine, 3>;

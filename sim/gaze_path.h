@@ -16,20 +16,21 @@ enum class Movement : std::uint8_t { Fixation, Saccade, Pursuit };
 /// Where the gaze goes in world: saccade, fixation, saccade ... beginning in a fixation at 0 s.
 ///
 /// - Targets lie about the direction that the head will point in (normal, SD saccade_deg).
-/// - A gaze shift may take the head along (turn_percent): eye and head begin together, the eye
-///   arrives first, and then counter-rotates while the head comes after. The new heading lies
-///   within 30 deg of where the head points, so that no eye turns farther than about 50 deg.
+/// - A gaze shift may take the head along (turn_percent). Eye and head begin together; the eye
+///   arrives first, and counter-rotates while the head follows. The new heading lies within 30 deg
+///   of where the head points, so that no eye turns farther than about 50 deg.
 /// - Fixations have log-normal durations (the logarithm's SD is .6, as in the recordings that
 ///   main_sequence was fitted to) and hold a point in world; with a vor_gain below 1 they slip.
 /// - Distances change with the saccade, linearly in dioptres (real vergence is slower).
 ///
-/// It keeps every movement, about 150 bytes each: less than 2 MB an hour.
+/// It keeps every movement, about 150 bytes each: less than 2 MB per hour.
 class GazePath {
   public:
     GazePath(const EyeTerms& terms, const HeadTerms& head_terms, std::uint64_t seed,
              SimulatedHead& head);
 
-    /// Plans up to a time; before anything is asked about it, or about the head at it.
+    /// Plans up to a time; to be called before anything is asked about that time, or about the head
+    /// at it.
     void plan_until(double time_s);
 
     struct Point {

@@ -31,8 +31,8 @@ struct HeadTerms {
     double turn_deg = 12.0;         ///< SD of the headings it turns to, yaw; pitch a third of it
     double turn_speed_per_s = 4.0;  ///< peak velocity of a turn over its amplitude
     double pivot_m = 0.1;           ///< it turns about a point so far behind the eyes
-    double vor_gain = 1.0;  ///< 1: eyes in fixation counter-rotate fully; 0: not at all. Of its
-                            ///< turns; what its pivot shifts the eyes by is always followed
+    double vor_gain = 1.0;  ///< 1: eyes in fixation counter-rotate fully to turns; 0: not at all.
+                            /// < Eyes always follow the shift by the pivot
 
     [[nodiscard]] bool moves() const { return sway_deg > 0.0 || turn_percent > 0.0; }
 };

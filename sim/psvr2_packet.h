@@ -37,8 +37,8 @@ struct ControlRequest {
     std::span<const std::uint8_t> payload;
 };
 
-/// Whether it asks the headset to send gaze (true) or to cease (false); none where it is about
-/// something else, which the headset stalls.
+/// Whether it asks the headset to send gaze (true) or to stop (false); none for anything else,
+/// which the headset stalls.
 [[nodiscard]] std::optional<bool> psvr2_gaze_request(const ControlRequest& request);
 
 /// Device descriptor and configuration, one after the other, as sysfs shows them: six interfaces,

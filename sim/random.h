@@ -7,7 +7,8 @@
 namespace gazeloop::sim {
 
 /// Every term of the simulation draws from a stream of its own, so that switching one on or off
-/// changes the numbers of no other. Numbers stay as they are: they decide what a seed gives.
+/// changes the numbers of no other. The enumerators' numbers must not change: they decide what a
+/// seed gives.
 enum class Stream : std::uint64_t {
     Sway = 1,
     Targets,
@@ -30,8 +31,8 @@ enum class Stream : std::uint64_t {
 /// 2014, "Fast splittable pseudorandom number generators") and distributions written out.
 class Random {
   public:
-    /// Streams of one seed are independent of each other, and so are the events of one stream:
-    /// what event 7 draws does not depend on how much event 6 drew.
+    /// Streams of one seed are independent of each other. So are the events of one stream: what
+    /// event 7 draws does not depend on how much event 6 drew.
     Random(std::uint64_t seed, Stream stream, std::uint64_t event = 0)
         : state_(mix(mix(seed + kStep) ^ (static_cast<std::uint64_t>(stream) * kStreamStep)) ^
                  mix(event + kStep)) {}

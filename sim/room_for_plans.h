@@ -4,8 +4,8 @@
 
 namespace gazeloop::sim {
 
-/// Memory for as many events as usually come in ten minutes, so that the first of them ask for none
-/// while a frame loop runs. Later ones make room as a vector does.
+/// Room for as many events as usually come in ten minutes, so that these allocate nothing while a
+/// frame loop runs. Later ones grow the memory as a vector does.
 [[nodiscard]] inline std::size_t room_for_plans(double events_per_s) {
     constexpr double kSeconds = 600.0;
     constexpr double kMoreThanUsual = 1.25;

@@ -11,8 +11,9 @@ struct MainSequence {
 };
 
 /// The main sequence: peak velocity 596 (1 - exp(-A / 6.47)) deg/s and duration 2.54 A + 15.9 ms
-/// for an amplitude of A degrees, fitted to the 543 saccades up to 23 deg that coders labelled in
-/// the recordings of Andersson et al. 2017 (Behavior Research Methods 49:616). Amplitude > 0.
+/// for an amplitude of A degrees. It is fitted to the 543 saccades up to 23 deg that coders
+/// labelled in the recordings of Andersson et al. 2017 (Behavior Research Methods 49:616).
+/// Amplitude > 0.
 [[nodiscard]] MainSequence main_sequence(double amplitude_deg);
 
 /// A rapid turn of the gaze from one direction to another, along the great circle. Its velocity is
@@ -20,7 +21,7 @@ struct MainSequence {
 /// sequence (large real saccades lean to an early peak).
 class Saccade {
   public:
-    /// No turn at all, and in no time. Unit vector.
+    /// No turn, of duration 0. Unit vector.
     explicit Saccade(const glm::dvec3& resting);
 
     /// Unit vectors that differ. `vigour` > 0 makes it so many times as fast as the main sequence.

@@ -7,7 +7,7 @@
 namespace gazeloop::sim {
 
 /// Which samples are lost: a given share, in gaps of a given mean length (a Markov chain of two
-/// states; Gilbert 1960). A share that the mean length cannot give has longer gaps.
+/// states; Gilbert 1960). If the mean length cannot give the share, gaps are longer.
 class SampleLoss {
   public:
     /// `percent` 0 .. 100; 0 draws no numbers. `mean_samples`: of a gap; at least 1.

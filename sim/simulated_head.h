@@ -37,7 +37,7 @@ class SimulatedHead {
     /// The pose at a time >= 0 s: at the origin, while it does not move.
     [[nodiscard]] gaze::Pose at(double time_s) const;
 
-    /// What its sway and its turns add to its heading at a time, and its turns when all are over.
+    /// What sway and turns add to the heading at a time; and what the turns add when all are over.
     [[nodiscard]] Heading swayed(double time_s) const;
     [[nodiscard]] Heading turned(double time_s) const;
     [[nodiscard]] Heading rest() const { return rest_; }
@@ -45,7 +45,7 @@ class SimulatedHead {
   private:
     struct Sine {
         double amplitude_rad = 0.0;
-        double angular_hz = 0.0;  ///< radians a second
+        double angular_hz = 0.0;  ///< radians per second
         double phase_rad = 0.0;
     };
     using Sway = std::array<Sine, 3>;

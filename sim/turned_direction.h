@@ -15,7 +15,8 @@ namespace gazeloop::sim {
 }
 
 /// The unit vector that is `right_rad` to the right of `direction` (unit) and `up_rad` above it,
-/// along the great circle of that offset. Any finite offset; its length is the angle between.
+/// along the great circle of that offset. Any finite offset; its length is the angle between the
+/// two vectors.
 [[nodiscard]] inline glm::dvec3 turned_direction(const glm::dvec3& direction, double right_rad,
                                                  double up_rad) {
     const double angle = std::hypot(right_rad, up_rad);

@@ -12,7 +12,7 @@
 
 namespace gazeloop::sim {
 
-/// A HID device that the kernel believes in, made through /dev/uhid. It goes with this object.
+/// A HID device that is real to the kernel, made through /dev/uhid. The destructor removes it.
 class UhidDevice {
   public:
     struct Identity {
@@ -21,7 +21,7 @@ class UhidDevice {
         std::uint16_t product = 0;
     };
     struct Answers {
-        /// A feature report, id first; none where there is none of that id.
+        /// A feature report, id first; none if there is none of that id.
         std::function<std::optional<std::vector<std::uint8_t>>(std::uint8_t id)> get_feature;
         std::function<void(std::span<const std::uint8_t> report)> set_feature;
     };
@@ -41,7 +41,7 @@ class UhidDevice {
     /// Sends an input report, id first. Errors (NoDevice): the kernel does not take it.
     [[nodiscard]] Expected<void> send(std::span<const std::uint8_t> report);
 
-    /// Answers what the kernel asks for so long, or until a signal comes and `stop` says so.
+    /// Answers what the kernel asks for this long, or until a signal comes and `stop` says so.
     void answer_for(std::chrono::nanoseconds time, const std::function<bool()>& stop);
 
   private:

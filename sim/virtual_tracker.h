@@ -12,8 +12,8 @@
 namespace gazeloop::sim {
 
 /// What an eye tracker on HID usage page 0x12 says, in the layout that Microsoft published: bytes
-/// only, for /dev/uhid or a test. Its screen is 527 x 296 mm, its viewer sits 600 mm before the
-/// middle.
+/// only, for /dev/uhid or a test. Its screen is 527 x 296 mm; its viewer sits 600 mm in front of
+/// the middle.
 inline constexpr double kVirtualScreenWidth_m = 0.527;
 inline constexpr double kVirtualScreenHeight_m = 0.296;
 inline constexpr double kVirtualDistance_m = 0.6;

@@ -30,9 +30,9 @@ class DeviceFeed {
         }
     }
 
-    /// There is no gaze from here on, at this time: a sample in which neither eye is valid, so that
-    /// the loop's policy for lost gaze takes over with its next frame, in a replay too. Once: until
-    /// the next sample there is nothing more to lose, nor before the first one.
+    /// There is no gaze from this time on: pushes a sample in which neither eye is valid. So the
+    /// loop's policy for lost gaze takes over with its next frame, in a replay too. Only one such
+    /// sample is pushed until the next real one, and none before the first.
     void push_loss(time::Stamp at) {
         if (lost_) {
             return;
@@ -45,7 +45,7 @@ class DeviceFeed {
         lost_ = dropped() == refused;
     }
 
-    /// The number of the last sample: another one, and something was pushed.
+    /// The number of the last sample: it changes when something was pushed.
     [[nodiscard]] std::uint64_t last_sequence() const { return sequence_; }
 
     void tell(time::Stamp time, std::string text) {
@@ -72,7 +72,7 @@ class DeviceFeed {
         return std::exchange(events_, {});
     }
 
-    /// Samples lost because the loop did not ask for so long.
+    /// Samples lost because the loop had not asked for too long.
     [[nodiscard]] std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
   private:

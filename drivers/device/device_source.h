@@ -27,7 +27,7 @@ class DeviceSource : public GazeSource {
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;
     [[nodiscard]] std::vector<SourceEvent> take_events() override;
 
-    /// Samples lost because nobody polled for so long.
+    /// Samples lost because nobody had polled for too long.
     [[nodiscard]] std::uint64_t dropped() const;
 
   private:

@@ -15,16 +15,16 @@ struct FoundDevice {
     std::uint16_t product = 0;
     /// Why it cannot be opened; none where it can.
     std::optional<std::string> access_problem;
-    /// The udev rule that cures that; empty where it is not for lack of one.
+    /// The udev rule that cures that; empty if a missing rule is not the cause.
     std::string missing_rule;
 
     /// "NAME (054c:0cde) at /dev/hidraw0".
     [[nodiscard]] std::string text() const;
 };
 
-/// What to do with a missing rule. It goes into a file of its own: one of the name of the installed
-/// config/udev/70-gazeloop.rules would take that one's place. It comes before 73-seat-late.rules,
-/// which acts on its tag.
+/// What to do with a missing rule. It goes into a file of its own, because a file named like the
+/// installed config/udev/70-gazeloop.rules would replace that one. It comes before
+/// 73-seat-late.rules, which acts on its tag.
 inline constexpr std::string_view kRuleRemedy =
     "as root, add this line to /etc/udev/rules.d/70-gazeloop-local.rules, then plug the tracker in "
     "again, logged in at this computer:";

@@ -14,9 +14,9 @@ namespace gazeloop::drivers {
 struct TrackerDelay {
     std::int64_t least_ns = 0;        ///< from the profile: when nothing is in the way
     std::int64_t uncertainty_ns = 0;  ///< of that, either way
-    /// From the bus: how often the host asks for samples. 0 where they come by themselves: those of
-    /// a virtual device; and of a bulk endpoint (the PSVR2's) with requests pending, which the
-    /// controller asks again and again in whatever time of the bus is left, at no fixed times.
+    /// From the bus: how often the host asks for samples. 0 where they come by themselves: from a
+    /// virtual device, or from a bulk endpoint (the PSVR2's) with requests pending. The controller
+    /// asks such an endpoint again and again, in whatever bus time is left, not at fixed times.
     std::int64_t polling_ns = 0;
 };
 
@@ -30,13 +30,14 @@ class SampleClock {
     SampleClock(std::uint32_t bits, double tick_ns, const TrackerDelay& delay)
         : counter_(bits, tick_ns), delay_(delay), fit_(delay.polling_ns) {}
 
-    /// Sets the times of a sample with that timestamp, in the order of arrival: device_ns, arrived,
-    /// and, where the clock's verdict allows, ready (by the fitted clock), sampled (the profile's
-    /// delay before that, kind Profile) and the uncertainty of both together with the polling's.
+    /// Sets device_ns and arrived of a sample with that timestamp; to be called in the order of
+    /// arrival. Where the clock's verdict allows, also ready (by the fitted clock), sampled (the
+    /// profile's delay before that, kind Profile) and the uncertainty. It covers the clock, the
+    /// delay and the polling.
     void stamp(std::uint64_t ticks, std::int64_t arrived_ns, gaze::GazeSample& sample);
 
-    /// Another report of the same device, which this clock has no timestamp of: it waited in the
-    /// same queue.
+    /// Another report of the same device, without a timestamp of this clock: it waited in the same
+    /// queue.
     void pass(std::int64_t arrived_ns);
 
     /// How many reports are missing before the sample stamped last, where that is certain: after a
@@ -46,10 +47,10 @@ class SampleClock {
 
     [[nodiscard]] const time::ClockFit& fit() const { return fit_; }
 
-    /// One line where the verdict is another than the one told last, or the clock was set: of the
-    /// steps of a restless clock its verdict says enough. Why the age is unknown is told once it
-    /// has been for kReadingsToTell samples. No other line for kCalm_ns after one; what is still so
-    /// then is told then.
+    /// One line where the verdict is another than the one reported last, or the clock was set. A
+    /// restless clock reports its verdict, not each step. The reason for an unknown age is reported
+    /// after `kReadingsToTell` samples. Apart from that, at most one line per `kCalm_ns`; a change
+    /// that still holds by then is reported then.
     [[nodiscard]] std::optional<std::string> take_change();
 
     static constexpr std::uint64_t kReadingsToTell = 100;

@@ -19,7 +19,7 @@ namespace gazeloop::drivers {
 struct TrackerFacts {
     std::optional<std::string> status;
     std::optional<std::uint32_t> sampling_hz;
-    /// As in the EDID of the display that it is set up for: of another it tells where nobody looks.
+    /// As in the EDID of the display that it is set up for: its gaze is wrong on any other display.
     std::optional<std::uint32_t> display_manufacturer;
     std::optional<std::uint32_t> display_product;
     std::optional<std::uint32_t> display_serial;
@@ -44,7 +44,7 @@ struct TrackerCounts {
 /// The diameter of each pupil; none where the tracker has not said.
 using PupilsMm = gaze::PerEye<std::optional<double>>;
 
-/// A tracker that was opened and asked to send, read by one thread. It is stopped when this goes.
+/// A tracker that was opened and asked to send, read by one thread. The destructor stops it.
 class TrackerDevice {
   public:
     virtual ~TrackerDevice() = default;
@@ -55,15 +55,16 @@ class TrackerDevice {
     [[nodiscard]] virtual const std::vector<std::string>& remarks() const = 0;
     [[nodiscard]] virtual TrackerFacts facts() const { return {}; }
 
-    /// Waits for at most so long, and hands over what came. Errors (NoDevice): it was unplugged, or
-    /// failed; nothing else can be done with it then.
+    /// Waits for at most this long, and hands over what came. Errors (NoDevice): it was unplugged,
+    /// or failed; it is of no further use then.
     [[nodiscard]] virtual Expected<void> read(std::chrono::milliseconds longest,
                                               DeviceFeed& feed) = 0;
 
     [[nodiscard]] virtual TrackerCounts counts() const = 0;
     /// As it was last seen.
     [[nodiscard]] virtual PupilsMm pupils_mm() const { return {}; }
-    /// Of the samples' timestamps; null before, and for a tracker without them.
+    /// The fit of the samples' timestamps; null before the first, and for a tracker without
+    /// timestamps.
     [[nodiscard]] virtual const time::ClockFit* clock() const = 0;
 
   protected:

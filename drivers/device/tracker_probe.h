@@ -27,12 +27,12 @@ struct TrackerProbe {
     double seconds = 0.0;
     TrackerCounts counts;
     std::uint64_t with_gaze = 0;          ///< samples in which at least one eye is valid
-    std::optional<double> rate_hz;        ///< samples a second, between the first and the last
+    std::optional<double> rate_hz;        ///< samples per second, from the first to the last
     PupilsMm pupils_mm;                   ///< as they were last seen
     std::optional<time::ClockFit> clock;  ///< of its timestamps, where it sends any
 };
 
-/// Opens a tracker, listens for so long or until `stop` says so, and stops it again.
+/// Opens a tracker, listens for this long or until `stop` says so, and stops it again.
 [[nodiscard]] TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& device,
                                          const OpenTracker& open, std::chrono::milliseconds listen,
                                          const StopRequested& stop);

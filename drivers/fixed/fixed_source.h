@@ -21,8 +21,8 @@ struct FixedGaze {
 /// "AZ,EL" in degrees, e.g. "-5,2.5". Errors (Usage): not two numbers, or out of range.
 [[nodiscard]] Expected<FixedGaze> parse_fixed_gaze(std::string_view text);
 
-/// Eyes that never move: what users of fixed foveation have. Both are parallel (they look at
-/// infinity). Every poll gives one sample, taken and arrived at that very time, Modelled.
+/// Eyes that never move, for fixed foveation. Both are parallel (they look at infinity). Every poll
+/// gives one sample, taken and arrived at the time of the poll, Modelled.
 class FixedSource final : public GazeSource {
   public:
     /// Precondition: both angles in range.

@@ -22,7 +22,7 @@ struct TimestampField {
 
 using PositionFields = std::array<std::optional<ReportValue>, 3>;  ///< x, y, z
 
-/// An input report that carries tracking data; what it has not is absent.
+/// An input report that carries tracking data; what it lacks is absent.
 struct TrackingLayout {
     std::uint8_t report_id = 0;
     std::optional<TimestampField> timestamp;
@@ -41,7 +41,7 @@ struct StatusLayout {
     std::optional<ReportValue> sampling_hz;
 };
 
-/// Where an eye tracker has what, in its reports.
+/// What an eye tracker's reports hold, and where.
 struct EyeTrackerLayout {
     bool numbered = false;                 ///< reports begin with their id
     std::vector<ReportSize> reports;       ///< all of the device
@@ -71,9 +71,9 @@ struct EyeTrackerLayout {
 [[nodiscard]] bool describes_eye_tracker(const ReportDescriptor& descriptor);
 
 /// Finds an eye tracker's numbers by usage, unit, exponent and size, wherever they stand: nothing
-/// is taken from their place, from report ids or from the Constant flag. A position belongs to what
-/// the innermost collection with the usage Gaze Point, Left or Right Eye Position says, or to the
-/// field's own usage where that is one of them.
+/// is concluded from their place, from report ids or from the Constant flag. A position is of what
+/// its innermost collection with the usage Gaze Point, Left or Right Eye Position says. Where the
+/// field's own usage is one of these, that counts.
 ///
 /// Errors (BadInput): no eye tracker collection, or no report that has a gaze point.
 [[nodiscard]] Expected<EyeTrackerLayout> find_eye_tracker(const ReportDescriptor& descriptor);

@@ -31,10 +31,10 @@ struct StatusReport {
     friend bool operator==(const StatusReport&, const StatusReport&) = default;
 };
 
-/// One report of tracking data. Positions are on and before the screen, metres: origin at the
-/// screen's top left corner, +X right as the viewer sees it, +Y down, +Z from the screen towards
-/// the viewer. (The usage page leaves the origin open; top left is what its drivers do.) What the
-/// device does not say, or marks as no data, is absent.
+/// One report of tracking data. Positions lie on the screen or in front of it, in metres. Origin at
+/// the screen's top left corner, +X right as the viewer sees it, +Y down, +Z from the screen
+/// towards the viewer. (The usage page leaves the origin open; top left is what its drivers do.)
+/// What the device does not say, or marks as no data, is absent.
 struct TrackingReport {
     std::uint8_t report_id = 0;
     std::optional<std::uint64_t> ticks;  ///< of the timestamp field
@@ -53,14 +53,14 @@ using InputReport = std::variant<OtherReport, TrackingReport, StatusReport>;
 [[nodiscard]] InputReport decode_input(const EyeTrackerLayout& layout,
                                        std::span<const std::uint8_t> bytes);
 
-/// A length that the device states and that cannot be.
+/// A length that the device states and that is impossible.
 struct ImplausibleLength {
     std::string_view of;  ///< "its screen's width"
     double metres = 0.0;
 };
 
-/// What the device said of itself. Zero and no data are absent, and lengths that cannot be: those
-/// below 1 cm or above 10 m, but for a common factor of 1000.
+/// What the device said of itself. Zero and no data are absent. So are impossible lengths: those
+/// below 1 cm or above 10 m, unless a common factor of 1000 makes them plausible.
 struct TrackerFeatures {
     std::optional<std::uint32_t> quality;  ///< on a scale of the device's own
     std::optional<double> minimum_distance_m;
@@ -68,8 +68,8 @@ struct TrackerFeatures {
     std::optional<double> maximum_distance_m;
     std::optional<double> maximum_width_m;
     std::optional<double> maximum_height_m;
-    /// By how much the distances and sizes above were multiplied for most of them to be plausible
-    /// (1, 1000 or 0.001): some devices miss the unit they state by that.
+    /// The factor that makes most of the distances and sizes above plausible, already applied: 1,
+    /// 1000 or 0.001. Some devices are off by that factor from the unit they state.
     double capability_correction = 1.0;
     /// As in the EDID of the display that it is set up for.
     std::optional<std::uint32_t> display_manufacturer;

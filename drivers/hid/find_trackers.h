@@ -12,10 +12,10 @@ namespace gazeloop::drivers::hid {
 /// A HID device that says it is an eye tracker.
 struct FoundTracker {
     FoundDevice device;
-    /// What its descriptor says; an error where it is no good.
+    /// What its descriptor says; an error where it cannot be used.
     Expected<EyeTrackerLayout> layout{};
-    /// How often the host asks it for reports; 0 where they come by themselves, or nobody knows (by
-    /// radio: their delay belongs to the profile).
+    /// How often the host asks it for reports. 0 where they come by themselves, or where it is
+    /// unknown (radio links: their delay belongs to the profile).
     std::int64_t polling_ns = 0;
 };
 

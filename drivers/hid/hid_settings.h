@@ -6,7 +6,7 @@
 
 namespace gazeloop::drivers::hid {
 
-/// The settings hid.*, in metres. Of screen and viewing distance 0 is: as the tracker states.
+/// The settings hid.*, in metres. For screen and viewing distance 0 means: as the tracker states.
 struct HidSettings {
     double screen_width_m = 0.0;
     double screen_height_m = 0.0;

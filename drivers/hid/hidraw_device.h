@@ -14,23 +14,23 @@ struct hid_device_;
 
 namespace gazeloop::drivers::hid {
 
-/// An open /dev/hidrawN, through hidapi's hidraw backend, whose open is worked around: up to 0.13
-/// it uses freed memory where a node does not answer HIDIOCGRDESCSIZE, and it keeps its last error
-/// in a variable of the whole program. So the node is opened and asked by ourselves first, and kept
-/// open, and one thread opens at a time. What is left is a tracker that is pulled out in the
-/// microseconds between the two questions; from 0.14 on that is an error like any other.
+/// An open /dev/hidrawN, through hidapi's hidraw backend. Its open has two faults that are worked
+/// around: up to 0.13 it uses freed memory where a node does not answer HIDIOCGRDESCSIZE; and it
+/// keeps its last error in a global variable. So we open and ask the node ourselves first, keep it
+/// open, and let one thread open at a time. One case remains: a tracker that is pulled out in the
+/// microseconds between the two questions. From 0.14 on that is an error like any other.
 class HidrawDevice {
   public:
     /// Errors (NoDevice): it cannot be opened, or is no HID device (any more).
     [[nodiscard]] static Expected<HidrawDevice> open(const std::string& path);
 
-    /// Waits for an input report; its size with the id, 0 after the time. Errors (NoDevice): the
-    /// device was unplugged, or failed.
+    /// Waits for an input report; gives its size with the id, or 0 when the time is over. Errors
+    /// (NoDevice): the device was unplugged, or failed.
     [[nodiscard]] Expected<std::size_t> read(std::span<std::uint8_t> report,
                                              std::chrono::milliseconds longest);
 
-    /// A feature report of at most `payload_bytes` (and 16,383 bytes in all, which is what a
-    /// request can say), id first; none where the device does not give it.
+    /// A feature report of at most `payload_bytes` (and 16,383 bytes in all, the most that a
+    /// request can state), id first; none where the device does not give it.
     [[nodiscard]] std::optional<std::vector<std::uint8_t>> feature(std::uint8_t id,
                                                                    std::size_t payload_bytes);
     /// Whether no other HidrawDevice, of any process, has this node open.
@@ -41,7 +41,8 @@ class HidrawDevice {
     [[nodiscard]] Expected<void> send_feature(std::span<const std::uint8_t> report);
 
   private:
-    /// A file of our own on the node, which hidapi cannot be given: asked first, and locked.
+    /// A file descriptor of our own on the node, asked first and locked; hidapi cannot be given
+    /// one.
     class Node {
       public:
         explicit Node(const std::string& path);

@@ -87,12 +87,12 @@ struct ReportDescriptor {
 /// Reads a report descriptor. Long items and reserved tags are skipped. Usage ranges are kept as
 /// such, so that no descriptor takes more than a small multiple of its own size.
 ///
-/// Ranges are signed where the minimum is negative, unsigned otherwise, whichever item came first;
-/// usages of one or two bytes belong to the usage page in force at the main item.
+/// Ranges are signed where the minimum is negative, unsigned otherwise, whichever item came first.
+/// Usages of one or two bytes belong to the usage page in force at the main item.
 ///
-/// Errors (BadInput), with the byte where it stands: a truncated item, an unmatched Pop, End
-/// Collection or Delimiter, a report id that is 0 or above 255, a field of more than 65,535 bits or
-/// elements, a report or descriptor above the bounds, a collection that is not closed.
+/// Errors (BadInput), with the byte where each stands: a truncated item; an unmatched Pop, End
+/// Collection or Delimiter; a collection that is not closed. Also a report id of 0 or above 255, a
+/// field of more than 65,535 bits or elements, a report or descriptor above the bounds.
 [[nodiscard]] Expected<ReportDescriptor> parse_report_descriptor(
     std::span<const std::uint8_t> bytes);
 

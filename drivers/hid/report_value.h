@@ -28,8 +28,8 @@ struct ReportValue {
     /// Values outside say "no data"; least >= greatest: no range was given.
     std::int64_t least = 0;
     std::int64_t greatest = 0;
-    /// False for a place in a field of less than 32 bits whose range ends there: it may be the edge
-    /// of a screen.
+    /// Whether the field's greatest number means "no data". False for a position in a field of less
+    /// than 32 bits whose range ends at that number: it may be the edge of a screen.
     bool has_no_data = true;
     double scale = 1.0;   ///< SI units for one step of the value
     double offset = 0.0;  ///< SI units at value 0
@@ -38,20 +38,20 @@ struct ReportValue {
     /// unsigned number is above the greatest signed one.
     [[nodiscard]] std::optional<std::int64_t> raw(std::span<const std::uint8_t> payload) const;
 
-    /// What the device says with it; none where raw() has none, outside the range, and for what
-    /// devices send for "no data": the greatest number that the field can hold, where that is none
-    /// to be expected (has_no_data), and, of 32 bits, the greatest signed one.
+    /// The number that the device states. None where raw() has none, outside the range, and for
+    /// what devices send for "no data". That is the greatest number that the field can hold, unless
+    /// it may be a real value (has_no_data); with 32 bits also the greatest signed one.
     [[nodiscard]] std::optional<std::int64_t> number(std::span<const std::uint8_t> payload) const;
 
     /// number() in SI units.
     [[nodiscard]] std::optional<double> si(std::span<const std::uint8_t> payload) const;
 };
 
-/// What the numbers of a field count, and the size of one where the field itself states no unit of
-/// that kind.
+/// What the numbers of a field measure, and the unit they have where the field itself states none
+/// of that kind.
 enum class Quantity : std::uint8_t {
-    Length,  ///< metres; stated by none: micrometres, as usage page 0x12 has them
-    Time,    ///< seconds; stated by none: microseconds
+    Length,  ///< metres; no unit stated: micrometres, as in usage page 0x12
+    Time,    ///< seconds; no unit stated: microseconds
     Count,   ///< a plain number
 };
 

@@ -14,8 +14,8 @@
 
 namespace gazeloop::drivers::hid {
 
-/// Makes samples of a tracker's input reports, in the order of arrival. Allocates nothing but for
-/// changes it has something to say about.
+/// Makes samples of a tracker's input reports, in the order of arrival. Allocates only where it has
+/// a change to report.
 class TrackerSamples {
   public:
     /// `status` is what the tracker said of itself before: no change.
@@ -26,7 +26,7 @@ class TrackerSamples {
     /// one: reports are newer.
     void learn(const ScreenGeometry& geometry, std::optional<TrackerStatus> status);
 
-    /// The sample of a report that had arrived by `arrived_ns`, all but its number; none where the
+    /// The sample of a report that had arrived by `arrived_ns`, without its number. None where the
     /// report is of something else, or of the eyes' positions alone.
     [[nodiscard]] std::optional<gaze::GazeSample> take(std::span<const std::uint8_t> report,
                                                        std::int64_t arrived_ns);
@@ -42,13 +42,14 @@ class TrackerSamples {
 
     /// Reports that were cut short are damaged, and samples nevertheless.
     [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
-    /// Of the report with a timestamp that came last; null before, and for a tracker without any.
+    /// The clock of the report with a timestamp that came last; null before the first, and for a
+    /// tracker without timestamps.
     [[nodiscard]] const time::ClockFit* clock() const;
 
   private:
     void note(std::optional<TrackerStatus> status);
     void note_reported(const StatusReport& report);
-    /// Tells the clocks, but this one, of a report that they do not stamp.
+    /// Tells all clocks but this one of a report that they do not stamp.
     void pass_clocks(std::int64_t arrived_ns, std::optional<std::size_t> but = {});
 
     EyeTrackerLayout layout_;
@@ -62,7 +63,7 @@ class TrackerSamples {
         std::int64_t arrived_ns = std::numeric_limits<std::int64_t>::min() / 2;
         gaze::PerEye<std::optional<glm::dvec3>> eye_m;
     };
-    /// Heads move by centimetres a second: a few millimetres in that time.
+    /// Heads move by centimetres per second: a few millimetres in that time.
     static constexpr std::int64_t kEyesHoldNs = 200'000'000;
 
     SeenEyes eyes_;

@@ -22,16 +22,16 @@ struct HidOptions {
     ScreenGeometry geometry;  ///< what is not 0 counts instead of what the device states
 };
 
-/// An eye tracker that was opened and asked to send, and asked again when no gaze comes for a
+/// An eye tracker that was opened and asked to send. It is asked again when no gaze comes for a
 /// second, whether or not it took the request before (one that boots or is being set up may refuse
-/// it). What it states of itself is read again when that may have changed: see ask_again(). Stops
-/// it when it goes, unless another program of ours reads it.
+/// it). What it states of itself is read again when that may have changed: see ask_again(). The
+/// destructor stops the tracker, unless another program of ours reads it.
 class TrackerSession final : public TrackerDevice {
   public:
-    /// Asks `stop` after each request, of which there are up to 14, because a device may take
-    /// seconds for one; and later, when they are made again. Errors: NoDevice where it cannot be
-    /// opened, BadInput where its descriptor is no good, Interrupted where it was to stop (the
-    /// device has not been started then).
+    /// Calls `stop` after each of up to 14 requests, because a device may take seconds for one;
+    /// also when the requests are repeated later. Errors: NoDevice if it cannot be opened, BadInput
+    /// if its descriptor cannot be used, Interrupted if `stop` said so (the device has not been
+    /// started then).
     [[nodiscard]] static Expected<TrackerSession> open(const FoundTracker& tracker,
                                                        const HidOptions& options,
                                                        const StopRequested& stop);

@@ -27,7 +27,7 @@ class EyeGazeSpace {
 
     // Each throws SetupError (SessionLost) when the runtime refuses or is gone.
 
-    /// Takes over the newest state of the action; false: the session has not the focus.
+    /// Takes over the newest state of the action; false: the session does not have the focus.
     [[nodiscard]] bool sync() const;
     /// The interaction profile that the runtime has bound to the eyes; XR_NULL_PATH: none.
     [[nodiscard]] XrPath bound_profile() const;

@@ -43,13 +43,13 @@ struct GateState {
 /// The gates of one run, and a line for each that changes. Pure.
 class GazeGates {
   public:
-    /// Of a gate that changes to and fro, so many changes are told in such a time; of those between
-    /// only the last one, then.
+    /// A gate that changes to and fro reports at most this many changes in such a time; after that,
+    /// only the last of the changes in between.
     static constexpr std::uint32_t kMostChanges = 4;
     static constexpr std::int64_t kWindow_ns = 1'000'000'000;
 
-    /// What a gate is at `now_ns` (not before that of the call before). Allocates only where there
-    /// is something to tell.
+    /// The state of a gate at `now_ns` (not before the previous call's). Allocates only where there
+    /// is a change to report.
     void set(GazeGate gate, const GateState& state, std::int64_t now_ns);
 
     /// None before the gate was first reached.

@@ -29,7 +29,7 @@ class GazeReader {
     /// The eyes' rays meet at `distance_m` (gaze::eye_rays), but where meet_at_depth() knows more.
     explicit GazeReader(double distance_m) : distance_m_(distance_m) {}
 
-    /// Where the eyes are in the head, from here on; ignored where one is no place in a head.
+    /// Where the eyes are in the head, from here on; ignored where a position cannot be in a head.
     void place_eyes(const gaze::PerEye<glm::dvec3>& eyes_m) {
         if (gaze::is_in_the_head(eyes_m[0]) && gaze::is_in_the_head(eyes_m[1])) {
             eyes_m_ = eyes_m;
@@ -37,30 +37,33 @@ class GazeReader {
     }
     [[nodiscard]] const gaze::PerEye<glm::dvec3>& eyes_m() const { return eyes_m_; }
 
-    /// The sample of an answer. None where the runtime had nothing new: of its times, or where it
-    /// gives none of its poses, of which one that stays is new again from time to time. Where there
-    /// is no gaze, one sample without a valid eye, so that the policy for lost gaze takes over with
-    /// this frame; and one more for each answer while the runtime tracks, but sees no eyes.
+    /// The sample of an answer. Nothing if the runtime has nothing new: the same sample time or,
+    /// without sample times, the same pose. Without sample times, a pose that stays the same counts
+    /// as new again every `kStillGaze_ns`.
     ///
-    /// A pose that the runtime calls sub-nominal has confidence 0: it counts only for who sets
-    /// gaze.minimum_confidence to 0.
+    /// Where there is no gaze, one sample without a valid eye, so that the policy for lost gaze
+    /// takes over with this frame. While the runtime tracks but sees no eyes, one more for each
+    /// answer.
+    ///
+    /// A pose that the runtime calls sub-nominal has confidence 0: it counts only if
+    /// gaze.minimum_confidence is 0.
     [[nodiscard]] std::optional<gaze::GazeSample> take(const GazeAnswer& answer, GazeGates& gates);
 
-    /// Lets the rays of the sample that take() returned last meet where they meet what is seen
-    /// (gaze/fixation.h), as fast as eyes follow (gaze/vergence.h), and states what error that
-    /// leaves. `head`: in the world that `seen` is in, at the pose's time. None where it is not
-    /// known: the distance is assumed then. A sample without gaze stays as it is.
+    /// Makes the rays of the sample that take() returned last meet on what is seen along them
+    /// (gaze/fixation.h), as fast as eyes follow (gaze/vergence.h). States the error that this
+    /// leaves. `head`: in the world that `seen` is in, at the pose's time. None: not known, so the
+    /// distance is assumed. A sample without gaze stays as it is.
     void meet_at_depth(gaze::GazeSample& sample, const std::optional<gaze::Pose>& head,
                        const gaze::SeenDepth& seen);
 
-    /// Of the sample returned last: what time its pose is for, on the runtime's time line; 0:
+    /// The time that the pose of the sample returned last is for, on the runtime's time line; 0:
     /// unknown.
     [[nodiscard]] std::int64_t pose_time() const { return pose_time_; }
 
   private:
-    /// A gaze whose time stands still for so long while it moves has no time.
+    /// A gaze whose time stands still for this long while the gaze moves has no time.
     static constexpr std::int64_t kStandstill_ns = 100'000'000;
-    /// Without times, the same pose after so long is a gaze that rests: the runtime still vouches
+    /// Without times, the same pose after this long is a gaze that rests: the runtime still vouches
     /// for it. Below any gaze.stale_ms of use, above the period of most trackers.
     static constexpr std::int64_t kStillGaze_ns = 20'000'000;
 

@@ -11,8 +11,8 @@ inline constexpr const char* kEyeGazeExtension = XR_EXT_EYE_GAZE_INTERACTION_EXT
 
 struct OpenXrGazeOptions {
     double distance_m = 1.5;  ///< where the eyes' rays meet, see gaze::eye_rays
-    /// But where the depth that take_seen_depth() is told says where: find_fixation of
-    /// gaze/fixation.h.
+    /// Let the rays meet where the depth given to take_seen_depth() says, if it does:
+    /// find_fixation() of gaze/fixation.h.
     bool from_depth = false;
 };
 
@@ -20,8 +20,8 @@ struct OpenXrGazeOptions {
 /// read when it is asked for, at the latch, because the runtime itself keeps it up to date.
 class OpenXrSource final : public GazeSource {
   public:
-    /// `session` must outlive this, and have no other actions. Throws SetupError (NoDevice), naming
-    /// the gate and what opens it, where the runtime or the headset has no eye gaze.
+    /// `session` must outlive this, and have no other actions. Throws SetupError (NoDevice) where
+    /// the runtime or the headset has no eye gaze, naming the gate and what opens it.
     OpenXrSource(const openxr::Session& session, const OpenXrGazeOptions& options);
 
     /// Throws SetupError (SessionLost) when the runtime is gone.

@@ -37,8 +37,9 @@ struct SampleTime {
 
 /// Farther from now than this, a time is taken for another clock's: no gaze of that age is of use.
 inline constexpr std::int64_t kFarthestSample_ns = 10'000'000'000;
-/// Two readings of a clock on the way to and from the runtime's time line: a time that lies ahead
-/// by less is now. Far above what conversions cost (microseconds), far below any tracker's delay.
+/// Error of converting to and from the runtime's time line, which reads clocks twice: a time that
+/// lies ahead by less than this is now. Far above what conversions cost (microseconds), far below
+/// any tracker's delay.
 inline constexpr std::int64_t kClockNoise_ns = 100'000;
 
 [[nodiscard]] SampleTime sample_time(const GivenTime& time);

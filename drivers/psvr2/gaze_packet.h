@@ -12,7 +12,8 @@
 namespace gazeloop::drivers::psvr2 {
 
 /// A gaze packet of a PlayStation VR2: little-endian, as public drivers read it. Vectors are in the
-/// headset's own axes (head_axes.h). What the headset does not vouch for, or cannot be, is absent.
+/// headset's own axes (head_axes.h). What the headset does not vouch for, or what is impossible, is
+/// absent.
 inline constexpr std::size_t kPacketBytes = 328;
 
 struct EyeBlock {
@@ -29,10 +30,10 @@ struct GazePacket {
     std::int64_t timestamp_us = 0;  ///< of 64 bits, or of 32 in the lower half
     std::uint32_t frame = 0;        ///< up by one with every packet
     gaze::PerEye<EyeBlock> eyes;
-    /// Of the block that the headset itself would steer foveated rendering by.
+    /// Timestamp of the block by which the headset itself would steer foveated rendering.
     std::int64_t foveated_timestamp_us = 0;
-    /// Values that the headset vouches for and that cannot be: not finite, no unit vector, along
-    /// the face, out of range. They are absent above.
+    /// Values that the headset vouches for but that are impossible: not finite, no unit vector,
+    /// along the face, out of range. They are absent above.
     std::uint32_t implausible = 0;
 };
 
@@ -47,8 +48,8 @@ enum class PacketFault : std::uint8_t {
 
 /// Reads a transfer.
 ///
-/// The length must be that of a packet. The packet's own size field has to fit into it; public
-/// sources name that field but not what it counts, so that smaller ones pass, and none says which
+/// The length must be that of a packet. The packet's own size field must not exceed it. Public
+/// sources name that field but not what it counts, so smaller values pass. No source says which
 /// versions there are.
 [[nodiscard]] std::expected<GazePacket, PacketFault> decode_gaze_packet(
     std::span<const std::uint8_t> bytes);

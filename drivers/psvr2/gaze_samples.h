@@ -14,8 +14,8 @@
 
 namespace gazeloop::drivers::psvr2 {
 
-/// Makes samples of a headset's transfers, in the order of arrival. Allocates nothing but for
-/// changes it has something to say about.
+/// Makes samples of a headset's transfers, in the order of arrival. Allocates only where it has a
+/// change to report.
 ///
 /// An eye is valid where the headset vouches for its direction, the axes agree, and it is not
 /// closed.
@@ -23,18 +23,18 @@ class GazeSamples {
   public:
     explicit GazeSamples(const TrackerDelay& delay) : clock_(kWide, kMicrosecond_ns, delay) {}
 
-    /// The sample of a transfer that had arrived by `arrived_ns`, all but its number; none where it
+    /// The sample of a transfer that had arrived by `arrived_ns`, without its number; none where it
     /// is no gaze packet.
     [[nodiscard]] std::optional<gaze::GazeSample> take(std::span<const std::uint8_t> bytes,
                                                        std::int64_t arrived_ns);
-    /// Packets that are missing before the last sample: the headset counts what it sends. What was
-    /// not sent while the stream had ceased is no loss.
+    /// Packets that are missing before the last sample, by the headset's own count. What was not
+    /// sent while the stream had stopped is no loss.
     [[nodiscard]] std::uint64_t lost_before_last() const { return lost_before_last_; }
 
     /// A line about what the last transfers changed; none where nothing is left to say.
     [[nodiscard]] std::optional<std::string> take_change();
 
-    /// Packets that are cut short, too long, or hold what cannot be, are damaged; those of
+    /// Packets that are cut short, too long, or hold impossible values are damaged; those of
     /// calibration and raw data are others.
     [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
     /// The diameter of each pupil, as the headset last vouched for it.

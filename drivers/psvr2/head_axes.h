@@ -22,19 +22,19 @@ enum class AxesVerdict : std::uint8_t {
 ///
 /// **Not tried on hardware.** Three public drivers that were (PSVR2Toolkit for SteamVR, Monado's, a
 /// program made from both) negate X and Z of every vector of the packet: +X to the wearer's left,
-/// +Y up, +Z forward. Those are the axes of the tracker's maker too, who uses them in his other
-/// headsets and glasses.
+/// +Y up, +Z forward. The tracker's maker uses the same axes in its other headsets and glasses.
 ///
 /// So that gaze is never mirrored in silence, every packet is held against anatomy: the left eye is
 /// left of the right one, and eyes look forward. Two thirds of the packets decide, and what they
-/// say counts more than what is published: at first 8 of the last 12; then 120 of the last 180, a
-/// second's worth at 120 Hz, which can turn every verdict. Where no more than half of the last
-/// 180 agree with the verdict, or so many gave none, nothing can be trusted until they do.
-/// A packet that contradicts the verdict is never passed on. Which way is up cannot be checked.
+/// say counts more than what is published. At first 8 of the last 12 decide. Later 120 of the last
+/// 180 do, a second's worth at 120 Hz; they can turn every verdict. If no more than half of the
+/// last 180 agree with the verdict, or 180 packets gave none, nothing is trusted until packets
+/// decide. A packet that contradicts the verdict is never passed on. Which way is up cannot be
+/// checked.
 class HeadAxes {
   public:
-    /// Takes a packet. False where its directions are not to be used: nothing is decided, or it
-    /// contradicts what is.
+    /// Takes a packet. False where its directions must not be used: nothing is decided yet, or it
+    /// contradicts the verdict.
     [[nodiscard]] bool agrees(const GazePacket& packet);
 
     [[nodiscard]] AxesVerdict verdict() const { return verdict_; }

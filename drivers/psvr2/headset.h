@@ -22,15 +22,15 @@ inline constexpr TrackerSupport kSupport{
 /// The headsets that are plugged in.
 [[nodiscard]] std::vector<FoundDevice> find_headsets();
 
-/// Claims a headset's gaze interface, asks for gaze, and reads it: by libusb, with several
-/// transfers under way, so that none is missed while one is taken.
+/// Claims a headset's gaze interface, asks for gaze, and reads it. Uses libusb with several
+/// transfers under way, so that no packet is missed while one is handled.
 ///
-/// A halted endpoint is cleared and gaze asked for again; several failures in a row without data
-/// between them end it. Each failure is a sample without gaze at once, whatever comes of it. While
-/// the headset is silent it is asked again (stream_keeper.h), and each change is told.
+/// A halted endpoint is cleared and gaze is asked for again; several failures in a row without data
+/// between them end it. Each failure gives a sample without gaze at once, whatever follows. While
+/// the headset is silent it is asked again (stream_keeper.h). Each change is reported.
 ///
-/// Errors (NoDevice): it may not be opened, has no gaze interface, or somebody else has claimed
-/// that, with who it may be and what helps.
+/// Errors (NoDevice): it may not be opened, has no gaze interface, or another program has claimed
+/// that. The message says which program that may be and what helps.
 [[nodiscard]] Expected<std::unique_ptr<TrackerDevice>> open_headset(const FoundDevice& found,
                                                                     const Psvr2Options& options);
 

@@ -9,13 +9,13 @@ namespace gazeloop::drivers::psvr2 {
 
 /// The device's time of each packet, microseconds, without wraps.
 ///
-/// One public source reads the field as 64 bits, another as 32 that wrap every 71.6 minutes. Both
-/// are right where the upper half of the first value counts, and from then on only differences of
-/// the lower half, the shorter way round: a counter of 64 bits comes out as it is, one of 32
-/// unwrapped, whatever stands in its upper half. (Packets more than 35.8 minutes apart may come
-/// out wrong by 71.6; the clock starts anew after 2 minutes of silence.)
+/// One public source reads the field as 64 bits, another as 32 that wrap every 71.6 minutes. To be
+/// right for both, the first value counts as 64 bits; after it only differences of the lower half
+/// count, the shorter way round. So a 64-bit counter comes out as it is, and a 32-bit one
+/// unwrapped, whatever stands in its upper half. (Packets more than 35.8 minutes apart may be wrong
+/// by 71.6 minutes, but the clock starts anew after 2 minutes of silence.)
 ///
-/// Where the first packet's own timestamp is 0, that of its foveated block is used throughout.
+/// If the first packet's own timestamp is 0, the foveated block's timestamp is used throughout.
 class PacketTimestamp {
   public:
     [[nodiscard]] std::uint64_t unwrapped_us(const GazePacket& packet) {
@@ -25,7 +25,7 @@ class PacketTimestamp {
         const auto raw = static_cast<std::uint64_t>(foveated_ ? packet.foveated_timestamp_us
                                                               : packet.timestamp_us);
         if (!last_us_) {
-            // An upper half that would be centuries is none.
+            // An upper half that would mean centuries is not part of the time.
             last_us_ = raw < kCentury_us ? raw : raw & kLowerHalf;
         } else {
             const auto step = static_cast<std::int32_t>(static_cast<std::uint32_t>(raw) -

@@ -6,7 +6,7 @@
 namespace gazeloop::drivers::psvr2 {
 
 /// When the headset has to be asked for gaze: at first, then every second, and whenever 500 ms have
-/// passed without data, because a change of its display or of see-through ends the stream.
+/// passed without data. A change of its display or of see-through ends the stream.
 class StreamKeeper {
   public:
     static constexpr std::int64_t kKeepAlive_ns = 1'000'000'000;
@@ -17,7 +17,7 @@ class StreamKeeper {
 
     /// When it is next to be asked, if nothing comes until then.
     [[nodiscard]] std::int64_t next_ns() const {
-        // Asked again because of silence only once that has lasted since it was asked, too.
+        // Silence counts only from the last request on.
         const std::int64_t silent_ns = std::max(heard_ns_, asked_ns_) + kSilence_ns;
         return std::min(asked_ns_ + kKeepAlive_ns, silent_ns);
     }

@@ -52,8 +52,8 @@ class UsbHandle {
     std::uint8_t endpoint_;
 };
 
-/// A headset that is being read (open_headset). All of it happens in read(), on the caller's
-/// thread. Its end takes 2 s at the most: transfers that have not ended then are left as they are.
+/// A headset that is being read (open_headset). All work happens in read(), on the caller's thread.
+/// The destructor takes 2 s at most: transfers that have not ended by then are left as they are.
 class UsbHeadset final : public TrackerDevice {
   public:
     /// Throws std::bad_alloc.
@@ -72,8 +72,8 @@ class UsbHeadset final : public TrackerDevice {
 
   private:
     static constexpr std::size_t kTransfers = 4;
-    /// Of whole USB packets, and room for more than a gaze packet: what is too long is seen as
-    /// such.
+    /// A multiple of the USB packet size, and more than a gaze packet, so that one that is too long
+    /// is noticed.
     static constexpr std::size_t kTransferBytes = 4096;
     static constexpr std::size_t kRequestBytes = 8;
 

@@ -13,9 +13,9 @@
 
 namespace gazeloop::drivers {
 
-/// A person with an eye tracker who are not there (sim/). Samples are made when they are polled,
-/// and are the same however often that happens: time is an argument. All times are Modelled. A poll
-/// costs time in proportion to the time since the last one.
+/// A simulated person with an eye tracker (sim/). Samples are made when they are polled, and are
+/// the same however often that happens: time is an argument. All times are Modelled. A poll costs
+/// time in proportion to the time since the last one.
 class SimulatedSource final : public GazeSource {
   public:
     /// The first sample is taken at `start_ns` (host time).

@@ -20,9 +20,9 @@ namespace gazeloop::drivers {
 /// quotes. Lines end with LF or CRLF; blank lines are skipped; a UTF-8 byte order mark is ignored.
 /// Numbers are written the C way, whatever the locale.
 ///
-/// Every error is BadInput and says "NAME:LINE: ...". A cell that cannot be read gives 0 and makes
-/// the following next() fail with the first such cell's error, so that a reader can take a row
-/// apart without looking at every cell.
+/// Every error is BadInput and says "NAME:LINE: ...". A cell that cannot be read gives 0, and the
+/// following next() fails with the first such cell's error. So a reader can take a row apart
+/// without checking every cell.
 class CsvTable {
   public:
     /// The longest line that is read, in bytes without its end.

@@ -13,9 +13,10 @@ namespace gazeloop::drivers {
 /// "htc-vive-pro".
 ///
 /// Errors: Usage for a format that does not exist. BadInput, naming the file and where it applies
-/// the line, for a file that is missing, a directory, empty or not text; a header that no format
-/// knows; a row of the wrong width; a cell that is not what the format allows; no row; no row with
-/// a valid eye. Rows whose time does not advance are no error: Trace counts them.
+/// the line, for a file that is missing, a directory, empty or not text, or whose header no format
+/// knows. BadInput also for a row of the wrong width, a cell that the format does not allow, no
+/// row, or no row with a valid eye. Rows whose time does not advance are no error: Trace counts
+/// them.
 [[nodiscard]] Expected<gaze::GazeTrace> read_trace(const std::string& file,
                                                    std::string_view format = "auto");
 

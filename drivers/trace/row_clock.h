@@ -8,7 +8,7 @@
 
 namespace gazeloop::drivers {
 
-/// A column of clock readings, read as time since its first one: an absolute time in nanoseconds
+/// A column of clock readings, read as time since the first one. An absolute time in nanoseconds
 /// need not fit 64 bits (the Vive's clock counts from the year 1).
 class RowClock {
   public:
@@ -16,7 +16,7 @@ class RowClock {
         : column_(column), ns_per_unit_(ns_per_unit) {}
 
     /// The current row's time, ns. Refuses a reading more than a year from the first one: no
-    /// recording is that long, and what is added to the times afterwards must not overflow.
+    /// recording is that long, and sums with these times must not overflow.
     [[nodiscard]] std::int64_t since_first_ns(CsvTable& table);
 
   private:

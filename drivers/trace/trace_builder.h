@@ -10,7 +10,7 @@
 
 namespace gazeloop::drivers {
 
-/// Makes a Trace from a file's rows and holds it to what trace.h promises.
+/// Makes a trace from a file's rows and enforces what gaze_trace.h promises.
 class TraceBuilder {
   public:
     TraceBuilder(std::string file, std::string_view format, std::string_view device);

@@ -11,7 +11,7 @@ namespace gazeloop::drivers {
 
 /// A kind of file that holds a trace, known by its columns.
 struct TraceFormat {
-    std::string_view name;                      ///< as --format and Trace::format have it
+    std::string_view name;                      ///< as --format and GazeTrace::format have it
     std::span<const std::string_view> columns;  ///< the header has all of these, in any order
     /// Reads the rows of a table that has the columns.
     Expected<gaze::GazeTrace> (*read)(CsvTable& table);

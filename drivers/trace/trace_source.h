@@ -13,13 +13,13 @@ namespace gazeloop::drivers {
 
 /// Plays a trace once. All its times are Modelled; what the trace does not know stays unknown.
 ///
-/// The world is turned about +Y and moved so that the first known head pose stands at the origin
-/// and looks along -Z as seen from above; its pitch and roll stay.
+/// The world is turned about +Y and moved. The first known head pose then stands at the origin and
+/// looks along -Z as seen from above; its pitch and roll stay.
 class TraceSource final : public GazeSource {
   public:
-    /// The trace's time 0 is `start_ns` (host time). Each arrives `delay_ns` (>= 0, the
-    /// tracker's modelled delay) after it was taken, later by as much as the trace recorded, and
-    /// not before the one ahead of it. Head poses whose time goes back are left out of the track.
+    /// The trace's time 0 is `start_ns` (host time). Each sample arrives `delay_ns` (>= 0, the
+    /// tracker's modelled delay) after it was taken, plus the delay that the trace recorded, and
+    /// not before its predecessor. Head poses whose time goes back are left out of the track.
     TraceSource(gaze::GazeTrace trace, std::int64_t start_ns, std::int64_t delay_ns);
 
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;

@@ -9,20 +9,19 @@
 
 namespace gazeloop::render {
 
-/// Reads back how far away it is around one eye's fovea: what the direct buffer's fourth channel
-/// holds there.
+/// Reads back how far away the scene is around one eye's fovea: the direct buffer's fourth channel.
 class FoveaDepth {
   public:
-    /// To both sides of the fovea: as far as an eye turns from looking at infinity to looking at
-    /// .25 m (.126 rad), so that both are in it whichever the frame was made for, and a tracker's
-    /// accuracy; above and below that, and what a gaze that is held moves between two frames.
+    /// Half-width of the patch: the .126 rad that an eye turns between infinity and .25 m, so that
+    /// the patch holds the fovea of either assumption, plus a tracker's error. Half-height: a
+    /// tracker's error plus the movement of a held gaze between two frames.
     static constexpr double kReachAcross_rad = 0.145;
     static constexpr double kReachDown_rad = 0.045;
-    /// At most so many pixels to each side: .145 rad at 60 pixels a degree.
+    /// At most this many pixels to each side: .145 rad at 60 pixels per degree.
     static constexpr std::uint32_t kMostAcross_px = 512;
     static constexpr std::uint32_t kMostDown_px = 128;
-    /// And of them at most so many samples: where pixels are left out, at least half as many, each
-    /// a third of a degree apart or less, which is a third of what a tracker is off by.
+    /// At most this many samples of these pixels. Where pixels are left out, there are at least
+    /// half as many samples, at most a third of a degree apart: a third of a tracker's error.
     static constexpr std::uint32_t kMostColumns = 128;
     static constexpr std::uint32_t kMostRows = 32;
 

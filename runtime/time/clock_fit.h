@@ -44,61 +44,65 @@ struct ClockReading {
 ///
 /// A sample cannot arrive before it was taken: arrival = device time + offset + skew x device time
 /// + least delay + jitter, with jitter >= 0. So the clock is the line below all points (device
-/// time, arrival - device time). Of all lines below the points the one that is highest at their
-/// mean device time is taken: an edge of their lower convex hull, and the likeliest line for
-/// exponential jitter (Moon, Skelly and Towsley 1999, "Estimation and removal of clock skew from
-/// network delay measurements"). The points are the lowest ones of up to 64 quarters of a second.
+/// time, arrival - device time). Of all lines below the points, the one that is highest at their
+/// mean device time is taken. It is an edge of their lower convex hull, and the likeliest line for
+/// exponential jitter. (Moon, Skelly and Towsley 1999, "Estimation and removal of clock skew from
+/// network delay measurements".) The points are the lowest one of each quarter of a second, for up
+/// to 64 quarters.
 ///
 /// **What comes out is the true time plus the least delay.** That constant cannot be seen from here
 /// and has to come from the tracker's profile.
 ///
 /// Uncertainty. With n samples whose jitter has density f at 0, the least of them is 1 / (n f) too
-/// high on average, and by x with a probability of exp(-x n f). 1 / (n f) is estimated in two ways:
-/// from the mean delay m of samples above the line as 2 m / n (exact for uniform, twice too much
-/// for exponential jitter), and from the heights of the k lowest points above it as their mean (by
-/// their median) over k. The larger one times kConfidence is the uncertainty of the line where its
-/// points are; beyond them that of its slope is added, which is never more than crystals are off.
-/// Then come the length of a tick (timestamp_ticks.h), and by how much everything of the last
-/// second was late. On simulated clocks whose delays vary at random from sample to sample at most 1
-/// % of the readings lie outside (tests), the first ones too: times are unknown until 16 samples
-/// have told what jitter is usual.
+/// high on average, and by x with a probability of exp(-x n f). 1 / (n f) is estimated in two ways.
+/// From the mean delay m of samples above the line: 2 m / n (exact for uniform, twice too much for
+/// exponential jitter). From the heights of the k lowest points above it: their mean (by their
+/// median) over k. The larger one times kConfidence is the uncertainty of the line where its points
+/// are. Beyond the points the uncertainty of its slope is added, which is never more than crystals
+/// are off. Added to that are the length of a tick (timestamp_ticks.h), and by how much everything
+/// in the last second was late. On simulated clocks whose delays vary at random from sample to
+/// sample, at most 1 % of the readings lie outside (tests). That holds for the first readings too,
+/// because times are unknown until 16 samples have shown what jitter is usual.
 ///
 /// Delays that do not vary at random are another matter. A host that asks for samples at fixed
-/// times delays each by what is left until it asks again: a sawtooth that repeats only with the
-/// beat of both periods, for minutes perhaps, and that nobody can tell from skew. The line then
-/// runs anywhere between 0 and the polling interval above the truth, and where it follows a fall of
-/// the sawtooth that is over, by up to 0.4 of it below (simulated). So half the interval is taken
-/// off the time, and all of it added to the uncertainty, and to what is early or late. That
-/// interval has to be known from elsewhere: with 1 ms of it no clock is good.
+/// times delays each by what is left until it asks again. That delay is a sawtooth that repeats
+/// only with the beat of both periods, perhaps after minutes, and cannot be told from skew. The
+/// line then runs anywhere between 0 and the polling interval above the truth. Where it follows a
+/// fall of the sawtooth that is over, it runs by up to 0.4 of the interval below (simulated). So
+/// half the interval is subtracted from the time. All of it is added to the uncertainty, and to the
+/// limits of early and late. The interval has to be known from elsewhere: with 1 ms of it no clock
+/// is good.
 ///
-/// Of samples that had piled up before the first one was read only the last counts, and so it is
-/// with first ones that bear the times of another run of the device. A timestamp that is repeated
-/// now and then is no tick: its own time is unknown, and nothing follows from it.
+/// If reports were already queued when reading began, only the last of that queue is used. Leading
+/// samples whose timestamps belong to an earlier run of the device are dropped as well. A timestamp
+/// that is repeated now and then does not make a coarse tick: the time of that sample is unknown,
+/// and nothing follows from it.
 ///
-/// A step of the device's clock is told from late delivery, which can make any sample late, because
-/// it makes samples early (three, with no more than two others between them) or their device times
-/// irregular (then eight late ones in a row are a step). Found within 10 samples if it is longer
-/// than 2.5 times the mean delay above the line plus the uncertainty; shorter ones are absorbed
-/// within 16 s, and in the uncertainty until then: at once where timestamps that were regular to a
-/// tenth of their period jump, after a second where not. Until a step is clear, the times of the
-/// samples in question are unknown: the early and late ones, two after an early one, and one after
-/// which regular timestamps jump. What is left is a step of whole periods whose first sample is
-/// late by as much and so looks like one after a loss, which nothing can tell (6 ms and more, 1 ms
-/// of exponential jitter: 1 of 30,000 streams).
+/// Late delivery can make any sample late, but not early. A step of the device's clock therefore
+/// shows in one of two ways. Samples come early: three, with no more than two others between them.
+/// Or device times become irregular: then eight late samples in a row are a step. A step is found
+/// within 10 samples if it is longer than 2.5 times the mean delay above the line plus the
+/// uncertainty. Shorter ones are absorbed within 16 s. The uncertainty covers them until then: at
+/// once where timestamps that were regular to a tenth of their period jump, else after a second.
 ///
-/// What is forgotten. Setting a clock, a reset of the device too, moves its offset alone: the
-/// crystal is the same one, so that the slope may change by no more than crystals drift, and so is
-/// the way to the host with its usual jitter. After two minutes without a sample nobody knows what
-/// went on: the device may be in another mode with another clock, warm or cold, behind another hub
-/// or driver. Everything is learnt anew then, which costs seconds of a wider uncertainty; keeping
-/// what no longer holds would state one that is too narrow. A device that is plugged in again gets
-/// a ClockFit of its own.
+/// While a step is suspected, sample times are unknown: of early and late samples, of the two after
+/// an early one, and of the first after regular timestamps jump. One case cannot be detected: a
+/// step of exactly n periods whose first sample is n periods late looks like n lost samples. (For 6
+/// ms and more, with 1 ms of exponential jitter: 1 of 30,000 streams.)
+///
+/// What is forgotten. Setting a clock, or resetting the device, moves only its offset. The crystal
+/// is the same, so that the slope may change by no more than crystals drift; the way to the host
+/// and its usual jitter are the same too. After two minutes without a sample nobody knows what went
+/// on. The device may be in another mode with another clock, warm or cold, behind another hub or
+/// driver. Everything is learnt anew then, which costs seconds of a wider uncertainty; keeping what
+/// no longer holds would state one that is too narrow. A device that is plugged in again gets a
+/// ClockFit of its own.
 class ClockFit {
   public:
     /// Greatest skew that is believed, as a ratio: crystals are good to 100 ppm.
     static constexpr double kGreatestSkew = 500e-6;
 
-    /// The host asks for samples each `polling_ns` (0: they come by themselves).
+    /// The host asks for samples every `polling_ns` (0: they come by themselves).
     explicit ClockFit(std::int64_t polling_ns = 0) : polling_ns_(polling_ns) {}
 
     /// A sample of the device's clock, and when it had arrived, in the order of arrival.

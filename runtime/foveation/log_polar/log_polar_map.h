@@ -16,18 +16,18 @@ struct KfrParameters {
 
     double sigma = 1.8;  ///< picture width over LP-buffer width, [kMinSigma, kMaxSigma]
     RadialKernel kernel{};
-    bool disc = true;             ///< shade pixels directly where a texel a pixel is offered
+    bool disc = true;             ///< shade directly where there is a texel per pixel
     double border_px = 6.0;       ///< width of the blend from disc to LP-buffer, [0, 64]
     std::uint32_t lp_width = 0;   ///< the LP-buffer's; 0: the picture's over sigma
     std::uint32_t lp_height = 0;  ///< likewise
-    /// Without the disc: still shade the few pixels directly where fewer than a column a pixel is
-    /// offered around the fovea (LogPolarMap::hole_radius_px).
+    /// Without the disc: still shade the few pixels around the fovea directly where there is less
+    /// than one column per pixel (LogPolarMap::hole_radius_px).
     bool close_hole = false;
 };
 
 /// The LP-buffer's size: as stated, else W/sigma x H/sigma, rounded. Errors (Usage): a parameter
-/// out of range or not a number, a picture under 2 x 2 px or over 16384 a side, an LP-buffer under
-/// 2 x 4 texels or over 16384 a side.
+/// out of range or not a number; a picture under 2 x 2 px; an LP-buffer under 2 x 4 texels; either
+/// with a side over 16384.
 Expected<LpSize> lp_buffer_size(const KfrParameters& parameters, ImageSize image);
 
 /// Kernel log-polar mapping around one fovea, in double precision:
@@ -55,19 +55,18 @@ class LogPolarMap final : public RadialMap {
     [[nodiscard]] double log2_max_radius() const;
     [[nodiscard]] Density density(double radius_px, LpSize lp) const;
 
-    /// LP texels that a pixel at this radius is offered: radial times tangential density.
+    /// LP texels per pixel at this radius: radial times tangential density.
     [[nodiscard]] double texels_per_pixel(double radius_px, LpSize lp) const;
 
-    /// The radius inside which pixels are better shaded directly: of the radii at which the
-    /// LP-buffer ceases to offer a texel a pixel, the one inside which texels exceed pixels the
-    /// most; or where it never offers one, the radius of the kernel's hole around the fovea (inside
-    /// it the density falls towards the fovea), as far as closing it takes at most a tenth as many
-    /// pixels as there are texels. 0: no such radius.
+    /// The radius within which direct shading saves the most samples: one at which the LP-buffer
+    /// falls below one texel per pixel. If the buffer never reaches one texel per pixel, the radius
+    /// of the kernel's hole at the fovea (inside it the density falls towards the fovea), limited
+    /// so that closing it costs at most a tenth of the LP-buffer's texels. 0: none.
     [[nodiscard]] double disc_radius_px(LpSize lp) const;
 
-    /// The radius inside which the kernel leaves a hole: from the fovea out to where the radial
-    /// density first reaches a column a pixel; where it never does, to its peak, as far as is
-    /// affordable (see disc_radius_px).
+    /// The radius of the hole that the kernel leaves at the fovea: where the radial density first
+    /// reaches one column per pixel. If it never does, the radius of its peak, limited as for
+    /// disc_radius_px.
     [[nodiscard]] double hole_radius_px(LpSize lp) const;
 
   private:
