@@ -29,10 +29,10 @@ struct LoopOptions {
     std::optional<double> seconds;  ///< of the time line, from its start
     bool end_with_source = false;
     bool hidden_area = true;  ///< leave out what no eye sees
-    /// Read the gaze only when the GPU has finished what needs none: less age of the gaze, less
-    /// overlap of frames.
+    /// Read the gaze only when the GPU has finished what needs no gaze: the gaze is younger, but
+    /// frames overlap less.
     bool wait_before_latch = false;
-    std::function<std::optional<LoopEnd>()> stop;  ///< asked once a frame: is it to end, and why
+    std::function<std::optional<LoopEnd>()> stop;  ///< called once per frame: is it to end, and why
 };
 
 struct LoopResult {

@@ -14,10 +14,10 @@ struct hid_device_;
 
 namespace gazeloop::drivers::hid {
 
-/// An open /dev/hidrawN, through hidapi's hidraw backend. Its open has two faults that are worked
-/// around: up to 0.13 it uses freed memory where a node does not answer HIDIOCGRDESCSIZE; and it
-/// keeps its last error in a global variable. So we open and ask the node ourselves first, keep it
-/// open, and let one thread open at a time. One case remains: a tracker that is pulled out in the
+/// An open /dev/hidrawN, through hidapi's hidraw backend. Two faults of its open are worked around.
+/// Up to 0.13 it uses freed memory where a node does not answer HIDIOCGRDESCSIZE. And it keeps its
+/// last error in a global variable. So we open and ask the node ourselves first, keep it open, and
+/// let one thread open at a time. One case remains: a tracker that is pulled out in the
 /// microseconds between the two questions. From 0.14 on that is an error like any other.
 class HidrawDevice {
   public:

@@ -20,9 +20,10 @@ enum class AxesVerdict : std::uint8_t {
 
 /// From the headset's axes to the head's (+X right, +Y up, -Z forward).
 ///
-/// **Not tried on hardware.** Three public drivers that were (PSVR2Toolkit for SteamVR, Monado's, a
-/// program made from both) negate X and Z of every vector of the packet: +X to the wearer's left,
-/// +Y up, +Z forward. The tracker's maker uses the same axes in its other headsets and glasses.
+/// **Not tried on hardware.** Three public drivers were: PSVR2Toolkit for SteamVR, Monado's, and a
+/// program made from both. They negate X and Z of every vector of the packet: its axes are +X to
+/// the wearer's left, +Y up, +Z forward. The tracker's maker uses the same axes in its other
+/// headsets and glasses.
 ///
 /// So that gaze is never mirrored in silence, every packet is held against anatomy: the left eye is
 /// left of the right one, and eyes look forward. Two thirds of the packets decide, and what they

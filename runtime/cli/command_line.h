@@ -76,8 +76,8 @@ class Command {
     Action* chosen_;
 };
 
-/// What the command line itself asks to be said: help (ExitCode::Ok), or what is wrong with it
-/// (ExitCode::Usage), in whole lines.
+/// The command line's own answer, in whole lines: help (ExitCode::Ok), or what is wrong with it
+/// (ExitCode::Usage).
 struct Reply {
     ExitCode code = ExitCode::Ok;
     std::string text;
@@ -99,9 +99,9 @@ class CommandLine {
     /// What --version says.
     void set_version(const std::string& text);
 
-    /// Sets what the options name and gives the action of the chosen command: none if it has none.
-    /// `words`: those after the program's name.
-    /// @throws SetupError (Usage) for a command, option or word that is not known
+    /// Sets what the options name and gives the action of the chosen command, if it has one.
+    /// `words`: those after the program's name. @throws SetupError (Usage) for a command, option or
+    /// word that is not known
     [[nodiscard]] std::expected<Action, Reply> parse(const std::vector<std::string>& words);
 
   private:

@@ -16,19 +16,19 @@ enum class Illumination : std::uint8_t {
     Rolling,  ///< row after row, from the top of the picture to its bottom
 };
 
-/// What a display is taken to be: config/displays/NAME.toml. A figure of the photons that nobody
-/// knows is absent, never 0.
+/// What a display is taken to be: config/displays/NAME.toml. A figure that times photons and is
+/// unknown is absent, never 0.
 ///
 /// When a frame's light comes. The time that a runtime announces is the middle of the display's
-/// emission, over the whole panel: half of the scan-out lies before it and half after, so that no
-/// scan-out is to be added to it. A row at a share y of the picture's height (0 top, 1 bottom)
-/// emits in the middle of its own light at
+/// emission, over the whole panel. Half of the scan-out lies before it and half after, so that no
+/// scan-out must be added to it. A row at a share y of the picture's height (0 top, 1 bottom) emits
+/// in the middle of its own light at
 ///
 ///     rolling:  announced + (y - 1/2) scan_out
 ///     global:   announced, whatever its row
 ///
 /// and the photon that counts comes `switching` later, once the pixel has changed. Light lasts
-/// `persistence`, half of it before and half after; that moves no time in its middle.
+/// `persistence`, half of it before and half after that middle, so it shifts no time.
 struct DisplayProfile {
     std::string name;
     std::string description;
@@ -48,11 +48,12 @@ struct DisplayProfile {
 
     [[nodiscard]] std::int64_t period_ns() const { return std::llround(1e9 / refresh_hz); }
 
-    /// What of the scan-out spreads the rows' photons: none (0) with global illumination; unknown
-    /// where the illumination is.
+    /// By how much the scan-out spreads the rows' photons: 0 with global illumination; unknown
+    /// where the illumination is unknown.
     [[nodiscard]] std::optional<std::int64_t> rolling_ns() const;
 
-    /// Of `assumed`, what decides when photons come: "switching_ms, persistence_ms"; else empty.
+    /// The figures in `assumed` that decide when photons come: "switching_ms, persistence_ms"; else
+    /// empty.
     [[nodiscard]] std::string assumed_photons() const;
 };
 

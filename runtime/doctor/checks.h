@@ -34,9 +34,9 @@ struct OpenXrChecks {
 /// processes of their own.
 Findings check_openxr(const OpenXrChecks& asked, const ProbeLimits& limits);
 
-/// The eye gaze of the OpenXR runtime, gate by gate, listened to for `seconds` in a session that
-/// shows nothing; that only if the runtime and the headset have it. In a process of its own. The
-/// last finding, openxr.eye_gaze.samples, has what came as facts.
+/// The eye gaze of the OpenXR runtime, gate by gate. If the runtime and the headset have it, gaze
+/// is read for `seconds` in a session that shows nothing. In a process of its own. The last
+/// finding, openxr.eye_gaze.samples, has what came as facts.
 Findings check_eye_gaze(const OpenXrChecks& asked, double seconds, const ProbeLimits& limits);
 
 /// Trackers on HID: what their descriptors are good for, and who may open their nodes.

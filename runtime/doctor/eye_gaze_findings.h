@@ -5,7 +5,7 @@
 
 namespace gazeloop::doctor {
 
-/// One finding a gate, "openxr.eye_gaze.NAME"; those behind one that is shut were not reached.
+/// One finding per gate, "openxr.eye_gaze.NAME"; gates behind one that is shut were not reached.
 [[nodiscard]] Findings eye_gaze_findings(const drivers::GazeGates& gates);
 
 }  // namespace gazeloop::doctor

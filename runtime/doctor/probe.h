@@ -10,14 +10,14 @@
 
 namespace gazeloop::doctor {
 
-/// What a probe tells while it runs. Each finding is out at once: a crash later does not take it
-/// along.
+/// What a probe tells while it runs. Each finding is written at once, so that a later crash does
+/// not lose it.
 class ProbeReport {
   public:
     explicit ProbeReport(int pipe) : pipe_(pipe) {}
 
-    /// What is tried next, "loading the runtime", and what to do if it fails, where that is
-    /// something of its own.
+    /// What is tried next, "loading the runtime", and what to do if it fails, where that differs
+    /// from the general remedy.
     void step(std::string_view what, std::string_view remedy = "");
     void add(const Finding& finding);
     /// Why the probe could not go on.
@@ -36,8 +36,8 @@ struct ProbeResult {
     std::string remedy;  ///< its own, or empty
     std::string broken;  ///< empty: it ran to its end; else how it ended, "crashed (SIGSEGV)"
 
-    /// The findings, and if it broke one more, a Failure named `check`, that says how and while
-    /// doing what; `general_remedy` is for steps without one of their own.
+    /// The findings. If the probe broke, also a Failure named `check` that says how, and at which
+    /// step. `general_remedy` is for steps without a remedy of their own.
     [[nodiscard]] std::vector<Finding> findings_and_end(std::string_view check,
                                                         std::string_view general_remedy,
                                                         bool stops_loop) &&;
@@ -46,7 +46,7 @@ struct ProbeResult {
 /// How long a probe may take, and what ends it before.
 struct ProbeLimits {
     std::chrono::milliseconds patience;
-    std::function<bool()> stop;  ///< asked a few times a second; true ends the probe
+    std::function<bool()> stop;  ///< called a few times per second; true ends the probe
 };
 
 /// Runs a probe in a process of its own, since what it loads may crash or hang: drivers, runtimes,

@@ -26,8 +26,8 @@ class FrameObserver {
     /// From the frame on, its pictures leave out these parts.
     virtual void on_hidden(const gaze::HiddenChange&) {}
     /// A frame whose passes have been submitted. Its pictures still belong to the loop and lie in
-    /// COLOR_ATTACHMENT_OPTIMAL; who reads them submits that to the context's queue, here, and
-    /// leaves them as they are.
+    /// COLOR_ATTACHMENT_OPTIMAL. An observer that reads them submits the reading to the context's
+    /// queue, in this call, and leaves them as they are.
     virtual void on_rendered(const render::FrameView&, const gaze::FrameFovea&) {}
     /// A frame that was handed to the target.
     virtual void on_frame(const FrameRecord&) {}

@@ -17,7 +17,7 @@ inline constexpr std::size_t kMostPasses = 12;
 using PassList = NameList;
 
 /// How long each pass of one frame took, by its place in the run's PassList. A pass that did not
-/// run has no duration, and that is how all of them begin: unknown is never 0.
+/// run has no duration, and all begin without one: unknown is never 0.
 class PassTimes {
   public:
     PassTimes() { ns_.fill(kDidNotRun); }

@@ -25,14 +25,14 @@ struct GazeSample {
     std::int64_t device_ns = 0;  ///< the tracker's own clock, unchanged but for unit and wrap
     time::Stamp sampled;         ///< when the eye was seen (exposure), in host time
     time::Stamp arrived;         ///< when the host had it
-    /// When the host could have had it at the earliest: `sampled` and the tracker's least delay.
+    /// When the host could have had it at the earliest: `sampled` plus the tracker's least delay.
     /// Known where a clock was fitted to the tracker's (latency/clock_fit.h); else unknown.
     time::Stamp ready;
     std::optional<std::int64_t> uncertainty_ns;  ///< of `sampled`, either way, where it is known
     PerEye<EyeRay> eyes;
-    /// How far off a direction may be because the tracker gives one ray for both eyes and how far
-    /// away they look was assumed, or read from an earlier frame's depth (gaze/combined_gaze.h);
-    /// none where each eye has its own.
+    /// How far off a direction may be because the tracker gives one ray for both eyes. How far away
+    /// they look was then assumed, or read from an earlier frame's depth (gaze/combined_gaze.h).
+    /// None where each eye has its own ray.
     std::optional<double> parallax_rad;
     std::optional<Pose> head;  ///< head in world at `sampled`, where known
 };

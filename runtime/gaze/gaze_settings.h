@@ -22,8 +22,8 @@ struct GazeSettings {
 
 [[nodiscard]] FoveaPolicy fovea_policy(const GazeSettings& gaze);
 
-/// Whether they fit together. Errors (Usage): which two do not, where they were set, and what
-/// would. `all`: those that hold the rows of `gaze`.
+/// Whether they fit together. Errors (Usage): which two do not, where they were set, and what would
+/// fit. `all` holds the rows of `gaze`.
 [[nodiscard]] Expected<void> check(const GazeSettings& gaze, const settings::Settings& all);
 
 }  // namespace gazeloop::gaze

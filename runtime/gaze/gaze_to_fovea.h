@@ -18,7 +18,8 @@ struct FoveaPolicy {
     std::int64_t return_ns = 150'000'000;  ///< then return to straight ahead in this time
     double minimum_confidence = 0.6;       ///< a sample that states less is not valid
     /// Distance at which gaze is held in world, metres. It matters only while the head moves
-    /// sideways between sample and display: the error is about moved distance / distance radians.
+    /// sideways between sample and display: the error in radians is about the moved distance over
+    /// this distance.
     double fixation_distance_m = 1.5;
 };
 
@@ -26,27 +27,30 @@ struct FoveaPolicy {
 /// of samples and latches gives the same foveae bit for bit.
 ///
 /// An eye of a sample is valid if the tracker says so, its direction is finite and not zero, and
-/// its confidence is unknown or high enough. If one eye is, the other borrows its direction.
+/// its confidence is unknown or high enough. If only one eye is valid, the other borrows its
+/// direction.
 ///
-/// A valid sample's direction is placed in world: the point at the fixation distance along the
-/// direction from the eye's place in the head at the sample's time. At the latch that point is
-/// seen from the view that the frame submits. The eye is taken to sit at its view's origin, because
-/// that is where the display's optics want it; the tracker's own ray origin is not used. A sample
-/// without a (finite) head pose is held in the head instead: head motion since then goes unseen.
+/// A valid sample's direction is placed in world. It becomes the point at the fixation distance
+/// along the direction, from the eye's place in the head at the sample's time. At the latch that
+/// point is seen from the view that the frame submits. The eye is taken to sit at its view's
+/// origin, because that is where the display's optics want it; the tracker's own ray origin is not
+/// used. A sample without a (finite) head pose is held in the head instead: head motion since then
+/// goes unseen.
 ///
-/// A sample is as old as its time says, and at least as old as its arrival; with neither known it
-/// is too old for anything.
+/// A sample is as old as its time says, and at least as old as its arrival. If neither is known, it
+/// counts as stale.
 class GazeToFovea {
   public:
     explicit GazeToFovea(const FoveaPolicy& policy);
 
-    /// Takes samples in the order of arrival; one with a sample time before that of the sample
-    /// added before it is ignored. Unknown times are not compared, nor is the tracker's own clock,
-    /// which may lie: then the order of arrival stands.
+    /// Takes samples in the order of arrival. A sample whose time is before that of the sample
+    /// added last is ignored. Unknown times are not compared, nor is the tracker's own clock, which
+    /// may be wrong: then the order of arrival counts.
     void add(const GazeSample& sample);
 
     /// The foveae of a frame whose gaze is read at `latched` (known), for views at their display
-    /// time. `head` is the head pose those views belong to. Precondition: is_valid(view) of both.
+    /// time. `head` is the head pose that those views belong to. Precondition: is_valid(view) of
+    /// both.
     [[nodiscard]] FrameFovea latch(time::Stamp latched, const Pose& head,
                                    const StereoView& views) const;
 

@@ -11,12 +11,12 @@ namespace gazeloop::gaze {
 /// A recorded gaze stream in our axes and units, whatever file it came from.
 ///
 /// `sampled` of each sample is its time since the trace's first sample, Modelled. `arrived` is
-/// unknown unless the file has host times; then it is Modelled, on the same time line, and shifted
-/// so that the quickest report took no time at all (TraceSource adds the tracker's delay). Times
-/// increase: samples whose time did not advance were dropped and counted. At least one sample has a
-/// valid eye.
+/// unknown unless the file has host times. If it has, `arrived` is Modelled, on the same time line,
+/// and shifted so that the quickest report took no time at all (TraceSource adds the tracker's
+/// delay). Times increase: samples whose time did not advance were dropped and counted. At least
+/// one sample has a valid eye.
 ///
-/// A recorded session's gaze is in the order of its arrival, the first of it at 0, as it was:
+/// A recorded session's gaze is unchanged, in the order of its arrival, the first sample at 0:
 /// `sampled` may be unknown or go back, `ready` may be known.
 struct GazeTrace {
     std::string file;

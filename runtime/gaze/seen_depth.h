@@ -7,7 +7,7 @@
 
 namespace gazeloop::gaze {
 
-/// What one eye's picture shows of depth around its fovea: every `step` pixels a sample, row by
+/// The depth that one eye's picture shows around its fovea: one sample every `step` pixels, row by
 /// row. It has no samples where nothing is known.
 struct DepthPatch {
     EyeView view;             ///< that the picture was rendered from
@@ -17,8 +17,8 @@ struct DepthPatch {
     std::uint32_t step_y_px = 1;
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    /// 1 / distance from the eye, 1/m, as half floats; 0 is infinitely far, and what is negative or
-    /// no number is not known. columns * rows of them.
+    /// 1 / distance from the eye, 1/m, as half floats; 0 is infinitely far, and a value that is
+    /// negative or no number is unknown. columns * rows of them.
     std::vector<std::uint16_t> nearness;
 };
 

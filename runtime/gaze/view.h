@@ -35,12 +35,12 @@ struct PixelPosition {
 };
 
 /// Perspective projection of a direction in the view frame (need not be normalised). A direction
-/// beyond the picture gives a position beyond it, and one at or behind the image plane the position
-/// that `limit` allows in its direction: the result is always finite and lies within `limit`
-/// picture sizes of the picture's centre on each axis (the default reaches 2 sizes past every
-/// edge). Where the limit acts, the position keeps its direction from the picture's centre. The
-/// result is continuous except straight behind. A direction that is zero or not finite gives the
-/// projection of straight ahead. Preconditions: is_valid(view), limit > 0.
+/// beyond the picture gives a position beyond it. A direction at or behind the image plane gives
+/// the position that `limit` allows in its direction. The result is always finite and lies within
+/// `limit` picture sizes of the picture's centre on each axis (the default reaches 2 sizes past
+/// every edge). Where the limit acts, the position keeps its direction from the picture's centre.
+/// The result is continuous except straight behind. A direction that is zero or not finite gives
+/// the projection of straight ahead. Preconditions: is_valid(view), limit > 0.
 [[nodiscard]] PixelPosition project(const glm::dvec3& direction, const EyeView& view,
                                     double limit = 2.5);
 
@@ -48,7 +48,7 @@ struct PixelPosition {
 /// for positions inside its limit. Precondition: is_valid(view).
 [[nodiscard]] glm::dvec3 unproject(const PixelPosition& position, const EyeView& view);
 
-/// Whether the field of view and the size can be projected with: valid angles whose tangents still
+/// Whether field of view and size can be used for projection: valid angles whose tangents still
 /// differ, and no side of 0 px.
 [[nodiscard]] bool is_valid(const EyeView& view);
 

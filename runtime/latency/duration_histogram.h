@@ -6,8 +6,8 @@
 
 namespace gazeloop::latency {
 
-/// Durations in fixed memory (about 73 KB) and without allocation after construction: count,
-/// least, greatest and mean exact, percentiles from logarithmic bins, within 0.2 % of the true
+/// Durations in fixed memory (about 73 KB) and without allocation after construction. Count, least,
+/// greatest and mean are exact. Percentiles come from logarithmic bins, within 0.2 % of the true
 /// sample for durations up to 73 minutes and within 7 % beyond.
 class DurationHistogram {
   public:

@@ -28,8 +28,8 @@ inline constexpr std::array<std::string_view, kStageCount> kStageNames{
     "tracker", "delivery",         "queue",       "submit",
     "gpu",     "wait for display", "scan to row", "switching"};
 
-/// Whether a stage is left out where it is unknown: Delivery, which is then part of Tracker, and
-/// Row, since that nobody knows how the display lights its rows is said once.
+/// Whether a stage is left out where it is unknown. These are Delivery, which is then part of
+/// Tracker, and Row, because the summary says once that the display's lighting of rows is unknown.
 [[nodiscard]] constexpr bool shown_only_if_known(std::size_t stage) {
     return stage == static_cast<std::size_t>(Stage::Delivery) ||
            stage == static_cast<std::size_t>(Stage::Row);
@@ -43,8 +43,8 @@ struct ShownFrame {
 };
 
 /// A frame whose last pass ended by its announced display time is shown then. A later one is shown
-/// a whole number of periods later, which is a model of the compositor, and marked so (unknown
-/// without a period). With an unknown end on the GPU the announced time stands.
+/// a whole number of periods later. That is a model of the compositor, and marked so (unknown
+/// without a period). If the end on the GPU is unknown, the announced time stands.
 [[nodiscard]] ShownFrame shown_frame(const frame::FrameStamps& stamps, std::int64_t period_ns);
 
 /// How old the gaze was in one frame.
@@ -52,7 +52,8 @@ struct GazeAge {
     time::Span at_latch;  ///< sampled -> latch
     time::Span
         at_display;  ///< sampled -> shown, with the display's row and switching times if known
-    /// Of both ages, either way: of the tracker's fitted clock and of its profile's delay.
+    /// Uncertainty of both ages, either way: from the tracker's fitted clock and its profile's
+    /// delay.
     time::Span uncertainty;
     std::array<time::Span, kStageCount> stages;
     /// at_display less the known stages, exactly; known where at_display is. A stage with an
@@ -65,23 +66,23 @@ struct GazeAge {
                                const time::Stamp& shown, std::optional<std::int64_t> switching_ns,
                                std::optional<std::int64_t> row_ns = std::nullopt);
 
-/// From the middle of the emission to that of the row at `y_px` in a picture of `height_px`, where
-/// the rows' emissions begin `rolling_ns` apart from first to last: (y / height - 1/2) rolling, and
-/// 0 with a panel that is lit at once (rolling_ns 0). A row off screen counts as the nearest one.
-/// Unknown where rolling_ns is, or where the row is not a number.
+/// From the middle of the emission to that of the row at `y_px` in a picture of `height_px`: (y /
+/// height - 1/2) rolling. The first and the last row's emissions begin `rolling_ns` apart; 0: the
+/// panel is lit at once. A row off screen counts as the nearest one. Unknown where rolling_ns is
+/// unknown, or where the row is not a number.
 [[nodiscard]] std::optional<std::int64_t> row_delay_ns(std::optional<std::int64_t> rolling_ns,
                                                        double y_px, std::uint32_t height_px);
 
-/// Whether a display with this announced period can be one whose profile has that: it shows a new
-/// picture each time or every second to fourth time. Else what the profile says of its rows and
-/// pixels is another display's.
+/// Whether a display with this announced period can be the one with the profile's period: it shows
+/// a new picture every time, or every second to fourth time. If not, the profile's figures of rows
+/// and pixels are another display's.
 [[nodiscard]] bool may_be_of_period(std::int64_t announced_ns, std::int64_t profile_ns);
 
 /// The eye whose gaze is older, or of unknown age: a frame is as late as its later eye.
 [[nodiscard]] gaze::Eye older_eye(const gaze::FrameFovea& fovea);
 
-/// Of a frame that was shown at `shown`, with these stamps: that of its older gaze, at the row
-/// where that looks. The display profile's times as in gaze_age and row_delay_ns.
+/// The age of the older gaze in a frame that was shown at `shown`, at the row where that eye looks.
+/// The display profile's times as in gaze_age and row_delay_ns.
 [[nodiscard]] GazeAge frame_gaze_age(const frame::FrameRecord& frame,
                                      const frame::FrameStamps& stamps, const time::Stamp& shown,
                                      std::optional<std::int64_t> switching_ns,

@@ -33,7 +33,7 @@ struct SummaryConfig {
     std::optional<std::int64_t> persistence_ns = std::nullopt;
     frame::PassList passes{};  ///< of the run
     frame::GridList grids{};   ///< of the run's method
-    std::string assumed{};     ///< those of the profile's figures that are assumed, not published
+    std::string assumed{};     ///< figures of the profile that are assumed, not published
 };
 
 /// Whether the latencies are those of a headset that keeps up.
@@ -52,20 +52,20 @@ struct FrameCounts {
     std::uint64_t missed = 0;           ///< shown later than announced, because of the GPU
     std::uint64_t periods_missed = 0;   ///< by them together, at least
     std::uint64_t in_time_unknown = 0;  ///< no time of the GPU's end, or of the display
-    /// By the state of the eye that is worse off, in the order of gaze::FoveaState.
+    /// By the state of the worse eye, in the order of gaze::FoveaState.
     std::array<std::uint64_t, gaze::kFoveaStateNames.size()> by_state{};
 
-    /// In which both foveae rest on a fresh sample.
+    /// Frames in which both foveae rest on a fresh sample.
     [[nodiscard]] std::uint64_t with_gaze() const {
         return by_state[static_cast<std::size_t>(gaze::FoveaState::Tracking)] +
                by_state[static_cast<std::size_t>(gaze::FoveaState::OtherEye)];
     }
 };
 
-/// Everything that a summary says. Rows of gaze age and of its stages are over the frames in which
-/// both eyes' foveae rest on a fresh sample (tracking or other-eye), each over those frames that
-/// know it. Per frame the stages and the unaccounted rest add up to the gaze age at display
-/// exactly, hence so do the means where the rows have the same count.
+/// Everything that a summary says. Rows of gaze age and of its stages cover the frames in which
+/// both eyes' foveae rest on a fresh sample (tracking or other-eye). Each row covers those of them
+/// that know its value. Per frame, the stages and the unaccounted rest add up to the gaze age at
+/// display exactly. Hence so do the means where the rows have the same count.
 struct SummaryReport {
     SummaryConfig config;
     Verdict verdict = Verdict::Unknown;
@@ -80,8 +80,9 @@ struct SummaryReport {
     DurationRow loop_time;                 ///< wake_up -> end_frame
     std::array<DurationRow, frame::kMostPasses> passes;  ///< as config.passes names them
 
-    /// How the gaze age at display was obtained, percent of its length over all frames that know
-    /// it, by stamp kind; what is unaccounted for is unknown. Absent if no frame knows it.
+    /// How the gaze age at display was obtained: percent of its length by stamp kind, over all
+    /// frames that know the age. The unaccounted part counts as unknown. Absent if no frame knows
+    /// the age.
     std::optional<std::array<double, time::kStampKindCount>> share_by_kind_percent;
     FrameCounts frames;
     GazeCounts gaze;
@@ -98,16 +99,18 @@ class LatencySummary {
   public:
     explicit LatencySummary(const SummaryConfig& config);
 
-    /// The display's period as the runtime announces it counts, not a profile's. With one that the
-    /// profile's display cannot have, its other times are another display's, and unknown.
+    /// The display's period that the runtime announces; it counts, not a profile's. If the
+    /// profile's display cannot have that period, the profile's other times are another display's,
+    /// and count as unknown.
     void set_display_period(std::int64_t period_ns);
 
     /// In the order of arrival.
     void add(const gaze::GazeSample& sample);
     /// In the order of their index.
     void add(const frame::FrameRecord& record);
-    /// After its frame, and before 16 later ones; a later part still counts for the passes. In
-    /// virtual time the frame's own, modelled GPU stamps are used and those of this part are not.
+    /// To be added after its frame, and before 16 later frames; one that comes later counts only
+    /// for the passes. In virtual time the frame's own, modelled GPU stamps are used, not those of
+    /// this record.
     void add(const frame::FrameGpuRecord& record);
 
     /// Of everything so far; frames still without a GPU part count as they are.

@@ -26,8 +26,7 @@ class SampleCounter {
   private:
     GazeCounts counts_;
     std::uint64_t highest_sequence_ = 0;
-    time::Stamp
-        last_sampled_;  ///< and not the greatest, so that a clock that is set back counts once
+    time::Stamp last_sampled_;  ///< not the greatest, so that a clock that is set back counts once
 };
 
 }  // namespace gazeloop::latency

@@ -22,7 +22,7 @@ struct AcuitySettings {
 
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(AcuitySettings& acuity);
 
-/// What they say of the map; AcuityProfile::create checks it against a view.
+/// The map's parameters by these settings; AcuityProfile::create checks them against a view.
 [[nodiscard]] foveation::AcuityParameters parameters(const AcuitySettings& acuity);
 
 }  // namespace gazeloop::methods

@@ -26,18 +26,18 @@ struct KfrSettings {
 
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(KfrSettings& kfr);
 
-/// Whether they fit together. Errors (Usage): which two do not, where they were set, and what
-/// would. `all`, here and below: those that hold the rows of KfrSettings.
+/// Whether they fit together. Errors (Usage): which two do not, where they were set, and what would
+/// fit. `all`, here and below, holds the rows of KfrSettings.
 [[nodiscard]] Expected<void> check_kfr(const settings::Settings& all);
 
-/// Puts what the file kfr.kernel_table holds into kfr.kernel_samples, where the kernel is a table
-/// and a file is stated; the file is then stated no more. So a session holds the samples, and its
-/// replay needs no file. Errors (BadInput): the file cannot be read or is no kernel.
+/// Puts what the file kfr.kernel_table holds into kfr.kernel_samples, if the kernel is a table and
+/// a file is stated; kfr.kernel_table is empty then. So a session holds the samples, and its replay
+/// needs no file. Errors (BadInput): the file cannot be read or is no kernel.
 Expected<void> take_kernel_table(const KfrSettings& kfr, settings::Settings& all);
 
-/// What they say of the method. Errors: a polynomial that cannot be a kernel or is no list of
-/// numbers, a missing table (Usage); samples that are no kernel (BadInput); with the
-/// place where it was set. Precondition: take_kernel_table.
+/// The method's parameters by these settings. Errors, with the place where each was set. Usage: a
+/// polynomial that cannot be a kernel or is no list of numbers, a missing table. BadInput: samples
+/// that are no kernel. Precondition: take_kernel_table.
 Expected<foveation::KfrParameters> parameters(const KfrSettings& kfr,
                                               const settings::Settings& all);
 

@@ -20,8 +20,8 @@ struct RingsSettings {
 
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(RingsSettings& rings);
 
-/// What they say; where they state no ring, the narrowest ones that satisfy `line` in `view`.
-/// Errors (Usage): as GuenterAcuity::create.
+/// The rings by these settings; where they state none, the narrowest ones that satisfy `line` in
+/// `view`. Errors (Usage): as GuenterAcuity::create.
 [[nodiscard]] Expected<foveation::RingParameters> parameters(const RingsSettings& rings,
                                                              const gaze::EyeView& view,
                                                              const foveation::MarLine& line);

@@ -23,10 +23,10 @@ struct EnvelopeOptions {
 /// One map at one gaze: the largest errors over its probes, in pixels of the picture, against
 /// double precision.
 ///
-/// Forward: of the position that the float shares of a pixel stand for. Inverse: of the position
-/// computed for the centre of the texel that a pixel lies in. Both are measured where a position
-/// has consequences: on the screen, between the centres of the first and the last column, beyond
-/// which the sampler clamps.
+/// Forward: the error of the position that the float shares of a pixel stand for. Inverse: the
+/// error of the position computed for the centre of the texel that a pixel lies in. Both are
+/// measured where a position has consequences: on the screen, between the centres of the first and
+/// the last column, beyond which the sampler clamps.
 struct EnvelopeRow {
     std::string map;
     foveation::ImageSize image;
@@ -55,7 +55,7 @@ struct EnvelopeRow {
     double forward_texels = 0.0;     ///< the forward error (device) over the texel's extent
     std::uint64_t beyond_bound = 0;  ///< probes whose error exceeds its own bound
     double stated_px = 0.0;          ///< what every map is to keep: .01 or .05
-    double target_px = 0.0;  ///< of the mirror: that, or twice the conditioning where it is more
+    double target_px = 0.0;  ///< of the mirror: stated_px, or twice the conditioning if more
     double device_target_px = 0.0;
     std::string
         useless{};  ///< why the parameters make no useful map, whatever its errors; or empty
@@ -65,11 +65,11 @@ struct EnvelopeRow {
                std::max(cpu.fall_px, device.fall_px) <= conditioning_px && beyond_bound == 0 &&
                cpu.not_finite + device.not_finite == 0;
     }
-    /// Met, but not by what is stated: a float32 u and v alone cost too much.
+    /// Met, but not by stated_px: float32 u and v alone cost too much.
     [[nodiscard]] bool met_for_float32() const { return met() && cpu.largest_px() > stated_px; }
 };
 
-/// Of maps and gazes. Those whose parameters leave nothing to draw count apart.
+/// Counts of maps and gazes. Those whose parameters leave nothing to draw count apart.
 struct EnvelopeCounts {
     std::size_t useful = 0;
     std::size_t met = 0;          ///< of the useful ones

@@ -16,8 +16,8 @@ struct EnvelopeGroup {
     bool on_screen = false;
     std::size_t rows = 0;
 
-    // Of the row that comes closest to its target; of those with useful parameters, if there are
-    // any.
+    // From the row that comes closest to its target, among those with useful parameters if there
+    // are any.
     double cpu_px = 0.0;     ///< the larger of forward and inverse
     double device_px = 0.0;  ///< likewise
     double bound_px = 0.0;   ///< likewise

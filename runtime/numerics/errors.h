@@ -22,7 +22,7 @@ inline constexpr std::size_t kLineLength = 256;
 Probes make_probes(const MapUnderTest& map, foveation::ImageSize image, std::size_t positions,
                    std::mt19937_64& random);
 
-/// What the answers are worth; bounds, conditioning and violations go to the row. Precondition:
+/// How exact the answers are; bounds, conditioning and violations go to the row. Precondition:
 /// row.image.
 EnvelopeRow::Errors judge(const MapUnderTest& map, const Probes& probes,
                           const std::vector<ProbeOutput>& outputs, EnvelopeRow& row);

@@ -25,7 +25,7 @@ struct ProbeOutput {
     glm::vec3 ray{0.0F};    ///< of the position, in world; the device's answer alone
 };
 
-/// The view, and what of the map depends on the gaze.
+/// The view, and the part of the map that depends on the gaze.
 struct ProbeUniforms {
     render::FrameUniforms frame;
     foveation::MapUniforms map;

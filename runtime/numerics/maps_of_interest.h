@@ -15,7 +15,7 @@ struct NamedKernel {
     foveation::RadialKernel kernel;
 };
 
-/// A kernel of every kind, the power kernels from end to end of alpha's range; `quick`: few.
+/// A kernel of every kind, the power kernels from end to end of alpha's range; `quick`: only a few.
 std::vector<NamedKernel> kernels_under_test(bool quick);
 
 /// Asymmetric, as headsets are.

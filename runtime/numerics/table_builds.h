@@ -7,7 +7,7 @@ namespace gazeloop::numerics {
 
 /// What a map's tables cost to build; no gaze needs new ones.
 struct TableBuild {
-    /// What they may cost.
+    /// Most that they may cost.
     static constexpr double kTargetMs = 1.0;
 
     std::string map;

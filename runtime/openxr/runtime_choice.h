@@ -15,9 +15,9 @@ struct RuntimeChoice {
 
 /// Decides on the runtime before the first OpenXR call. The user's choice (XR_RUNTIME_JSON), then
 /// the system's (active_runtime.json, or Debian's Monado package), then the Monado that `./dev
-/// setup` built into the cache folder. For the last one the environment is set so that it simulates
-/// the display (size, refresh, fields of view, eyes' distance) and composites into nothing.
-/// Throws SetupError (NoDevice), naming the remedy, when there is none or the file is missing.
+/// setup` built into the cache folder. For that Monado the environment is set so that it simulates
+/// the display (size, refresh, fields of view, eyes' distance) and composites into nothing. Throws
+/// SetupError (NoDevice), naming the remedy, when there is none or the file is missing.
 RuntimeChoice choose_runtime(const display::DisplayProfile& display);
 
 }  // namespace gazeloop::openxr

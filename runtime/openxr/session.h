@@ -53,11 +53,11 @@ class Session {
     /// How often the runtime said that the visibility mask is another.
     [[nodiscard]] std::uint64_t mask_changes() const { return mask_changes_; }
 
-    /// The head in LOCAL space; none where the runtime does not know it (so long ago, not tracked)
+    /// The head in LOCAL space. None where the runtime does not know it (too long ago, not tracked)
     /// or gives what is no pose. Throws SetupError (SessionLost).
     [[nodiscard]] std::optional<gaze::Pose> head_at(XrTime time) const;
 
-    /// One line for whoever asks what happened.
+    /// Adds one line for take_events().
     void tell(std::string_view text);
     /// What happened since the last call.
     [[nodiscard]] std::vector<std::string> take_events() { return std::exchange(events_, {}); }

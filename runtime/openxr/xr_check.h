@@ -20,7 +20,7 @@ namespace gazeloop::openxr {
 /// Success codes (also XR_SESSION_LOSS_PENDING, XR_FRAME_DISCARDED) pass and are returned.
 XrResult xr_check(XrResult result, std::string_view what);
 
-/// The same for a call of a session that lives, which no failure lets go on: always SessionLost.
+/// The same for a call of a running session, which no failure lets go on: always SessionLost.
 XrResult xr_check_session(XrResult result, std::string_view call);
 
 /// The name of a result, "XR_ERROR_..." .
@@ -34,7 +34,7 @@ Structure typed(XrStructureType type) {
     return structure;
 }
 
-/// Nothing for a pose that is not finite or whose quaternion turns nothing.
+/// Nothing for a pose that is not finite or whose quaternion is no rotation.
 std::optional<gaze::Pose> from_xr(const XrPosef& pose);
 XrPosef to_xr(const gaze::Pose& pose);
 

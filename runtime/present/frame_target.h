@@ -15,9 +15,12 @@
 namespace gazeloop::present {
 
 /// What the depth images of a frame mean: the distances from the view's plane, along its axis, that
-/// the values 0 and 1 stand for. In between, the value v at distance z is
-/// far / (far - near) * (1 - near / z), as a perspective projection gives it; far may be infinite,
-/// and either one may be the greater. Every value must be of the surface that the same pixel shows.
+/// the values 0 (near) and 1 (far) stand for. The value at distance z between them is
+///
+///     far / (far - near) * (1 - near / z)
+///
+/// as a perspective projection gives it. `far_m` may be infinite, and either may be the greater.
+/// Every value must be that of the surface that the same pixel shows.
 struct DepthRange {
     float near_m = 0.0F;
     float far_m = 0.0F;
@@ -51,7 +54,7 @@ class FrameTarget {
     FrameTarget& operator=(const FrameTarget&) = delete;
     virtual ~FrameTarget() = default;
 
-    /// Who must create the Vulkan objects; null: nobody cares.
+    /// Who must create the Vulkan objects; null: no preference.
     virtual vulkan::Factory* vulkan_factory() = 0;
 
     /// Makes swapchains or images for the context, once, before anything below. The context must
@@ -74,7 +77,7 @@ class FrameTarget {
     virtual void locate(TargetFrame& frame) = 0;
     virtual gaze::PerEye<render::EyeTarget> acquire() = 0;
     /// Hands over the pictures, if any were acquired, as seen from the frame's views, in
-    /// COLOR_ATTACHMENT_OPTIMAL; and depth images, if they were filled, in
+    /// COLOR_ATTACHMENT_OPTIMAL. Also the depth images, if they were filled, in
     /// DEPTH_STENCIL_ATTACHMENT_OPTIMAL.
     virtual void end_frame(const TargetFrame& frame, bool rendered) = 0;
 

@@ -8,10 +8,10 @@
 
 namespace gazeloop::present {
 
-/// Pictures into images that nobody sees, at the rate of a display that is not there. Its
-/// "emissions" lie at multiples of the profile's period from start(); a frame is announced for the
-/// first one that is at least a period ahead. Without pacing (virtual time, benchmarks) it never
-/// waits and announces one emission after the other.
+/// Pictures into images that nobody sees, at the rate of a display that does not exist. Its
+/// "emissions" lie at multiples of the profile's period from start(). A frame is announced for the
+/// first emission that is at least a period ahead. Without pacing (virtual time, benchmarks) it
+/// never waits and announces one emission after the other.
 class HeadlessTarget final : public FrameTarget {
   public:
     struct Options {

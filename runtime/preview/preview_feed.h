@@ -16,14 +16,14 @@
 namespace gazeloop::preview {
 
 /// Copies of the loop's pictures for a preview. The loop's thread only records and submits a copy,
-/// and only when the window has asked for a picture and the last copy is out; a thread of the
-/// feed's own waits for the GPU and hands the picture over. Frames that meet a busy window are
-/// counted and dropped. The frames themselves are not touched.
+/// and only when the window has asked for a picture and the last copy is out. The feed's own thread
+/// waits for the GPU and hands the picture over. Frames that meet a busy window are counted and
+/// dropped. The frames themselves are not touched.
 class PreviewFeed final : public frame::FrameObserver {
   public:
     struct Options {
         gaze::PerEye<vk::Extent2D> extents;
-        vk::Format format = vk::Format::eUndefined;  ///< 8 bits a channel
+        vk::Format format = vk::Format::eUndefined;  ///< 8 bits per channel
         DisplayTimes display;
         frame::PassList passes;  ///< of the run
         /// Radius of the fovea's ring in the frame that was rendered last; 0: none is known.

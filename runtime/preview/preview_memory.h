@@ -14,7 +14,7 @@ namespace gazeloop::preview {
 inline constexpr std::uint32_t kMaxSidePx = 1280;
 inline constexpr std::size_t kBytesPerPixel = 4;
 
-/// Which eyes a window shows, a bit each.
+/// Which eyes a window shows, one bit each.
 inline constexpr std::uint32_t kLeftEye = 1U << gaze::index(gaze::Eye::Left);
 inline constexpr std::uint32_t kRightEye = 1U << gaze::index(gaze::Eye::Right);
 inline constexpr std::uint32_t kBothEyes = kLeftEye | kRightEye;
@@ -36,9 +36,9 @@ struct PreviewFrame {
     StageBars bars;  ///< of the last finished frame, a few before this one
 };
 
-/// What the loop's process and the window's process share. One picture at a time: the loop fills it
-/// only while `given` < `asked`, then counts `given` up; the window reads it only while they are
-/// equal, and then asks for the next one. So neither waits for the other, and neither can tear the
+/// What the loop's process and the window's process share. One picture at a time. The loop fills it
+/// only while `given` < `asked`, then counts `given` up. The window reads it only while they are
+/// equal, then asks for the next one. So neither waits for the other, and neither can tear the
 /// other's picture.
 struct PreviewMemory {
     std::atomic<std::uint64_t> asked{1};         ///< pictures the window has asked for

@@ -15,9 +15,9 @@ enum class WindowState {
     Broken,  ///< it ended in any other way: the display went away, a driver crashed
 };
 
-/// The preview's window, in a process of its own: this program again, run as `preview-window`. What
-/// happens to a display (waiting for its refresh, a server that goes away and takes its clients
-/// along, a library that changes the locale) then cannot happen to the loop.
+/// The preview's window, in a process of its own: this program again, run as `preview-window`. So
+/// the loop is safe from what happens to a display: waiting for its refresh, a server that ends its
+/// clients, a library that changes the locale.
 class WindowProcess {
   public:
     /// Starts it and waits until its window can be drawn to. `eyes`: see PreviewMemory. Throws

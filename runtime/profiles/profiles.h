@@ -16,15 +16,15 @@ struct TrackerProfile {
     std::string description;
     std::int64_t delay_ns = 0;              ///< from exposure to the host's read, at the least
     std::int64_t delay_uncertainty_ns = 0;  ///< of it, either way
-    /// What the file states of sim::TrackerTerms: term and value. Of the rest nothing is known.
+    /// What the file states of sim::TrackerTerms: term and value. The other terms are unknown.
     std::vector<std::pair<std::string, double>> terms;
     std::vector<std::string> assumed;  ///< keys of the figures that nobody has published
 };
 
 /// A profile by name (config/displays, built into the program) or by path (ends in .toml). Errors:
-/// Usage for an unknown name (the nearest one is given, and all of them), BadInput for a file that
-/// cannot be read or parsed, lacks a figure, has one out of range or one that no profile has (file,
-/// and line where there is one).
+/// Usage for an unknown name; the message has the nearest one, and all of them. BadInput, with the
+/// file and where possible the line, for a file that cannot be read or parsed, or a figure that is
+/// missing, out of range or unknown.
 Expected<display::DisplayProfile> load_display(std::string_view name);
 Expected<TrackerProfile> load_tracker(std::string_view name);
 

@@ -14,9 +14,9 @@ Expected<display::DisplayProfile> display_in_force(const ProfileSettings& named,
 Expected<TrackerProfile> tracker_in_force(const ProfileSettings& named,
                                           const settings::Settings& all);
 
-/// The tracker that is to be simulated: what its profile states becomes the value of those sim.*
-/// settings that are still built in, so that `--gaze sim --tracker NAME` simulates that tracker.
-/// Errors: as tracker_in_force().
+/// The tracker that is to be simulated. What its profile states becomes the value of those sim.*
+/// settings that still have their built-in value, so that `--gaze sim --tracker NAME` simulates
+/// that tracker. Errors: as tracker_in_force().
 Expected<TrackerProfile> simulate_tracker_in_force(const ProfileSettings& named,
                                                    settings::Settings& all);
 

@@ -7,9 +7,9 @@ namespace gazeloop::render {
 /// eye sees). shaders/lib/depth.glsl computes it.
 ///
 /// Where samples of several surfaces make up a pixel, its value is their mean, as its colour is.
-/// kDepthNear_m / z is linear in how far a reprojection moves a point sideways, so that the mean
-/// moves the mixed colour by the mean way. The LP-buffer holds 1 / distance with 11 bits: the
-/// distance is known to 1 in 2048.
+/// The value kDepthNear_m / z is linear in how far a reprojection moves a point sideways. So the
+/// mean moves the mixed colour by the mean distance. The LP-buffer holds 1 / distance with 11 bits:
+/// the distance is known to 1 in 2048.
 inline constexpr float kDepthNear_m = 0.1F;
 
 }  // namespace gazeloop::render

@@ -12,9 +12,9 @@ namespace gazeloop::render {
 /// Reads back how far away the scene is around one eye's fovea: the direct buffer's fourth channel.
 class FoveaDepth {
   public:
-    /// Half-width of the patch: the .126 rad that an eye turns between infinity and .25 m, so that
-    /// the patch holds the fovea of either assumption, plus a tracker's error. Half-height: a
-    /// tracker's error plus the movement of a held gaze between two frames.
+    /// Half-width of the patch: the .126 rad that an eye turns between infinity and .25 m, plus a
+    /// tracker's error. So the patch holds the fovea of either assumption. Half-height: a tracker's
+    /// error plus the movement of a held gaze between two frames.
     static constexpr double kReachAcross_rad = 0.145;
     static constexpr double kReachDown_rad = 0.045;
     /// At most this many pixels to each side: .145 rad at 60 pixels per degree.

@@ -22,11 +22,12 @@ struct RendererConfig {
     std::uint32_t samples = 1;  ///< per texel or pixel, [1, kMaxSamples]
     gaze::PerEye<vk::Extent2D> extents;
     vk::Format format = vk::Format::eR8G8B8A8Srgb;
-    /// Of the targets' depth images (depth.h says what they hold); undefined: none is written.
+    /// Format of the targets' depth images (depth.h says what they hold); undefined: none is
+    /// written.
     vk::Format depth_format = vk::Format::eUndefined;
     bool profile = true;                 ///< a submit and a pair of timestamps for each pass
     bool hash = false;                   ///< read every picture back and hash it
-    bool seen_depth = false;             ///< read back how far away it is around the foveae
+    bool seen_depth = false;             ///< read back the scene's distance around the foveae
     std::uint32_t frames_in_flight = 2;  ///< [1, 3]
     /// Radiance that cells outside the plan hold; unset: anything, since no pixel reads them.
     std::optional<std::array<float, 4>> unshaded;
@@ -36,7 +37,7 @@ struct RendererConfig {
 /// samples. Knows no method by name.
 ///
 /// Per frame: wait_for_slot(), next_finished() until it yields nothing, begin(), then read the
-/// gaze, then finish(); so that neither waiting for the GPU nor what needs no gaze makes the gaze
+/// gaze, then finish(). So neither waiting for the GPU nor work that needs no gaze makes the gaze
 /// older. Finished frames come back through next_finished() in order.
 class FrameRenderer {
   public:
@@ -52,17 +53,18 @@ class FrameRenderer {
     void wait_for_slot();
     void wait_for_slot(std::uint32_t in_flight);
 
-    /// Makes what depends on the fields of view, if they are others than before, which takes
-    /// milliseconds: before the gaze is read. begin() does it where nobody has.
+    /// Makes what depends on the fields of view, if these have changed. Takes milliseconds, so call
+    /// it before the gaze is read. begin() does it if nobody has.
     void prepare(const gaze::StereoView& views);
 
     /// Begins a frame: records and submits what needs no gaze. Precondition: wait_for_slot() and
     /// the drained next_finished() since the last frame. The view must outlive finish().
     void begin(const FrameView& view);
-    /// Blocks until the GPU has finished what begin() submitted, if that was anything: what is left
-    /// then waits for nothing but the gaze.
+    /// Blocks until the GPU has finished what begin() submitted, if anything: the rest then waits
+    /// only for the gaze.
     void wait_for_begun();
-    /// What alone reads the gaze: plans it, records and submits the rest. Precondition: begin().
+    /// The only part that reads the gaze: plans, records and submits the rest. Precondition:
+    /// begin().
     frame::SampleCounts finish(const gaze::FrameFovea& fovea);
 
     /// The next frame that the GPU has finished, if there is one.
@@ -72,7 +74,7 @@ class FrameRenderer {
     void wait_idle();
 
     [[nodiscard]] const RendererConfig& config() const { return config_; }
-    /// Of scene and method, in the order in which they are recorded.
+    /// Passes of scene and method, in the order in which they are recorded.
     [[nodiscard]] const frame::PassList& passes() const { return passes_; }
     [[nodiscard]] const frame::GridList& grids() const { return method_->plan().grids(); }
     [[nodiscard]] const foveation::EyePlan& last_plan(gaze::Eye eye) const {
@@ -82,9 +84,9 @@ class FrameRenderer {
     [[nodiscard]] std::vector<BufferPicture> buffers(gaze::Eye eye) const {
         return method_->buffers(eye, last_plan(eye));
     }
-    /// How far away it was around the foveae, in the frame that next_finished() returned last.
-    /// Patches are empty where the configuration does not ask for them, and where the method kept
-    /// no depth at the fovea: off screen, without a disc, by full resolution.
+    /// How far away the scene was around the foveae, in the frame that next_finished() returned
+    /// last. Patches are empty where the configuration does not ask for them, and where the method
+    /// kept no depth at the fovea: off screen, without a disc, by full resolution.
     [[nodiscard]] const gaze::SeenDepth& seen_depth() const { return seen_depth_; }
     [[nodiscard]] std::uint64_t clock_deviation_ns() const { return clock_.max_deviation_ns(); }
 

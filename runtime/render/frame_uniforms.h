@@ -12,8 +12,8 @@ namespace gazeloop::render {
 /// Most samples per texel or pixel.
 inline constexpr std::uint32_t kMaxSamples = 16;
 
-/// What every pass knows of one eye's picture, whatever scene and method; std140, the shader's side
-/// is shaders/lib/frame.glsl.
+/// What every pass knows of one eye's picture, whatever the scene and method; std140. The shader's
+/// side is shaders/lib/frame.glsl.
 struct FrameUniforms {
     glm::vec4 camera_and_time{0.0F};
     std::array<glm::vec4, 3> view_axes{};

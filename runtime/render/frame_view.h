@@ -8,7 +8,7 @@
 
 namespace gazeloop::render {
 
-/// What of a frame needs no gaze: when, from where and into what it is rendered.
+/// The part of a frame that needs no gaze: when, from where and into what it is rendered.
 struct FrameView {
     std::uint64_t index = 0;
     double scene_time_s = 0.0;

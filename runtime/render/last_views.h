@@ -7,11 +7,11 @@
 namespace gazeloop::render {
 
 /// The last frame's views, for what follows motion from frame to frame. There are none in the first
-/// frame (index 0), after another field of view or size, and after a frame that was left out: what
-/// was accumulated by then does not fit any more, and replays stay the same.
+/// frame (index 0), after a change of field of view or size, and after a frame that was left out.
+/// What was accumulated by then does not fit any more, and replays stay the same.
 class LastViews {
   public:
-    /// Begins a frame. Whether there are last views of it; if not, histories are to be reset.
+    /// Begins a frame. Returns whether there are last views; if not, histories must be reset.
     bool begin(std::uint64_t index, const gaze::StereoView& views) {
         const bool follows = now_ && index > 0 && index == index_ + 1 && same_pictures(views);
         before_ = follows ? now_ : std::nullopt;

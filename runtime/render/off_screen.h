@@ -7,8 +7,8 @@
 
 namespace gazeloop::render {
 
-/// Images of the pictures' sizes and format, and of their depth where it has a format: targets that
-/// no display shows.
+/// Images of the pictures' sizes and format, and depth images if a depth format is given: targets
+/// that no display shows.
 class OffScreenTargets {
   public:
     OffScreenTargets() = default;
@@ -59,8 +59,8 @@ class OffScreen {
     FrameRenderer renderer_;  ///< waits for its frames before the images go
 };
 
-/// Renders a frame that nobody sees with a renderer, so that the first one that counts finds its
-/// shaders compiled. Precondition: it has rendered nothing yet.
+/// Renders a frame that nobody sees, so that the renderer's first frame that counts finds its
+/// shaders compiled. Precondition: the renderer has rendered nothing yet.
 void warm_up(const vulkan::Context& context, FrameRenderer& renderer,
              const gaze::StereoView& views);
 

@@ -43,7 +43,7 @@ std::vector<float> read_back_depth(const vulkan::Context& context, const vulkan:
 /// |a - b| times `gain` for each channel, clamped. Precondition: equal sizes.
 Picture amplified_difference(const Picture& a, const Picture& b, double gain);
 
-/// Of the ring that marks a fovea where no disc is shaded.
+/// Radius of the ring that marks a fovea where no disc is shaded.
 inline constexpr double kRingWithoutDisc_px = 24.0;
 
 /// Draws a ring and a cross around a position; parts beyond the picture are left out.

@@ -19,11 +19,12 @@ struct SnapshotOptions {
 /// Creates the folder if it is missing. Errors (BadInput).
 Expected<void> make_snapshot_folder(const std::filesystem::path& folder);
 
-/// Keeps a copy of the pictures of the frame that was rendered last, and writes them in the end:
-/// the very ones that were shown, since what a history made of them cannot be rendered once more.
+/// Keeps a copy of the pictures of the frame that was rendered last, and writes them in the end.
+/// They are the very pictures that were shown, because what a history made of them cannot be
+/// rendered again.
 class Snapshot final : public frame::FrameObserver {
   public:
-    /// `renderer` must outlive this; its frames are the ones that are told.
+    /// `renderer` must outlive this; it renders the frames that this observes.
     Snapshot(const vulkan::Context& context, const FrameRenderer& renderer);
 
     /// Submits a copy of the frame's pictures; costs the GPU that much time per frame.
@@ -34,7 +35,7 @@ class Snapshot final : public frame::FrameObserver {
 
     /// For each eye: EYE-result.png, and what lies between scene and result (EYE-lp.png: the
     /// LP-buffer, black where the plan left texels out). With `full`, a renderer of the same scene
-    /// at full resolution, also EYE-full.png and EYE-difference.png; null: what was shown is full
+    /// at full resolution, also EYE-full.png and EYE-difference.png. Null: what was shown is full
     /// resolution, and is written as EYE-full.png. Returns the files written. Errors (BadInput):
     /// the folder or a file cannot be written. Precondition: any().
     Expected<std::vector<std::filesystem::path>> write(OffScreen* full,

@@ -6,7 +6,8 @@
 
 namespace gazeloop::scene {
 
-/// A scene that is a function of a ray alone: its shader needs no input, nothing is drawn before.
+/// A scene that is a function of a ray alone: its shader needs no input, and nothing is drawn
+/// before.
 class RayScene final : public Scene {
   public:
     explicit RayScene(std::string_view shader) : shader_(shader) {}

@@ -7,8 +7,8 @@
 
 namespace gazeloop::settings {
 
-/// The candidate with the smallest edit distance (insert, delete, replace, swap of neighbours), if
-/// that is at most a third of the text's length plus one; for "did you mean".
+/// The candidate with the smallest edit distance (insert, delete, replace, swap of neighbours), for
+/// "did you mean". None if that distance is more than a third of the text's length plus one.
 std::optional<std::string> nearest_name(std::string_view text,
                                         std::span<const std::string> candidates);
 

@@ -9,13 +9,14 @@
 
 namespace gazeloop::settings {
 
-/// Sets what a recording lists, save what concerns the machine it was made on. Errors: as
+/// Sets what a recording lists, except what concerns the machine it was made on. Errors: as
 /// Settings::set().
 Expected<void> take_recorded(std::span<const NamedValue> recorded, std::string_view origin,
                              Settings& settings);
 
-/// Whether every setting that concerns `what` and is in use has the value that was recorded. One
-/// that the recording does not list has not: it may have been another then.
+/// Whether every setting that concerns `what` and is in use has the value that was recorded. A
+/// setting that the recording does not list counts as different: its value may have been another
+/// then.
 [[nodiscard]] bool are_as_recorded(std::span<const NamedValue> recorded, Concerns what,
                                    const Settings& settings);
 

@@ -14,7 +14,7 @@ enum class Concerns : std::uint8_t {
     Foveae,   ///< where the foveae are, from that input
     Picture,  ///< the pixels, from views and foveae
     Output,   ///< what else comes out: depth, times, figures of plans
-    Machine,  ///< where a run takes place and who watches it: a recording's binds no replay
+    Machine,  ///< where a run takes place and who watches it: no replay takes it from a recording
 };
 
 /// A number in [least, greatest].

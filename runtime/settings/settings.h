@@ -27,7 +27,7 @@ class Settings {
     enum class Written { Bare, Text, Number, Whole, Flag, Group };
 
     /// More settings. Their values, built in until now, must outlive this. Preconditions: no key is
-    /// there twice; the other setting that a row depends on is there by the time of is_in_use().
+    /// there twice; the setting that a row depends on is there before is_in_use() is called.
     void add(const std::vector<SettingRow>& rows);
 
     /// All of them, in the order of the keys.
@@ -70,8 +70,8 @@ class Settings {
     /// "KEY = VALUE (ORIGIN)".
     [[nodiscard]] std::string with_origin(std::string_view key) const;
 
-    /// What came of a key's value; an error with the place where that was set and the key in front,
-    /// as it is where nobody has set it.
+    /// A result that came of a key's value. If it is an error, the place where the key was set, and
+    /// the key, are put in front; unless nobody has set the key.
     template <typename T>
     [[nodiscard]] Expected<T> at_origin(std::string_view key, Expected<T> result) const {
         if (!result) {

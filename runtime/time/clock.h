@@ -15,8 +15,8 @@ namespace gazeloop::time {
     return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
-/// For how long the machine has slept since it was started: CLOCK_MONOTONIC stands still meanwhile,
-/// CLOCK_BOOTTIME does not. At most too small by what lies between the two readings.
+/// How long the machine has been suspended since it was started: CLOCK_MONOTONIC stands still
+/// meanwhile, CLOCK_BOOTTIME does not. Too small by at most the time between the two readings.
 [[nodiscard]] inline std::int64_t slept_ns() {
     timespec boot{};
     clock_gettime(CLOCK_BOOTTIME, &boot);

@@ -54,15 +54,16 @@ struct ClockReading {
 /// and has to come from the tracker's profile.
 ///
 /// Uncertainty. With n samples whose jitter has density f at 0, the least of them is 1 / (n f) too
-/// high on average, and by x with a probability of exp(-x n f). 1 / (n f) is estimated in two ways.
-/// From the mean delay m of samples above the line: 2 m / n (exact for uniform, twice too much for
-/// exponential jitter). From the heights of the k lowest points above it: their mean (by their
-/// median) over k. The larger one times kConfidence is the uncertainty of the line where its points
-/// are. Beyond the points the uncertainty of its slope is added, which is never more than crystals
-/// are off. Added to that are the length of a tick (timestamp_ticks.h), and by how much everything
-/// in the last second was late. On simulated clocks whose delays vary at random from sample to
-/// sample, at most 1 % of the readings lie outside (tests). That holds for the first readings too,
-/// because times are unknown until 16 samples have shown what jitter is usual.
+/// high on average. It is too high by more than x with a probability of exp(-x n f). 1 / (n f) is
+/// estimated in two ways. From the mean delay m of samples above the line: 2 m / n (exact for
+/// uniform, twice too much for exponential jitter). From the heights of the k lowest points above
+/// it: their mean (by their median) over k. The larger one times kConfidence is the uncertainty of
+/// the line where its points are. Beyond the points the uncertainty of its slope is added, which is
+/// never more than crystals are off. Added to that are the length of a tick (timestamp_ticks.h),
+/// and by how much everything in the last second was late. On simulated clocks whose delays vary at
+/// random from sample to sample, at most 1 % of the readings lie outside (tests). That holds for
+/// the first readings too, because times are unknown until 16 samples have shown what jitter is
+/// usual.
 ///
 /// Delays that do not vary at random are another matter. A host that asks for samples at fixed
 /// times delays each by what is left until it asks again. That delay is a sawtooth that repeats
@@ -91,7 +92,7 @@ struct ClockReading {
 /// ms and more, with 1 ms of exponential jitter: 1 of 30,000 streams.)
 ///
 /// What is forgotten. Setting a clock, or resetting the device, moves only its offset. The crystal
-/// is the same, so that the slope may change by no more than crystals drift; the way to the host
+/// is the same, so that the slope may change by no more than crystals drift. The way to the host
 /// and its usual jitter are the same too. After two minutes without a sample nobody knows what went
 /// on. The device may be in another mode with another clock, warm or cold, behind another hub or
 /// driver. Everything is learnt anew then, which costs seconds of a wider uncertainty; keeping what

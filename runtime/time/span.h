@@ -16,7 +16,8 @@ struct Span {
     friend constexpr bool operator==(const Span&, const Span&) = default;
 };
 
-/// Stamps that a broken clock or a damaged file put 292 years apart must not wrap around.
+/// Clamped, because stamps that a broken clock or a damaged file put 292 years apart must not wrap
+/// around.
 [[nodiscard]] constexpr std::int64_t saturated(__int128 ns) {
     constexpr __int128 kMin = std::numeric_limits<std::int64_t>::min();
     constexpr __int128 kMax = std::numeric_limits<std::int64_t>::max();

@@ -26,8 +26,8 @@ inline constexpr std::array<std::string_view, kStampKindCount> kStampKindNames{
 
 /// The less certain of two kinds, which is what a span between two stamps is worth. From the best:
 /// measured at the event itself; a profile's constant, measured once on a device of that type; a
-/// model's time line, right as far as the model is; announced before an event that may then have
-/// gone otherwise; unknown.
+/// model's time line, as right as the model. Then: announced before the event, which may have gone
+/// otherwise; unknown.
 [[nodiscard]] constexpr StampKind weaker(StampKind a, StampKind b) {
     if (a == StampKind::Unknown || b == StampKind::Unknown) {
         return StampKind::Unknown;

@@ -24,8 +24,8 @@ class TickCounter {
     /// `bits` (1 to 64) of the counter, each tick `tick_ns` (> 0) nanoseconds long.
     TickCounter(std::uint32_t bits, double tick_ns) : bits_(bits), tick_ns_(tick_ns) {}
 
-    /// The device's time in nanoseconds: that of the ticks themselves, or counted from a reading
-    /// that is so far from 0 (Windows' clock counts from 1601) that it could not be told exactly.
+    /// The device's time in nanoseconds: that of the ticks themselves. If a reading is too far from
+    /// 0 to be exact (Windows' clock counts from 1601), times count from that reading.
     [[nodiscard]] std::int64_t to_ns(std::uint64_t ticks) {
         if (!started_) {
             started_ = true;

@@ -10,8 +10,8 @@
 namespace gazeloop::vulkan {
 
 /// This frame's and the last frame's image of the same name, for what is accumulated over frames.
-/// The first frame after a reset has no last one. 32-bit floats belong in it: half images truncate
-/// on lavapipe, which adds up.
+/// The first frame after a reset has no last one. Use 32-bit floats: half images truncate on
+/// lavapipe, and the error adds up.
 class History {
   public:
     struct Entry {
@@ -22,7 +22,7 @@ class History {
     History() = default;
     History(const Context& context, vk::Extent2D extent, vk::Format format);
 
-    /// Begins a frame: what was now becomes before, and the older image is used anew.
+    /// Begins a frame: now() becomes before(), and the older image is reused.
     void advance();
     /// Forgets the past: before() is null until a whole frame has passed.
     void reset() { frames_ = 0; }

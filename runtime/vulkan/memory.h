@@ -10,8 +10,8 @@
 namespace gazeloop::vulkan {
 
 /// A buffer with memory of its own that the host maps for as long as it lives. Host-visible and
-/// coherent: what is in it is either small and rewritten every frame, or read back (TransferDst).
-/// What the device reads again and again is a DeviceBuffer.
+/// coherent: for content that is small and rewritten every frame, or read back (TransferDst). What
+/// the device reads again and again belongs in a DeviceBuffer.
 class HostBuffer {
   public:
     HostBuffer() = default;

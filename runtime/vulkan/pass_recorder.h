@@ -15,7 +15,7 @@ namespace gazeloop::vulkan {
 
 /// Records the passes of one frame. While profiling, each has a command buffer, a submit and a pair
 /// of timestamps of its own: several pairs inside one command buffer are wrong on lavapipe 22.3.
-/// Else all that is submitted at once shares one.
+/// Otherwise everything that is submitted at once shares one command buffer.
 class PassRecorder {
   public:
     /// `passes` must outlive this.

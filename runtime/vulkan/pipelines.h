@@ -21,7 +21,7 @@ vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device,
                                               std::span<const vk::DescriptorType> bindings,
                                               vk::ShaderStageFlags stages);
 
-/// Of the sets of frame, scene and method. A null one is a set without bindings, which is never
+/// Of the sets of frame, scene and method. A null layout is a set without bindings, which is never
 /// bound: `empty` stands for it. No push constants: lavapipe 22.3 compiles a fragment shader anew
 /// for each set of their values.
 vk::raii::PipelineLayout make_pipeline_layout(const vk::raii::Device& device,

@@ -20,8 +20,8 @@ struct DeviceRequirement {
     bool met = false;
 };
 
-/// All of them, in this order: Vulkan's version, features, queue, formats. Where the version is too
-/// old, the version alone.
+/// All of them, in this order: Vulkan's version, features, queue, formats. If the version is too
+/// old, only the version.
 [[nodiscard]] std::vector<DeviceRequirement> device_requirements(
     const vk::raii::PhysicalDevice& device);
 

@@ -1,6 +1,7 @@
-// Log-polar maps by tables: no transcendental function of the driver is called, so that the error is
-// the tables' and the same everywhere (runtime/foveation/map_error.cpp derives it, float_map.cpp
-// mirrors this arithmetic). Here, the map in the picture's frame; gaze_frame.glsl has the other.
+// Log-polar maps by tables: no transcendental function of the driver is called, so that the error
+// is the tables' and the same everywhere. map_error.cpp in runtime/foveation/log_polar derives it;
+// float_map.cpp mirrors this arithmetic. Here, the map in the picture's frame; gaze_frame.glsl has
+// the other.
 
 // What of the map depends on the gaze; the C++ side is foveation/log_polar/map_uniforms.h.
 layout(std140, set = 2, binding = 0) uniform MapUniforms {

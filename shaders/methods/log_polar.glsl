@@ -1,8 +1,8 @@
-// Pass I of a log-polar method: one cell of the LP-buffer by its own samples; or, for the direct
-// disc, one pixel by its own; with what the scene says of its distance. One shader for both, because
-// software drivers keep few large ones compiled. Cells of a tile that the plan leaves out take no
-// samples and keep what they held; they are discarded last, because lavapipe 22.3 is a fifth slower
-// where loops follow a discard.
+// Pass I of a log-polar method: shades one cell of the LP-buffer or, for the direct disc, one
+// pixel, by its own samples. Also writes what the scene says of its distance. One shader for both,
+// because software drivers keep few large ones compiled. Cells of a tile that the plan leaves out
+// take no samples and keep what they held. They are discarded last, because lavapipe 22.3 is a
+// fifth slower where loops follow a discard.
 #include "../lib/log_polar.glsl"
 #include "../lib/gaze_frame.glsl"
 #include "../lib/bands.glsl"

@@ -2,7 +2,7 @@
 //
 // Each stage has a march of its own, over the part of the ray that its bound holds. A processor
 // that runs several rays in step pays for each stage once, and beyond that only for the stages that
-// one of its rays crosses; a single march over everything would pay for every stage at every step.
+// one of its rays crosses. A single march over everything would pay for every stage at every step.
 // Few stages with several exhibits each are best: the cost of a loop is in having it at all.
 #ifndef GAZELOOP_RAYMARCH_MARCH_GLSL
 #define GAZELOOP_RAYMARCH_MARCH_GLSL
@@ -75,8 +75,8 @@ struct SceneHit {
 // Near enough to call it a hit: a tenth of a millimetre, and a sixth of a minute of arc.
 float scene_hit_distance(float t_m) { return 1e-4 + 5e-5 * t_m; }
 
-// Marches to the surface and, once there, takes the four taps of the normal with the same loop:
-// aside walks through the corners of a tetrahedron, and while it is zero it adds nothing to the
+// Marches to the surface and, once there, takes the four taps of the normal with the same loop.
+// There aside walks through the corners of a tetrahedron; while it is zero it adds nothing to the
 // gradient.
 #define SCENE_SEEK(STAGE, SPAN)                                                             \
     {                                                                                       \

@@ -40,8 +40,8 @@ vec3 scene_sky_radiance(vec3 direction) {
     return sky + vec3(2.6, 2.3, 1.8) * smoothstep(0.9988, 0.9992, to_sun);
 }
 
-// The finest sampling that the floor is drawn for: about 17 samples a degree. Detail finer than one
-// sample fades into its mean; coarser detail stays sharp, and is lost to whoever samples less.
+// The finest sampling that the floor is drawn for: about 17 samples per degree. Detail finer than
+// one sample fades into its mean; coarser detail stays sharp, and is lost to whoever samples less.
 const float scene_sample_spacing_rad = 0.001;
 const float scene_mirror_spread = 8.0;  // rays fan out this much faster behind a curved mirror
 

@@ -26,7 +26,7 @@ class RaycastSetup {
 
     [[nodiscard]] const gaze::PerEye<vk::Extent2D>& extents() const { return extents_; }
     [[nodiscard]] std::string name() const;  ///< "1920x1080"
-    /// Of a renderer for these pictures; 16 samples a cell unless the options say otherwise.
+    /// Of a renderer for these pictures; 16 samples per cell unless the options say otherwise.
     [[nodiscard]] render::MethodConfig config(const Options& options) const;
     [[nodiscard]] vk::Extent2D extent() const { return extents_[0]; }
 

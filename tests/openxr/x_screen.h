@@ -11,7 +11,7 @@
 
 namespace gazeloop::tests {
 
-/// A picture in memory: 8 bits a channel, RGB, top row first.
+/// A picture in memory: 8 bits per channel, RGB, top row first.
 struct Image {
     std::uint32_t width = 0;
     std::uint32_t height = 0;

@@ -6,9 +6,9 @@
 
 namespace gazeloop::foveation {
 
-/// What the eye can see at an eccentricity. Models differ by what they mean by it: Guenter's line
-/// is the sampling that viewers accept, stelaCSF what they can just detect, two to four times as
-/// many samples. Report against more than one.
+/// What the eye can see at an eccentricity. Models differ by what they mean by "see". Guenter's
+/// line is the sampling that viewers accept; stelaCSF is what they can just detect, which takes two
+/// to four times as many samples. Report against more than one.
 class AcuityModel {
   public:
     AcuityModel() = default;
@@ -26,14 +26,14 @@ class AcuityModel {
     [[nodiscard]] virtual double cutoff_cpd(double eccentricity_deg, double nasal) const = 0;
 };
 
-/// Samples a degree, each way, that represent the model's cut-off (two a cycle: Nyquist).
+/// Samples per degree, each way, that represent the model's cut-off (two per cycle: Nyquist).
 [[nodiscard]] inline double required_per_deg(const AcuityModel& model, double eccentricity_deg,
                                              double nasal) {
     return 2.0 * model.cutoff_cpd(eccentricity_deg, nasal);
 }
 
-/// How far a direction in the visual field lies towards the nose: 1 on the nasal meridian, falling
-/// linearly with the angle from it, 0 from a right angle on (Mantiuk et al. 2022).
+/// How far a direction in the visual field lies towards the nose. 1 on the nasal meridian, falling
+/// linearly with the angle from it to 0 at a right angle and beyond (Mantiuk et al. 2022).
 /// `direction_rad`: 0 to the right, counter-clockwise as seen by the viewer, any number of turns.
 [[nodiscard]] double nasal_share(gaze::Eye eye, double direction_rad);
 

@@ -5,9 +5,9 @@
 
 namespace gazeloop::foveation {
 
-/// The fewest samples that a picture needs at a gaze, by a model: at each point a square grid at
-/// the model's Nyquist rate, but nowhere more samples than the display has pixels there,
-///     integral of min((2 f(e))^2, pixels a square degree) over the picture's solid angle.
+/// The fewest samples that a picture needs at a gaze, by a model. At each point they form a square
+/// grid at the model's Nyquist rate, but nowhere more samples than the display has pixels there:
+///     integral of min((2 f(e))^2, pixels per square degree) over the picture's solid angle.
 /// No plan can need fewer and still satisfy the model. Within .2 % (midpoint rule on 512 x 512
 /// cells of the picture, or its pixels where it has fewer).
 ///

@@ -5,12 +5,12 @@
 
 namespace gazeloop::foveation {
 
-/// What 95 % of fixations stay under of an error of which half stay under `median_deg`. By the
-/// Vive Pro Eye at 90 Hz, whose medians of .43, .61 and .89 deg (targets 0 to 3, 8 to 12 and 17 to
-/// 25 deg off the middle) go with 1.13, 1.56 and 2.30: 2.56 to 2.63 times as much.
+/// The error that 95 % of fixations stay under, where half stay under `median_deg`. From the Vive
+/// Pro Eye at 90 Hz, with targets 0 to 3, 8 to 12 and 17 to 25 deg off the middle. Its medians of
+/// .43, .61 and .89 deg go with 1.13, 1.56 and 2.30: 2.56 to 2.63 times as much.
 [[nodiscard]] constexpr double bias95_deg(double median_deg) { return 2.6 * median_deg; }
 
-/// What is not known about where the eye looks when the picture is seen.
+/// How uncertain it is where the eye looks when the picture is seen.
 struct GazeUncertainty {
     double bias95_deg = 0.0;            ///< the tracker's systematic error
     double z = 1.96;                    ///< standard deviations to allow for: 95 %
@@ -25,15 +25,15 @@ struct GazeUncertainty {
 
 /// By how many degrees the fovea must widen:
 ///     D = bias95 + z sqrt(s_sample^2 + s_filter^2) + v_pursuit T + head rate x age + S.
-/// It does not make a saccade harmless: 20 degrees take D past 10 degrees for most of their
-/// duration, and then suppression, prediction or blanking is cheaper. Errors (Usage): a term
+/// Widening does not make a saccade harmless: one of 20 degrees takes D past 10 degrees for most of
+/// its duration, and then suppression, prediction or blanking is cheaper. Errors (Usage): a term
 /// negative, infinite or not a number.
 Expected<double> widening_deg(const GazeUncertainty& uncertainty);
 
-/// The greatest widening that is computed with: beyond it, nothing is known of the gaze.
+/// The greatest widening that is accepted: beyond it, nothing is known of the gaze.
 inline constexpr double kMaxWideningDeg = 180.0;
 
-/// What the eye may see when it looks up to `widening_deg` away from where it is taken to look: the
+/// What the eye may see when it looks up to `widening_deg` (D) away from the assumed gaze: the
 /// cut-off of `model` at max(0, e - D).
 class WidenedAcuity final : public AcuityModel {
   public:
@@ -49,9 +49,9 @@ class WidenedAcuity final : public AcuityModel {
     double widening_deg_;
 };
 
-/// The eccentricity up to which the display and not the eye is the limit: the greatest one, up to
-/// 180 degrees, at which the model asks for at least `display_per_deg` samples a degree; 0 if there
-/// is none. For Guenter's line: (2 / p - omega0) / m. Precondition: display_per_deg > 0.
+/// The eccentricity up to which the display and not the eye is the limit. It is the greatest one,
+/// up to 180 degrees, at which the model asks for at least `display_per_deg` samples per degree; 0
+/// if there is none. For Guenter's line: (2 / p - omega0) / m. Precondition: display_per_deg > 0.
 [[nodiscard]] double display_limit_deg(const AcuityModel& model, double display_per_deg,
                                        double nasal);
 

@@ -8,11 +8,11 @@ namespace gazeloop::foveation {
 ///     omega(e) = m e + omega0
 /// (Guenter et al. 2012, section 3).
 struct MarLine {
-    /// The lines that are computed with. The least slope is flat (over 180 degrees it rises by less
-    /// than a hundredth of 1/48), the greatest leaves a cycle in a field as wide as it is far off;
-    /// 1e-4 degrees per cycle are a hundred times finer than an eye's optics, 10 a few blobs in the
-    /// field. Whether a line asks for more texels than a device holds is another matter
-    /// (AcuityProfile).
+    /// The range of lines that is accepted. The least slope is flat: over 180 degrees it rises by
+    /// less than a hundredth of 1/48. The greatest makes one cycle as wide as its eccentricity. At
+    /// the fovea 1e-4 degrees per cycle are a hundred times finer than an eye's optics, and 10
+    /// leave a few blobs in the field. AcuityProfile checks whether a line asks for more texels
+    /// than a device holds.
     static constexpr double kMinSlope = 1e-6;
     static constexpr double kMaxSlope = 1.0;
     static constexpr double kMinOmega0Deg = 1e-4;

@@ -6,7 +6,7 @@
 
 namespace gazeloop::foveation {
 
-/// What a grating is seen under.
+/// The conditions under which a grating is seen.
 struct StelaConditions {
     static constexpr double kMinLuminance = 1e-3;
     static constexpr double kMaxLuminance = 1e4;
@@ -32,9 +32,9 @@ struct StelaDecay {
 [[nodiscard]] StelaDecay stela_decay(double nasal);
 
 /// Contrast sensitivity (1 / threshold contrast) at the fovea for an achromatic grating, by
-/// stelaCSF (Mantiuk, Ashraf and Chapiro 2022, "stelaCSF: a unified model of contrast sensitivity
-/// as the function of spatio-temporal frequency, eccentricity, luminance and area"), with its
-/// published parameters. Fitted for .0625 to 64 cycles per degree; beyond, it is the formula's
+/// stelaCSF with its published parameters. (Mantiuk, Ashraf and Chapiro 2022, "stelaCSF: a unified
+/// model of contrast sensitivity as the function of spatio-temporal frequency, eccentricity,
+/// luminance and area".) Fitted for .0625 to 64 cycles per degree; beyond, it is the formula's
 /// continuation. Preconditions: frequency_cpd > 0, conditions that check_conditions accepts.
 [[nodiscard]] double stela_foveal_sensitivity(double frequency_cpd,
                                               const StelaConditions& conditions);

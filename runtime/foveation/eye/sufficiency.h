@@ -11,21 +11,21 @@ namespace gazeloop::foveation {
 
 /// Whether a plan offers what a model asks for.
 struct Sufficiency {
-    /// Least ratio of offered to required samples a degree, in the direction that the plan's grid
-    /// serves worst, over all eccentricities and directions in the picture. Required is what the
-    /// model asks for, but no more than the display can show there. 1: exactly enough, everywhere.
-    /// Infinite where the model asks for nothing in the whole picture.
+    /// Least ratio of offered to required samples per degree, over all eccentricities and
+    /// directions in the picture. Offered counts in the direction that the plan's grid serves
+    /// worst. Required is what the model asks for, but no more than the display can show there. 1:
+    /// exactly enough, everywhere. Infinite where the model asks for nothing in the whole picture.
     double least_ratio = 0.0;
     FieldPoint worst;  ///< where that is
 
     [[nodiscard]] bool sufficient() const { return least_ratio >= 1.0 - kTolerance; }
 
-    /// What rounding of sizes to whole samples may take.
+    /// How much of the ratio may be lost by rounding sizes to whole samples.
     static constexpr double kTolerance = 0.005;
 };
 
 /// Looks at eccentricities from a fifth of a pixel to the picture's farthest corner, in steps of
-/// .25 % or .02 degrees, whichever is more, in 144 directions. A density that jumps is so met
+/// .25 % or .02 degrees, whichever is more, in 144 directions. So a density that jumps is seen
 /// within one step of the jump.
 [[nodiscard]] Sufficiency check_sufficiency(const GazeField& field, const OfferedDensity& offered,
                                             const AcuityModel& model, gaze::Eye eye);
@@ -33,7 +33,7 @@ struct Sufficiency {
 /// Offered density by eccentricity, for a plot: the least over all directions in the picture.
 struct DensityAt {
     double eccentricity_deg = 0.0;
-    double per_deg = 0.0;  ///< samples a degree in the worst direction
+    double per_deg = 0.0;  ///< samples per degree in the worst direction
 };
 
 /// At eccentricities spaced evenly by logarithm from `from_deg` to the picture's farthest corner;

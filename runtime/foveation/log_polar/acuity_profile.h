@@ -15,18 +15,18 @@ struct AcuityParameters {
     static constexpr double kMaxPixelsPerDegree = 1e5;
 
     MarLine mar{};
-    /// Of the display, where the map takes the display for the limit; 0: the most in view, so that
-    /// no gaze needs another map.
+    /// The display's density, where the map assumes that the display is the limit; 0: the greatest
+    /// in view, so that no gaze needs another map.
     double pixels_per_degree = 0.0;
-    std::uint32_t lp_width = 0;   ///< the LP-buffer's; 0: the columns that the line asks for
+    std::uint32_t lp_width = 0;   ///< the LP-buffer's columns; 0: as the line asks for
     std::uint32_t lp_height = 0;  ///< likewise, rows
-    bool disc = true;             ///< shade pixels directly where a texel a pixel is offered
+    bool disc = true;             ///< shade directly where there is a texel per pixel
     double border_px = 6.0;  ///< width of the blend at the gaze from disc to LP-buffer, [0, 64]
 };
 
 /// The radial function that a display and a MAR line ask for (the gaze-independent part of the
-/// acuity-derived map), Nyquist sampled. With p = pixels per degree and e_c = (2/p - omega0) / m,
-/// the eccentricity up to which the display, not the eye, is the limit, the columns out to an
+/// acuity-derived map), Nyquist sampled. Let p be the pixels per degree, and e_c = (2/p - omega0) /
+/// m the eccentricity up to which the display, not the eye, is the limit. The columns out to an
 /// eccentricity are
 ///     U(e) = p e                                             up to e_c,
 ///     U(e) = p e_c + (2/m) ln[(omega0 + m e) / (2/p)]        beyond;
@@ -38,7 +38,7 @@ class AcuityProfile {
     static constexpr double kMaxEccentricityDeg = 179.0;
 
     /// Errors (Usage), each with the value and the valid range: a parameter out of range or not a
-    /// number; a picture under 2 x 2 px or over 16384 a side, or with a field of view that is none.
+    /// number; a picture under 2 x 2 px or with a side over 16384; an invalid field of view.
     static Expected<AcuityProfile> create(const AcuityParameters& parameters,
                                           const gaze::EyeView& view);
 
@@ -51,8 +51,9 @@ class AcuityProfile {
     [[nodiscard]] double pixels_per_degree() const { return pixels_per_degree_; }
     [[nodiscard]] const MarLine& mar() const { return mar_; }
 
-    /// The LP-buffer that holds every eccentricity: stated, or U(kMaxEccentricityDeg) columns and
-    /// the most rows that any eccentricity asks for, max of 360 sin e min(p, 2 / omega(e)).
+    /// The LP-buffer that holds every eccentricity. As stated, or U(kMaxEccentricityDeg) columns
+    /// and the most rows that any eccentricity asks for: the maximum of 360 sin e min(p, 2 /
+    /// omega(e)).
     [[nodiscard]] LpSize lp() const { return lp_; }
 
     /// The share of the LP-buffer's width within an eccentricity, and its inverse: U and U^-1

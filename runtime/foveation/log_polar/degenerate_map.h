@@ -6,8 +6,8 @@
 
 namespace gazeloop::foveation {
 
-/// Why a map is too coarse to show a picture, however exact it is: its first column outside
-/// `core_px` reaches more than 32 px from the fovea, or its last column is wider than both 32 px
+/// Why a map is too coarse to show a picture, however exact it is. Either its first column outside
+/// `core_px` reaches more than 32 px from the fovea. Or its last column is wider than both 32 px
 /// and a quarter of the farthest radius. Empty if neither.
 [[nodiscard]] std::string why_degenerate(const LogPolarMap& map, LpSize lp, double core_px);
 

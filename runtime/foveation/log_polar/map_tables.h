@@ -15,21 +15,21 @@ namespace gazeloop::foveation {
 /// on the map and the LP-buffer's size only: fovea, L and the gaze's rotation stay uniforms
 /// (map_uniforms.h), so that a new gaze rebuilds nothing.
 ///
-/// The shader's forward map takes q, r^2 / rmax^2 (picture frame) or sin^2(e / 2) (gaze frame),
-/// both at most 1 and without trigonometry, and reads the forward table at
+/// The shader's forward map takes q: r^2 / rmax^2 (picture frame) or sin^2(e / 2) (gaze frame).
+/// Both are at most 1 and need no trigonometry. It reads the forward table at
 ///     t = sqrt(s),   s = clamp(-log2(q) scale, 0, 1),   scale = .5 / log2 rmax, or kGazeScale.
-/// So 0 is the screen's far end and 1 the fovea. Distances are measured from the far end, because
-/// an error e of log2 q moves a pixel by r e ln2 / 2: floats are finest near 0, where r is
-/// greatest. The root does the same for the table's steps and takes away the infinite slope that
-/// the inverse of a kernel with a flat end has (sin). The inverse is tabulated at half columns.
+/// So t = 0 is the screen's far end and t = 1 the fovea. Distances are measured from the far end,
+/// because an error e of log2 q moves a pixel by r e ln2 / 2. Floats are finest near 0, where r is
+/// greatest. The root does the same for the table's steps. It also removes the infinite slope of
+/// the inverse of a kernel with a flat end (sin). The inverse is tabulated at half columns.
 ///
 /// Errors as the shader reads them (linear interpolation, |f''| h^2 / 8): log2 2.4e-7 and exp2
 /// 2.3e-7 of r; the forward table's as runtime/foveation/map_error.h derives them.
 struct MapTables {
     static constexpr std::size_t kMantissaSteps = 512;
     static constexpr std::size_t kForwardSteps = 4096;
-    /// Octaves of sin(e / 2) that the forward table of the gaze frame spans; at its inner end the
-    /// eccentricity is 7e-6 degrees, under a thousandth of a pixel for 100 pixels a degree.
+    /// Octaves of sin(e / 2) that the forward table of the gaze frame spans. At its inner end the
+    /// eccentricity is 7e-6 degrees, under a thousandth of a pixel at 100 pixels per degree.
     static constexpr double kGazeOctaves = 24.0;
     static constexpr double kGazeScale = 0.5 / kGazeOctaves;
 
@@ -53,8 +53,8 @@ struct MapTables {
     /// What the forward table of the gaze frame holds, in double: u at s.
     [[nodiscard]] static double gaze_frame_u(const AcuityProfile& profile, double s);
 
-    /// How far linear interpolation in cell i of the forward table strays from u_at(s), in double:
-    /// at three points of the cell, with a quarter more for what lies between them.
+    /// How far linear interpolation in cell i of the forward table strays from u_at(s), in double.
+    /// Taken at three points of the cell, plus a quarter for what lies between them.
     template <typename Function>
     [[nodiscard]] static double interpolation_error(std::size_t i, const Function& u_at) {
         const auto at = [&](double step) {

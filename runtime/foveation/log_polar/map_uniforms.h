@@ -8,8 +8,8 @@
 
 namespace gazeloop::foveation {
 
-/// What of a map depends on the gaze, as the shaders take it (shaders/lib/log_polar.glsl):
-/// everything else lies in MapTables, so that a new gaze costs these few numbers.
+/// The part of a map that depends on the gaze, as the shaders take it (shaders/lib/log_polar.glsl).
+/// Everything else lies in MapTables, so that a new gaze costs only these few numbers.
 ///
 /// Picture frame, with rmax the farthest radius:
 struct PictureFrameUniforms {
@@ -26,7 +26,7 @@ struct GazeFrameUniforms {
 };
 GazeFrameUniforms gaze_frame_uniforms(const GazeFrame& frame);
 
-/// Both, with what of the plan the shaders read; std140.
+/// Both, with the part of the plan that the shaders read; std140.
 struct MapUniforms {
     glm::vec4 fovea_and_log2{0.0F};
     glm::vec4 lp_and_disc{0.0F};       ///< LP-buffer's width, height; disc radius and its border

@@ -2,9 +2,9 @@
 
 namespace gazeloop::foveation {
 
-/// The x in [low, high] with f(x) = y, for an increasing f with f(low) <= y <= f(high): Newton's
-/// steps, and a bisection wherever a step would leave the bracket or f has no slope. Both ends of
-/// the bracket close in on x, so that it ends within 200 steps for every increasing f.
+/// The x in [low, high] with f(x) = y, for an increasing f with f(low) <= y <= f(high). Takes
+/// Newton's steps, and bisects wherever a step would leave the bracket or f has no slope. Both ends
+/// of the bracket close in on x, so that it ends within 200 steps for every increasing f.
 template <typename Function, typename Derivative>
 double monotone_root(const Function& f, const Derivative& derivative, double low, double high,
                      double y) {

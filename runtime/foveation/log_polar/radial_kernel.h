@@ -53,8 +53,8 @@ class RadialKernel {
     [[nodiscard]] std::string description() const;
     [[nodiscard]] const Kind& kind() const { return kind_; }
 
-    /// Errors (Usage): an alpha out of its range or not a number; the other kinds cannot be made
-    /// from parameters that are not valid.
+    /// Errors (Usage): an alpha out of its range or not a number. The other kinds cannot be made
+    /// from invalid parameters.
     [[nodiscard]] Expected<void> check() const;
 
   private:

@@ -10,7 +10,8 @@ namespace gazeloop::foveation {
 class HiddenArea;
 
 /// A position in an LP-buffer of any size, as shares of its width (outward from the fovea) and of
-/// its height (around it, in turns: 0 points along the screen's x, a quarter down).
+/// its height (around the fovea). The latter counts in turns: 0 points along the screen's x, a
+/// quarter down.
 struct LpShare {
     double u = 0.0;  ///< [0, 1]
     double v = 0.0;  ///< [0, 1)
@@ -28,8 +29,8 @@ struct Density {
     double tangential = 0.0;
 };
 
-/// A log-polar map at one gaze, in double precision: a monotone function between columns and the
-/// distance from the fovea, behind a frame. LogPolarMap measures pixels from a fovea in the
+/// A log-polar map at one gaze, in double precision: a frame, and in it a monotone function between
+/// columns and the distance from the fovea. LogPolarMap measures pixels from a fovea in the
 /// picture, AcuityMap degrees from a gaze in space. What does not depend on the gaze lies in
 /// MapTables.
 class RadialMap {
@@ -39,8 +40,8 @@ class RadialMap {
     /// Where the LP-buffer holds a position of the picture. Finite for every finite position.
     [[nodiscard]] virtual LpShare share(const gaze::PixelPosition& position) const = 0;
 
-    /// The inverse; beyond the picture where the share lies there. Nothing: no position of the
-    /// picture's plane, which only a frame of angles has (behind the eye).
+    /// The inverse; beyond the picture where the share lies there. Nothing: no position in the
+    /// picture's plane (behind the eye), which occurs only in a frame of angles.
     [[nodiscard]] virtual std::optional<gaze::PixelPosition> position(
         const LpShare& share) const = 0;
 

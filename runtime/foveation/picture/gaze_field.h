@@ -17,20 +17,19 @@ struct FieldPoint {
     /// Around the gaze: 0 to the right, counter-clockwise; turned with the gaze as GazeFrame is,
     /// which by Listing's law is how an eye turns.
     double direction_rad = 0.0;
-    /// How the pixel position moves: first column by a degree outward from the gaze, second column
-    /// by a degree counter-clockwise around it (of visual angle, not of direction).
+    /// How the pixel position moves. First column: by one degree outward from the gaze. Second
+    /// column: by one degree of visual angle (not of direction) counter-clockwise around it.
     glm::dmat2 px_per_deg{1.0};
 };
 
 /// The visual field around one gaze, on one eye's flat picture: a GazeFrame that has been checked,
 /// in degrees, and what models and plans ask of it. On such a picture a circle of eccentricity
-/// around an off-axis gaze is no circle in pixels, so whatever depends on acuity has to be asked
-/// for here.
+/// around an off-axis gaze is no circle in pixels, so whatever depends on acuity has to be computed
+/// here.
 class GazeField {
   public:
-    /// `gaze_direction` in the view frame, of any length. Errors (Usage): a view that cannot be
-    /// projected with (gaze::is_valid) or over kMaxSidePx a side, a direction that is zero or not
-    /// finite.
+    /// `gaze_direction` in the view frame, of any length. Errors (Usage): a view that is not valid
+    /// (gaze::is_valid) or has a side over kMaxSidePx; a direction that is zero or not finite.
     static Expected<GazeField> create(const gaze::EyeView& view, const glm::dvec3& gaze_direction);
 
     static constexpr std::uint32_t kMaxSidePx = 16384;
@@ -58,8 +57,8 @@ class GazeField {
                                                 const gaze::PixelPosition& opposite) const;
 
     /// The rectangle of whole pixels around the cone of an eccentricity in [0, 180], cut by the
-    /// picture. From 90 degrees on, and where the cone's edge passes behind the picture, the whole
-    /// axis. Empty where the cone misses the picture.
+    /// picture. From 90 degrees on, and where the cone's edge passes behind the picture, it spans
+    /// the whole axis. Empty where the cone misses the picture.
     [[nodiscard]] Tile pixels_within(double eccentricity_deg) const;
 
     /// The greatest eccentricity in the picture.

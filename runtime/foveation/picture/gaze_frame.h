@@ -16,10 +16,10 @@ struct GazePolar {
     double angle_rad = 0.0;  ///< [0, 2 pi), from the screen's x towards its y (down)
 };
 
-/// The frame of one eye's gaze: z along the gaze, x and y as the screen's (right and down), turned
-/// with it by the smallest rotation from straight ahead. A rotation of rays, so that eccentricity
-/// is an angle wherever the gaze is: valid for asymmetric and canted views, and for a gaze beyond
-/// the screen or beyond 90 degrees from it.
+/// The frame of one eye's gaze: z along the gaze, x and y as the screen's (right and down). They
+/// are turned with the gaze by the smallest rotation from straight ahead. It is a rotation of rays,
+/// so that eccentricity is an angle wherever the gaze is. So it is valid for asymmetric and canted
+/// views, and for a gaze beyond the screen or beyond 90 degrees from it.
 class GazeFrame {
   public:
     /// `gaze` in the view frame, of any length; one that is zero or not finite is straight ahead.
@@ -37,7 +37,7 @@ class GazeFrame {
     /// A rotation: this frame's axes, in the view frame.
     [[nodiscard]] const glm::dmat3& view_from_gaze() const { return view_from_gaze_; }
     [[nodiscard]] const gaze::EyeView& view() const { return view_; }
-    /// The gaze, or where it is beyond the picture, the picture's point nearest to its projection;
+    /// The gaze or, where it is beyond the picture, the picture's point nearest to its projection;
     /// in the view frame.
     [[nodiscard]] glm::dvec3 nearest_in_view() const;
 
@@ -46,8 +46,8 @@ class GazeFrame {
         double max = 0.0;
     };
     /// The range of rho over a convex polygon of the picture, within the wedge of angles from
-    /// `from_rad` to `to_rad` (to > from); exact. Its corners, px, in the order in which angles
-    /// grow. Nothing: the wedge misses it, or it has no corner.
+    /// `from_rad` to `to_rad` (to > from); exact. The polygon's corners, px, in the order in which
+    /// angles grow. Nothing: the wedge misses the polygon, or it has no corner.
     [[nodiscard]] std::optional<RhoRange> rho_in_wedge(std::span<const glm::dvec2> polygon,
                                                        double from_rad, double to_rad) const;
     /// The same of the rectangle that the pixel centres span.
@@ -58,7 +58,7 @@ class GazeFrame {
 
     /// The pixel centres of one row of the picture that lie within an eccentricity of the gaze:
     /// from .. to, px, clipped to the row; nothing if there are none. Exact up to 90 degrees;
-    /// beyond it may be more.
+    /// beyond, it may be more.
     struct RowSpan {
         double from_x_px = 0.0;
         double to_x_px = 0.0;
@@ -80,7 +80,7 @@ class GazeFrame {
 [[nodiscard]] glm::dvec2 px_per_tangent(const gaze::EyeView& view);
 
 /// Pixels per degree of the view's picture, at a position: along the finest direction, and the
-/// geometric mean of the finest and the coarsest (whose square is pixels per square degree).
+/// geometric mean of the finest and the coarsest. The mean's square is pixels per square degree.
 /// Precondition: is_valid(view).
 struct PixelsPerDegree {
     double finest = 0.0;

@@ -22,9 +22,9 @@ namespace gazeloop::foveation {
 ///  - a pixel near an edge that two triangles do not share counts as visible, even where further
 ///    triangles overlap that edge;
 ///  - what lies between two visible pixels of a row or of a column is visible: masks surround the
-///    picture (and Monado 25's is displaced where up and down differ);
-///  - rows stand and fall in groups of kGroupRows, and columns in blocks of kBlockColumns: few
-///    rectangles are quick to draw, and a block that two of them share would be shaded twice;
+///    picture (and Monado 25's mask is displaced where up and down differ);
+///  - rows are hidden only in whole groups of kGroupRows, and columns in blocks of kBlockColumns:
+///    few rectangles are quick to draw, and a block shared by two of them would be shaded twice;
 ///  - triangles that are not finite, or lie farther from the picture than 2^20 px, are left out.
 /// The outermost 1/64 px of the picture are not asked about, because meshes end there with
 /// rounding.
@@ -41,14 +41,14 @@ class HiddenArea {
     [[nodiscard]] std::span<const Tile> visible_tiles() const { return tiles_; }
     [[nodiscard]] std::uint64_t hidden_pixels() const { return hidden_pixels_; }
 
-    /// The columns that any visible pixel of a band of rows has. Precondition: the band lies within
-    /// a multiple of kBandRows and the next, and in the picture.
+    /// The columns of the visible pixels in a band of rows. Precondition: the band lies between a
+    /// multiple of kBandRows and the next, and in the picture.
     [[nodiscard]] Columns visible_columns(std::uint32_t first_row) const {
         return groups_[first_row / kGroupRows];
     }
 
     /// The convex hull of the visible pixels' centres, px: its corners in the order in which angles
-    /// from x to y grow. For what is bounded by it (screen_wedge.h, GazeFrame::rho_in_wedge).
+    /// from x to y grow. It bounds what screen_wedge.h and GazeFrame::rho_in_wedge compute.
     [[nodiscard]] std::span<const glm::dvec2> outline() const { return outline_; }
 
   private:
@@ -64,8 +64,8 @@ class HiddenArea {
 /// What an eye's picture may leave out; null: nothing.
 using HiddenAreas = gaze::PerEye<std::shared_ptr<const HiddenArea>>;
 
-/// The areas of both eyes' views. Null where there is no mesh, or it hides no pixel, or all of
-/// them, which no runtime can mean.
+/// The areas of both eyes' views. Null where there is no mesh, or it hides no pixel, or all pixels
+/// (which no runtime can mean).
 HiddenAreas hidden_areas(const gaze::HiddenMeshes& meshes, const gaze::StereoView& views);
 
 }  // namespace gazeloop::foveation

@@ -7,22 +7,22 @@
 
 namespace gazeloop::foveation {
 
-/// The grid of samples around a point, locally regular: rows are the gradients of the two sample
-/// coordinates, that is samples a unit along each of two axes. In pixels the axes are x and y of
+/// The grid of samples around a point, locally regular. Rows are the gradients of the two sample
+/// coordinates, that is samples per unit along each of two axes. In pixels the axes are x and y of
 /// the picture; in degrees they are outward from the gaze and around it.
 struct SampleGrid {
     glm::dvec2 first{0.0};   ///< gradient of one sample coordinate
     glm::dvec2 second{0.0};  ///< ... and of the other
 
-    /// A square grid of this many samples a unit.
+    /// A square grid of this many samples per unit.
     static SampleGrid square(double per_unit) { return {{per_unit, 0.0}, {0.0, per_unit}}; }
 
-    /// Samples a unit in the direction that the grid serves worst: the length of the shortest
+    /// Samples per unit in the direction that the grid serves worst: the length of the shortest
     /// vector of the reciprocal lattice that the gradients span. Gratings of up to half as many
     /// cycles pass without aliasing in every direction (Petersen and Middleton 1962).
     [[nodiscard]] double worst_density() const;
 
-    /// Of the two gradients given in pixels, the same grid in degrees at this point.
+    /// Converts a grid given in pixels to the same grid in degrees at this point.
     [[nodiscard]] SampleGrid in_degrees(const FieldPoint& at) const;
 };
 
@@ -35,8 +35,8 @@ class OfferedDensity {
     OfferedDensity& operator=(const OfferedDensity&) = delete;
     virtual ~OfferedDensity() = default;
 
-    /// The grid in degrees: first axis outward from the gaze, second around it. A method that
-    /// thinks in pixels returns SampleGrid::in_degrees(at).
+    /// The grid in degrees: first axis outward from the gaze, second around it. A method that works
+    /// in pixels returns SampleGrid::in_degrees(at).
     [[nodiscard]] virtual SampleGrid at(const FieldPoint& at) const = 0;
 };
 

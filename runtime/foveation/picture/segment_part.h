@@ -10,8 +10,8 @@ struct SegmentPart {
     double from = 0.0;
     double to = 1.0;
 
-    /// Cuts by a function that is linear along the segment and not negative on what is kept; its
-    /// values at the whole segment's ends.
+    /// Cuts by a function that is linear along the segment and not negative on what is kept. The
+    /// arguments are its values at the whole segment's ends.
     void clip(double at_a, double at_b) {
         if (at_a < 0.0 && at_b < 0.0) {
             to = -1.0;

@@ -8,7 +8,7 @@
 namespace gazeloop::foveation {
 
 /// What the acuity-derived map offers: pixels in the disc's unblended core, texels of the LP-buffer
-/// outside it; the same all around an eccentricity.
+/// outside it. It is the same all around at one eccentricity.
 class AcuityDensity final : public OfferedDensity {
   public:
     /// `core_deg`: eccentricity inside which only pixels are shown; 0: no disc.

@@ -7,14 +7,14 @@
 namespace gazeloop::foveation {
 
 /// Plans an eye's picture by the acuity-derived map. `gaze` in the view frame (gaze::FoveaPoint's
-/// direction), of any length; wherever it points. Reuses the plan's memory.
+/// direction), of any length and direction. Reuses the plan's memory.
 ///
-/// A texel is in the plan exactly if the bilinear read of some pixel centre outside the disc's
-/// unblended core touches it (up to the granularity of kBandRows rows), as in plan_kfr. The disc is
-/// the circle of eccentricity AcuityMap::disc_eccentricity_deg, at least e_c; without it
-/// (parameters.disc), none. The blend's border is border_px of the pixels where the gaze is. With
-/// a hidden area, which must be of this picture, only visible pixels count (up to their convex
-/// hull); null: all do.
+/// As in plan_kfr, a texel is in the plan exactly if the bilinear read of some pixel centre outside
+/// the disc's unblended core touches it, up to the granularity of kBandRows rows. The disc is the
+/// circle of eccentricity AcuityMap::disc_eccentricity_deg, at least e_c; there is none without
+/// parameters.disc. The blend's border is border_px wide, in pixels at the gaze. With a hidden
+/// area, which must be of this picture, only visible pixels count (up to their convex hull); null:
+/// all count.
 void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profile,
                  const gaze::EyeView& view, const glm::dvec3& gaze, LogPolarPlan& plan,
                  const HiddenArea* hidden = nullptr);

@@ -34,9 +34,10 @@ struct LayerOptions {
 };
 
 struct EccentricityLayer {
-    /// Outer edge; of the last layer the display's e*, and what lies beyond it where aspect > 1.
+    /// Outer edge. The last layer's is the display's e*; where aspect > 1 it also covers what lies
+    /// beyond.
     double radius_deg = 0.0;
-    double factor = 1.0;    ///< s: display pixels a sample, each way
+    double factor = 1.0;    ///< s: display pixels per sample, each way
     double width_px = 0.0;  ///< D: samples along the side (of the last layer, the longer one)
     double pixels = 0.0;    ///< P: samples in all
     double weight = 1.0;    ///< w: work of one of them
@@ -50,18 +51,18 @@ struct EccentricityLayers {
     [[nodiscard]] double pixel_ratio() const { return display_pixels / work; }
 };
 
-/// Radii and sampling factors of eccentricity layers that keep to a MAR line and take the least
-/// work: minimise sum w_i P_i over 0 <= e_1 <= ... <= e_{n-1} <= e*, with
+/// Radii and sampling factors of eccentricity layers that satisfy a MAR line with the least work.
+/// Minimises sum w_i P_i over 0 <= e_1 <= ... <= e_{n-1} <= e*, with
 ///     s_1 = 1, s_{i+1} = max(1, omega(e_i) / omega*), D_i = 2 D*/s_i tan(e_i) V*/W*, P_i = D_i^2,
 /// and D*/s_n, alpha* D_n^2 for the last (Eqs. 2 to 5). The paper's factors fall below 1 where the
 /// display is coarser than the eye; a layer never needs more than the display's own pixels.
 ///
-/// Fewer layers than asked for come back where more save nothing: with a display coarser than the
-/// eye everywhere, or narrow, or a flat line (then there is one, at s = 1). Where the display is
-/// finer than the fovea itself the innermost layer may vanish, and s_1 is omega0 / omega*.
+/// Fewer layers than asked for come back where more save nothing: with a display that is narrow or
+/// coarser than the eye everywhere, or a flat line (then one layer, at s = 1). Where the display is
+/// finer than the fovea itself, the innermost layer may vanish, and s_1 is omega0 / omega*.
 ///
-/// Global: a dynamic programme over the radii, refined by grids ever finer around its best; the
-/// work is within 1e-6 of the least.
+/// The optimum is global: a dynamic programme over the radii, refined by ever finer grids around
+/// its best. The work is within 1e-6 of the least.
 ///
 /// Errors (Usage): a parameter out of range or not a number, named with its range.
 Expected<EccentricityLayers> optimise_layers(const LayerDisplay& display, const MarLine& line,

@@ -4,7 +4,7 @@
 
 namespace gazeloop::foveation {
 
-/// Full resolution: one grid, the picture's pixels, of which all that some eye sees are shaded.
+/// Full resolution: one grid, the picture's pixels. All of them that the eye can see are shaded.
 class FullPlan final : public MethodPlan {
   public:
     [[nodiscard]] const frame::GridList& grids() const override {

@@ -10,7 +10,7 @@ namespace gazeloop::foveation {
 ///
 /// A texel is in the plan exactly if the bilinear read of some pixel centre outside the disc's
 /// unblended core touches it (up to the granularity of kBandRows rows). With a hidden area, which
-/// must be of this picture, only visible pixels count (up to their convex hull); null: all do.
+/// must be of this picture, only visible pixels count (up to their convex hull); null: all count.
 void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
               const gaze::PixelPosition& fovea, LogPolarPlan& plan,
               const HiddenArea* hidden = nullptr);

@@ -14,7 +14,7 @@ namespace gazeloop::foveation {
 /// One layer of an eye's picture: what is rendered, and how finely.
 struct PlannedLayer {
     double radius_deg = 0.0;  ///< shown up to this eccentricity; of the last layer 180
-    double factor = 1.0;      ///< picture pixels a sample, each way
+    double factor = 1.0;      ///< picture pixels per sample, each way
     Tile covers;              ///< pixels of the picture
     std::uint32_t width = 0;  ///< samples
     std::uint32_t height = 0;
@@ -37,15 +37,14 @@ struct LayerPlan {
 /// angle holds for both.
 [[nodiscard]] LayerDisplay layer_display(const gaze::EyeView& view);
 
-/// Radii and factors are those that the optimiser finds for a gaze at the picture's centre, whose
-/// pixels are the coarsest of the picture: elsewhere they are more than enough. Eccentricity is the
-/// true angle, also off axis, where the published circle in pixels falls short. Errors: as
-/// optimise_layers.
+/// Radii and factors are those that the optimiser finds for a gaze at the picture's centre. Pixels
+/// are coarsest there, so elsewhere they are more than enough. Eccentricity is the true angle, also
+/// off axis, where the published circle in pixels falls short. Errors: as optimise_layers.
 Expected<LayerPlan> plan_layers(const GazeField& field, const MarLine& line,
                                 const LayerOptions& options);
 
-/// What the layers offer: each one's grid up to its radius. The published blend, over the outer 40
-/// % of a layer's radius, mixes the next coarser layer in before that; it is not counted here.
+/// What the layers offer: each one's grid up to its radius. The published blend mixes the next
+/// coarser layer in over the outer 40 % of a layer's radius; it is not counted here.
 class LayerDensity final : public OfferedDensity {
   public:
     explicit LayerDensity(LayerPlan plan) : plan_(std::move(plan)) {}

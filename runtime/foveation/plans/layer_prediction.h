@@ -24,7 +24,7 @@ Expected<LayerPrediction> predict_layers(double fov_deg, const MarLine& line,
 
 /// How straight cost over field of view is.
 struct CostGrowth {
-    double slope_per_deg = 0.0;    ///< of the least-squares line, pixels a degree
+    double slope_per_deg = 0.0;    ///< of the least-squares line, pixels per degree
     double worst_deviation = 0.0;  ///< greatest distance from the line over the range's last cost
     /// d ln cost / d ln fov at the range's end: 1 is linear; an unfoveated display's is over 2.
     double end_exponent = 0.0;

@@ -21,7 +21,7 @@ struct LogPolarPlan {
     gaze::PixelPosition fovea;
     double log2_max_radius = 0.0;
     double disc_border_px = 0.0;  ///< the blend lies inside the radius
-    /// 0: no disc. Of plan_acuity, it only says how large a ring to draw (exact for a centred
+    /// 0: no disc. Set by plan_acuity, it only says how large a ring to draw (exact for a centred
     /// gaze).
     double disc_radius_px = 0.0;
     /// Set by plan_acuity only, whose map is centred by a rotation.
@@ -38,9 +38,9 @@ struct LogPolarPlan {
 /// Names of the two grids, in this order: "lp", "picture".
 [[nodiscard]] const frame::GridList& log_polar_grids();
 
-/// The LP part of every plan: fills `texels` with what the bilinear reads of pixel centres at
-/// columns beyond `core_u` touch (a negative one: of all pixel centres), and of visible ones where
-/// an area is hidden. Precondition: plan.lp.
+/// The LP part of every plan: fills `texels` with what the bilinear reads of pixel centres touch.
+/// Only pixel centres at columns beyond `core_u` count (negative: all) and, where an area is
+/// hidden, only visible ones. Precondition: plan.lp.
 void plan_lp_tiles(const RadialMap& map, double core_u, const HiddenArea* hidden,
                    LogPolarPlan& plan);
 
@@ -70,8 +70,8 @@ void plan_disc_tiles(std::uint32_t height_px, const HiddenArea* hidden, const Ba
 /// What the shaders are told of a plan (shaders/lib/log_polar.glsl).
 [[nodiscard]] MapUniforms map_uniforms(const LogPolarPlan& plan);
 
-/// Lends the memory of a method's plan to a log-polar one while `make(LogPolarPlan&)` fills it, and
-/// hands over what it holds then.
+/// Lends the memory of a method's plan to a log-polar plan while `make(LogPolarPlan&)` fills it,
+/// and takes the result over.
 template <typename Make>
 void plan_log_polar(EyePlan& plan, const Make& make) {
     plan.grids.resize(2);

@@ -24,8 +24,8 @@ struct ShadedGrid {
 /// One eye's picture at one gaze.
 struct EyePlan {
     std::vector<ShadedGrid> grids;  ///< in the order of MethodPlan::grids()
-    /// What of the method depends on the gaze, as its shaders take it (descriptor set 2, binding
-    /// 0).
+    /// The part of the method that depends on the gaze, as its shaders take it (descriptor set 2,
+    /// binding 0).
     std::array<glm::vec4, 16> uniforms{};
     double ring_px = 0.0;  ///< radius of the ring to draw around the fovea; 0: none
 };
@@ -45,9 +45,9 @@ class MethodPlan {
     /// Whether it was made for views with these fields of view and sizes.
     [[nodiscard]] virtual bool fits(const gaze::StereoView& views) const = 0;
 
-    /// Makes what depends on fields of view and sizes, where they are others. May take
-    /// milliseconds: before the gaze is read. Errors (Usage): parameters that the pictures do not
-    /// allow.
+    /// Makes what depends on fields of view and sizes, if these have changed. May take
+    /// milliseconds, so call it before the gaze is read. Errors (Usage): parameters that the
+    /// pictures do not allow.
     virtual Expected<void> prepare(const gaze::StereoView& views) = 0;
 
     /// Plans one eye's picture at one gaze, in microseconds. Reuses the plan's memory: no

@@ -10,17 +10,17 @@
 
 namespace gazeloop::foveation {
 
-/// For every pixel of a pattern's field, its k nearest samples: for a gaze anywhere in the picture,
-/// pixel (x, y) of the picture reads the entry of window(gaze) + (x, y), and the samples there,
-/// moved back by window(gaze), are the picture's pixels to fill it from. Some of these lie outside
-/// the picture, and are not rendered there: a reader passes over them.
+/// For every pixel of a pattern's field, its k nearest samples. For a gaze anywhere in the picture,
+/// pixel (x, y) of the picture reads the entry of window(gaze) + (x, y). The samples in that entry,
+/// moved back by window(gaze), are the picture's pixels to fill it from. Samples that lie outside
+/// the picture are not rendered: a reader skips them.
 struct NearestSamples {
     static constexpr std::uint32_t kMaxNeighbours = 8;
 
     ImageSize field;
     std::uint32_t neighbours = 1;  ///< k
     std::vector<std::uint32_t>
-        map;  ///< k indices into the pattern's samples a pixel, nearest first
+        map;  ///< k indices into the pattern's samples per pixel, nearest first
 
     [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t x, std::uint32_t y) const {
         return std::span(map).subspan((std::size_t{y} * field.width_px + x) * neighbours,
@@ -28,9 +28,9 @@ struct NearestSamples {
     }
 };
 
-/// Exact, by distance between pixel centres; among equally near samples any. Takes 4 k bytes a
-/// pixel of the field, 16 k a pixel of the picture. Errors (Usage): k of 0 or over kMaxNeighbours,
-/// or over the number of samples.
+/// Exact, by distance between pixel centres; among equally near samples any. Takes 4 k bytes per
+/// pixel of the field, 16 k per pixel of the picture. Errors (Usage): k of 0 or over
+/// kMaxNeighbours, or over the number of samples.
 Expected<NearestSamples> find_nearest_samples(const SparsePattern& pattern,
                                               std::uint32_t neighbours);
 

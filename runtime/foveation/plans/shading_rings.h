@@ -12,20 +12,20 @@
 
 namespace gazeloop::foveation {
 
-/// Foveation as variable-rate shading offers it today: one sample a pixel near the gaze, one for
-/// 2 x 2 and 4 x 4 pixels further out, chosen tile by tile.
+/// Foveation as variable-rate shading offers it today: one sample per pixel near the gaze, one per
+/// 2 x 2 and 4 x 4 pixels further out. The rate is chosen tile by tile.
 struct RingParameters {
     static constexpr std::uint32_t kMinTilePx = 4;
     static constexpr std::uint32_t kMaxTilePx = 64;
 
-    double inner_deg = 0.0;      ///< a sample a pixel within this eccentricity; [0, 180]
+    double inner_deg = 0.0;      ///< one sample per pixel within this; [0, 180]
     double outer_deg = 0.0;      ///< 2 x 2 from there to this one; [inner_deg, 180]
     std::uint32_t tile_px = 16;  ///< side of a tile; a multiple of 4 in [kMinTilePx, kMaxTilePx]
 };
 
 /// The narrowest rings that satisfy a model wherever the gaze is: pixels of the picture are
-/// coarsest on its axis, and they are taken for all. `nasal` as for AcuityModel; 1 for a model that
-/// knows directions, so that the rings suffice on both sides.
+/// coarsest on its axis, and all are taken to be as coarse. `nasal` as for AcuityModel; use 1 for a
+/// model that knows directions, so that the rings suffice on both sides.
 [[nodiscard]] RingParameters sufficient_rings(const gaze::EyeView& view, const AcuityModel& model,
                                               double nasal, std::uint32_t tile_px);
 

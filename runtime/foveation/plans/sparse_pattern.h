@@ -16,10 +16,10 @@ enum class SparsePlacement {
     BlueNoise,  ///< the same density and count, no two samples closer than the density allows
 };
 
-/// Sparse sampling ("Fooling around with foveated rendering"): every pixel of a disc around the
-/// gaze, and pixels drawn from a narrow and a wide Gaussian around it; the rest is filled from the
-/// nearest samples. The article gives no figures but the shares 1/10 and 1/5; the others are ours,
-/// with lengths relative to the picture's diagonal.
+/// Sparse sampling ("Fooling around with foveated rendering"). Samples are every pixel of a disc
+/// around the gaze, and pixels drawn from a narrow and a wide Gaussian around it. The rest is
+/// filled from the nearest samples. The article gives no figures but the shares 1/10 and 1/5; the
+/// others are ours, with lengths relative to the picture's diagonal.
 struct SparseParameters {
     static constexpr double kMinShare = 0.001;
     static constexpr double kMaxShare = 0.5;
@@ -50,13 +50,13 @@ struct SparseProfile {
     double narrow_draws = 0.0;  ///< over the whole plane
     double wide_draws = 0.0;
 
-    /// Share of the pixels at this distance from the gaze that are samples: 1 in the disc, outside
-    /// it 1 - exp(-expected draws), because a pixel drawn twice is one sample.
+    /// Share of the pixels at this distance from the gaze that are samples. It is 1 in the disc;
+    /// outside it is 1 - exp(-expected draws), because a pixel drawn twice is one sample.
     [[nodiscard]] double share(double radius_px) const;
 };
 
-/// Samples in a field of 2 W x 2 H pixels whose middle is the gaze, so that for any gaze in the
-/// picture the picture is a window of the field: nothing is computed anew when the gaze moves.
+/// Samples in a field of 2 W x 2 H pixels whose middle is the gaze. For any gaze in the picture,
+/// the picture is a window of the field, so that nothing is computed anew when the gaze moves.
 struct SparsePattern {
     ImageSize image;  ///< W x H
     SparseProfile profile;
@@ -73,8 +73,8 @@ struct SparsePattern {
 };
 
 /// Makes a pattern with exactly round(share W H) samples, at least 1, in the picture with the gaze
-/// at its centre. Errors (Usage): a parameter out of range or not a number, a picture without
-/// pixels or over 16384 a side, a share that the Gaussians cannot fill (they are too narrow).
+/// at its centre. Errors (Usage): a parameter out of range or not a number; a picture without
+/// pixels or with a side over 16384; a share that the Gaussians are too narrow to fill.
 Expected<SparsePattern> make_sparse_pattern(const SparseParameters& parameters, ImageSize image);
 
 /// What a pattern offers: the square grid of the same density.

@@ -16,11 +16,11 @@ struct OpenXrOptions {
     bool validation = false;  ///< the core validation layer; its findings go to the log
     /// Give depth images along, where the runtime takes them (XR_KHR_composition_layer_depth).
     bool depth = false;
-    /// Extensions for who shares the session, enabled where the runtime offers them.
+    /// Extensions for whatever shares the session, enabled where the runtime offers them.
     std::vector<const char*> extensions{};
 };
 
-/// A stereo session: vulkan_enable2, one swapchain an eye, a projection layer in LOCAL space.
+/// A stereo session: vulkan_enable2, one swapchain per eye, a projection layer in LOCAL space.
 class OpenXrTarget : public FrameTarget {
   public:
     [[nodiscard]] virtual const openxr::Instance& instance() const = 0;

@@ -5,9 +5,9 @@
 
 namespace gazeloop::present {
 
-/// The head and what the eyes' pictures are rendered from, as the runtime says; where it says what
-/// cannot be (untracked, no numbers, fields of view of nothing), the last good one stands and the
-/// session is told.
+/// The head and the views that the eyes' pictures are rendered from, as the runtime says. Where it
+/// gives impossible values (untracked, not numbers, empty fields of view), the last good ones stand
+/// and the session is told.
 class OpenXrViews {
   public:
     /// `session` must outlive this.

@@ -8,7 +8,7 @@ namespace gazeloop::present {
 /// What the views of a session hide from the eyes, by XR_KHR_visibility_mask.
 class VisibilityMask {
   public:
-    /// More are taken for a runtime's error.
+    /// More triangles are treated as a runtime's error.
     static constexpr std::uint32_t kMostTriangles = 8192;
 
     /// For instances that have the extension enabled; others have no mask.

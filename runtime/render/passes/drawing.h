@@ -39,7 +39,7 @@ void draw_visible_tiles(const vk::raii::CommandBuffer& commands,
                         std::span<const foveation::Tile> tiles,
                         const foveation::HiddenArea* hidden);
 
-/// Draws both eyes' pictures, less what no eye sees of them. `draw_eye(e)` draws one, into the
+/// Draws both eyes' pictures without the parts that no eye sees. `draw_eye(e)` draws one, into the
 /// target that is bound.
 template <typename DrawEye>  // no std::function: no allocation per frame
 void draw_pictures(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,

@@ -11,7 +11,7 @@ namespace gazeloop::render {
 /// Format of LP-buffer and disc: linear light, filterable.
 inline constexpr vk::Format kLpFormat = vk::Format::eR16G16B16A16Sfloat;
 
-/// What one eye's log-polar rendering keeps on the GPU from frame to frame: the map's tables, which
+/// What one eye's log-polar rendering keeps on the GPU from frame to frame. The map's tables, which
 /// no gaze changes, the LP-buffer, and a picture-sized buffer for the disc's pixels.
 class LogPolarEye {
   public:

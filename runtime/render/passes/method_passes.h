@@ -78,7 +78,7 @@ class MethodPasses {
 
     /// Whether it keeps the depth around the foveae for the host.
     [[nodiscard]] virtual bool keeps_depth() const { return false; }
-    /// Records its copy; only where it keeps some.
+    /// Records the copy of that depth; only called if keeps_depth().
     virtual void record_depth_copies(const vk::raii::CommandBuffer&, const FrameRecording&,
                                      const gaze::PerEye<foveation::EyePlan>&,
                                      const gaze::FrameFovea&) {}

@@ -16,9 +16,9 @@
 #include "tests/support/faults/fault_plan.h"
 
 /// An OpenXR API layer that does what a real runtime below it cannot be made to do:
-/// XR_APILAYER_GAZELOOP_faults. GAZELOOP_OPENXR_FAULTS says which calls (see fault_plan.h). Effects
-/// are, for every function that is named in one of the files here, the name of an XrResult, which
-/// is returned without calling the runtime; for the others see the files.
+/// XR_APILAYER_GAZELOOP_faults. GAZELOOP_OPENXR_FAULTS says which calls (see fault_plan.h). For
+/// every function that is named in one of the files here, the effect is the name of an XrResult,
+/// which is returned without calling the runtime. For other effects see the files.
 namespace gazeloop::tests {
 
 /// One process, one instance, one session: what gazeloop has.

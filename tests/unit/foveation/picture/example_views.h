@@ -32,7 +32,7 @@ inline gaze::EyeView vive_pro_eye_view() {
     const double half = std::tan(glm::radians(55.0)) * 1440.0 / std::hypot(1440.0, 1600.0);
     return square_pixel_view(1440, 1600, 2.0 * glm::degrees(std::atan(half)));
 }
-/// 60 pixels a degree at the centre, 100 x 100 degrees.
+/// 60 pixels per degree at the centre, 100 x 100 degrees.
 inline gaze::EyeView retinal_view() { return symmetrical_view(8194, 8194, 100.0, 100.0); }
 
 inline constexpr glm::dvec3 kAhead{0.0, 0.0, -1.0};
