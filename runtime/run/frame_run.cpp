@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "runtime/latency/latency_summary.h"
+#include "runtime/latency/summary_observer.h"
 #include "runtime/methods/registry.h"
 #include "runtime/preview/preview_feed.h"
 #include "runtime/preview/window_process.h"
@@ -201,7 +201,7 @@ class FrameRun {
 
     void run_loop(render::FrameRenderer& renderer, latency::LatencySummary& summary) {
         gaze::GazeToFovea gaze(gaze::fovea_policy(values_.gaze));
-        SummaryObserver summing(summary);
+        latency::SummaryObserver summing(summary);
         LogObserver logging;
         if (request_.session != nullptr && request_.clock == RunClock::Recorded) {
             check_.emplace(*request_.session, request_.same_gaze, request_.same_rendering);

@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include "runtime/frame/frame_observer.h"
-#include "runtime/latency/latency_summary.h"
 #include "runtime/session/session_recorder.h"
 
 namespace gazeloop::run {
@@ -31,23 +30,6 @@ class RecordingObserver final : public frame::FrameObserver {
   private:
     session::SessionRecorder& recorder_;
     bool trouble_reported_ = false;
-};
-
-/// Passes on to the summary.
-class SummaryObserver final : public frame::FrameObserver {
-  public:
-    explicit SummaryObserver(latency::LatencySummary& summary) : summary_(summary) {}
-    void on_sample(const gaze::GazeSample& sample, std::uint64_t) override { summary_.add(sample); }
-    void on_frame(const frame::FrameRecord& record) override {
-        if (record.period_ns > 0) {
-            summary_.set_display_period(record.period_ns);
-        }
-        summary_.add(record);
-    }
-    void on_gpu(const frame::FrameGpuRecord& record) override { summary_.add(record); }
-
-  private:
-    latency::LatencySummary& summary_;
 };
 
 /// Says what happens as it happens.

@@ -14,6 +14,7 @@
 #include "drivers/openxr/openxr_source.h"
 #include "drivers/trace/trace_source.h"
 #include "runtime/frame_loop.h"
+#include "runtime/latency/summary_observer.h"
 #include "runtime/methods/registry.h"
 #include "runtime/present/headless_target.h"
 #include "runtime/present/openxr/openxr_target.h"
@@ -144,7 +145,7 @@ std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
 
     latency::LatencySummary summary(
         {.clock = latency::LoopClock::Wall, .period_ns = display.period_ns()});
-    run::SummaryObserver summing(summary);
+    latency::SummaryObserver summing(summary);
     run::LogObserver logging;
     FrameWatch watch(options);
     std::unique_ptr<session::SessionRecorder> recorder;
