@@ -1,7 +1,6 @@
 #include "runtime/frame_timeline.h"
 
-#include <algorithm>
-#include <iterator>
+#include <fmt/core.h>
 
 #include "runtime/time/clock.h"
 
@@ -17,6 +16,14 @@ gaze::StereoView on_head(const gaze::Pose& head, const gaze::StereoView& views,
         view.pose = gaze::compose(change, view.pose);
     }
     return moved;
+}
+
+const session::RecordedFrame& frame_at(session::FrameCursor& cursor, std::uint64_t index) {
+    if (!value_or_throw(session::move_to(cursor, index))) {
+        throw SetupError(ErrorKind::BadInput,
+                         fmt::format("the recording has lost its frame {} meanwhile", index));
+    }
+    return *cursor.row();
 }
 
 }  // namespace
@@ -64,31 +71,41 @@ void VirtualTimeline::settle(frame::FrameGpuRecord& record) {
     record.gpu_end = {submit + model_.gpu_ns, time::StampKind::Modelled};
 }
 
-time::Stamp RecordedTimeline::now() { return frames_[frame_].frame.stamps.wake_up; }
+RecordedTimeline::RecordedTimeline(const session::OpenSession& session, std::uint64_t frames)
+    : frame_count_(frames), begun_(session), finished_(session), hidden_(session) {
+    value_or_throw(hidden_.next());
+    begin(0);
+}
+
+time::Stamp RecordedTimeline::now() { return frame_.stamps.wake_up; }
+
+void RecordedTimeline::begin(std::uint64_t frame) {
+    frame_ = frame_at(begun_, frame).frame;
+    while (hidden_.row() != nullptr && hidden_.row()->frame <= frame) {
+        hidden_now_ = hidden_.row()->meshes;
+        value_or_throw(hidden_.next());
+    }
+}
 
 void RecordedTimeline::plan(const present::TargetFrame&, const gaze::HeadMotion*,
                             PlannedFrame& frame) {
-    const frame::FrameRecord& recorded = frames_[frame_].frame;
-    frame.display = recorded.stamps.display;
-    frame.period_ns = recorded.period_ns;
-    frame.should_render = recorded.should_render;
-    frame.scene_time_s = recorded.scene_time_s;
-    frame.head = recorded.head;
-    frame.views = recorded.views;
-    const auto later = std::ranges::upper_bound(
-        hidden_, frame_, {}, [](const gaze::HiddenChange& change) { return change.frame; });
-    frame.hidden = later == hidden_.begin() ? nullptr : std::prev(later)->meshes;
+    frame.display = frame_.stamps.display;
+    frame.period_ns = frame_.period_ns;
+    frame.should_render = frame_.should_render;
+    frame.scene_time_s = frame_.scene_time_s;
+    frame.head = frame_.head;
+    frame.views = frame_.views;
+    frame.hidden = hidden_now_;
 }
 
-time::Stamp RecordedTimeline::latch() { return frames_[frame_].frame.stamps.latch; }
+time::Stamp RecordedTimeline::latch() { return frame_.stamps.latch; }
 
-void RecordedTimeline::settle(frame::FrameRecord& record) {
-    record.stamps = frames_[record.index].frame.stamps;
-}
+void RecordedTimeline::settle(frame::FrameRecord& record) { record.stamps = frame_.stamps; }
 
 void RecordedTimeline::settle(frame::FrameGpuRecord& record) {
-    record.gpu_begin = frames_[record.index].gpu.gpu_begin;
-    record.gpu_end = frames_[record.index].gpu.gpu_end;
+    const frame::FrameGpuRecord& gpu = frame_at(finished_, record.index).gpu;
+    record.gpu_begin = gpu.gpu_begin;
+    record.gpu_end = gpu.gpu_end;
 }
 
 }  // namespace gazeloop

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/head_motion.h"
 #include "runtime/present/frame_target.h"
+#include "runtime/session/cursor.h"
 
 namespace gazeloop {
 
@@ -99,30 +99,30 @@ class VirtualTimeline final : public FrameTimeline {
     std::uint64_t frame_ = 0;
 };
 
-/// A recorded session's frames: their views, display and latch times are used again.
+/// A recorded session's frames: their views, display and latch times are used again. They are read
+/// as the loop goes on. Throws SetupError (BadInput) where that fails.
 class RecordedTimeline final : public FrameTimeline {
   public:
-    struct Frame {
-        frame::FrameRecord frame;
-        frame::FrameGpuRecord gpu;
-    };
-    /// Preconditions: frames by index, none missing; changes by frame.
-    RecordedTimeline(std::vector<Frame> frames, std::vector<gaze::HiddenChange> hidden)
-        : frames_(std::move(frames)), hidden_(std::move(hidden)) {}
+    /// Preconditions: the session outlives this, and holds this many frames (1 or more), numbered
+    /// from 0, none missing.
+    RecordedTimeline(const session::OpenSession& session, std::uint64_t frames);
 
     time::Stamp now() override;
-    void begin(std::uint64_t frame) override { frame_ = frame; }
+    void begin(std::uint64_t frame) override;
     void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
               PlannedFrame& frame) override;
     time::Stamp latch() override;
     void settle(frame::FrameRecord& record) override;
     void settle(frame::FrameGpuRecord& record) override;
-    [[nodiscard]] bool over(std::uint64_t frame) const override { return frame >= frames_.size(); }
+    [[nodiscard]] bool over(std::uint64_t frame) const override { return frame >= frame_count_; }
 
   private:
-    std::vector<Frame> frames_;
-    std::vector<gaze::HiddenChange> hidden_;
-    std::uint64_t frame_ = 0;
+    std::uint64_t frame_count_;
+    session::FrameCursor begun_;     ///< at the frame that was begun
+    session::FrameCursor finished_;  ///< at the last one that the GPU has finished
+    session::HiddenCursor hidden_;   ///< at the first change after that frame
+    frame::FrameRecord frame_;       ///< the frame that was begun
+    gaze::HiddenMeshes hidden_now_;  ///< in it
 };
 
 }  // namespace gazeloop

@@ -2,21 +2,32 @@
 
 #include <fmt/core.h>
 
-#include <utility>
-
 namespace gazeloop::drivers {
 
-SessionSource::SessionSource(std::string file, std::vector<Sample> samples)
-    : file_(std::move(file)), samples_(std::move(samples)) {}
+SessionSource::SessionSource(const session::OpenSession& session, std::uint64_t sample_count)
+    : file_(session.file().string()),
+      sample_count_(sample_count),
+      samples_(session),
+      frames_(session) {
+    next();
+}
+
+/// What was consumed by a frame that the session has not got is left out.
+void SessionSource::next() {
+    do {
+        more_ = value_or_throw(samples_.next());
+    } while (more_ && !value_or_throw(session::move_to(frames_, samples_.row()->frame)));
+}
 
 void SessionSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) {
-    while (!finished() && samples_[next_].consumed_ns <= now_ns) {
-        samples.push_back(samples_[next_++].sample);
+    while (more_ && frames_.row()->frame.stamps.latch.ns <= now_ns) {
+        samples.push_back(samples_.row()->sample);
+        next();
     }
 }
 
 std::string SessionSource::description() const {
-    return fmt::format("session {} ({} samples)", file_, samples_.size());
+    return fmt::format("session {} ({} samples)", file_, sample_count_);
 }
 
 }  // namespace gazeloop::drivers

@@ -5,29 +5,33 @@
 #include <vector>
 
 #include "drivers/gaze_source.h"
+#include "runtime/session/cursor.h"
 
 namespace gazeloop::drivers {
 
-/// The gaze of a recorded session, handed over again exactly as the recorded frames consumed it.
+/// The gaze of a recorded session, handed over again exactly as the recorded frames consumed it:
+/// each sample at the latch of its frame. It is read as it is asked for, from the local file.
+/// Throws SetupError (BadInput) where that fails.
 class SessionSource final : public GazeSource {
   public:
-    struct Sample {
-        std::int64_t consumed_ns = 0;  ///< latch time of the frame that consumed it
-        gaze::GazeSample sample;
-    };
-    /// Precondition: consumed_ns does not decrease.
-    SessionSource(std::string file, std::vector<Sample> samples);
+    /// `sample_count`: how many samples the session's frames consumed, for the description. The
+    /// session must outlive this.
+    SessionSource(const session::OpenSession& session, std::uint64_t sample_count);
 
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;
     /// Samples come as they were recorded: with a head pose, or on purpose without.
     [[nodiscard]] bool fixed_in_head() const override { return true; }
-    [[nodiscard]] bool finished() const override { return next_ == samples_.size(); }
+    [[nodiscard]] bool finished() const override { return !more_; }
     [[nodiscard]] std::string description() const override;
 
   private:
+    void next();
+
     std::string file_;
-    std::vector<Sample> samples_;
-    std::size_t next_ = 0;
+    std::uint64_t sample_count_;
+    session::SampleCursor samples_;  ///< at the next one to hand over
+    session::FrameCursor frames_;    ///< at the frame that consumed it
+    bool more_ = true;
 };
 
 }  // namespace gazeloop::drivers

@@ -2,10 +2,12 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
+#include <optional>
 
 #include "drivers/session/session_source.h"
 #include "drivers/trace/read_trace.h"
@@ -14,7 +16,7 @@
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/run/frame_run.h"
 #include "runtime/run/gaze_sources.h"
-#include "runtime/session/session_file.h"
+#include "runtime/session/playback.h"
 #include "runtime/settings/recorded_values.h"
 
 namespace gazeloop::cli {
@@ -42,80 +44,123 @@ ExitCode replay_trace(const ReplayCommand& command, gaze::GazeTrace trace,
     return exit_code(run::frame_run(request));
 }
 
-/// A session's gaze as a trace, in the order in which it arrived, the first of it at 0. What has no
-/// known time keeps none: losses, and what came before the tracker's clock was known.
-gaze::GazeTrace trace_of(const session::SessionFile& session, const std::string& file) {
-    gaze::GazeTrace trace;
-    trace.file = file;
-    trace.format = kSessionFormat;
-    trace.device = "recorded session";
-    if (session.samples.empty()) {
-        throw SetupError(ErrorKind::BadInput,
-                         fmt::format("{}: the session holds no gaze to replay", file));
+/// Makes a session's gaze a trace, in the order in which it arrived, the first of it at 0. What has
+/// no known time keeps none: losses, and what came before the tracker's clock was known.
+class TraceOfSession final : public frame::FrameObserver {
+  public:
+    explicit TraceOfSession(const std::string& file) {
+        trace_.file = file;
+        trace_.format = kSessionFormat;
+        trace_.device = "recorded session";
     }
-    const gaze::GazeSample& first = session.samples.front().sample;
-    const time::Stamp start = first.arrived.known() ? first.arrived : first.sampled;
-    for (const session::RecordedSample& recorded : session.samples) {
-        gaze::GazeSample sample = recorded.sample;
+
+    void on_sample(const gaze::GazeSample& recorded, std::uint64_t) override {
+        gaze::GazeSample& sample = trace_.samples.emplace_back(recorded);
+        if (!start_) {
+            start_ = recorded.arrived.known() ? recorded.arrived : recorded.sampled;
+        }
         for (time::Stamp* const stamp : {&sample.sampled, &sample.ready, &sample.arrived}) {
             // Eleven days; --speed may stretch them a thousandfold.
             constexpr std::int64_t kLongest_ns = 1'000'000'000'000'000;
             std::int64_t since_start_ns = 0;
-            if (__builtin_sub_overflow(stamp->ns, start.ns, &since_start_ns) ||
+            if (__builtin_sub_overflow(stamp->ns, start_->ns, &since_start_ns) ||
                 since_start_ns < -kLongest_ns || since_start_ns > kLongest_ns) {
                 stamp->kind = time::StampKind::Unknown;
             }
             *stamp = stamp->known() ? time::Stamp{since_start_ns, stamp->kind} : time::Stamp{};
         }
-        trace.samples.push_back(sample);
     }
-    return trace;
+
+    gaze::GazeTrace take() {
+        if (trace_.samples.empty()) {
+            throw SetupError(ErrorKind::BadInput,
+                             fmt::format("{}: the session holds no gaze to replay", trace_.file));
+        }
+        return std::move(trace_);
+    }
+
+  private:
+    gaze::GazeTrace trace_;
+    std::optional<time::Stamp> start_;
+};
+
+void play_to(frame::FrameObserver& observer, const session::OpenSession& session) {
+    const std::array<frame::FrameObserver*, 1> observers{&observer};
+    value_or_throw(session::play(session, observers));
 }
 
-/// Refuses what the program cannot have recorded.
-void check_frames(const session::SessionFile& session, const std::string& file) {
-    const auto damaged = [&](std::size_t frame, std::string_view what) {
-        return SetupError(ErrorKind::BadInput, fmt::format("{}: frame {}: {}: the recording is "
-                                                           "damaged; replay its gaze with --clock "
-                                                           "wall instead",
-                                                           file, frame, what));
-    };
-    if (session.frames.empty()) {
-        throw SetupError(ErrorKind::BadInput,
-                         fmt::format("{}: the session holds no frame to replay", file));
-    }
-    for (std::size_t i = 0; i < session.frames.size(); ++i) {
-        const frame::FrameRecord& frame = session.frames[i].frame;
-        if (frame.index != i) {
-            throw damaged(i, "missing");
+/// Looks through a recording before it is run again. Throws SetupError (BadInput) for what the
+/// program cannot have recorded.
+class ReplayableFrames final : public frame::FrameObserver {
+  public:
+    explicit ReplayableFrames(std::string file) : file_(std::move(file)) {}
+
+    void on_sample(const gaze::GazeSample&, std::uint64_t) override { ++samples_told_; }
+    void on_frame(const frame::FrameRecord& frame) override {
+        if (frame.index != frames_) {
+            throw damaged("missing");
+        }
+        if (frames_ == 0) {
+            first_views_ = frame.views;
         }
         for (const gaze::Eye eye : gaze::kEyes) {
-            const gaze::EyeView& view = frame.views[gaze::index(eye)];
-            const gaze::EyeView& first = session.frames[0].frame.views[gaze::index(eye)];
-            const double turn =
-                glm::length(view.pose.orientation) + glm::length(frame.head.orientation);
-            const glm::dvec3 place = view.pose.position_m + frame.head.position_m;
-            const auto [smallest, largest] = std::minmax(view.width_px, view.height_px);
-            if (!gaze::is_valid(view) || smallest < 2 || largest > 16384 ||
-                !(std::abs(turn - 2.0) < 1e-3) || !std::isfinite(place.x + place.y + place.z) ||
-                !std::isfinite(frame.scene_time_s)) {
-                throw damaged(i, fmt::format("impossible view of the {} eye",
-                                             gaze::kEyeNames[gaze::index(eye)]));
-            }
-            if (view.width_px != first.width_px || view.height_px != first.height_px) {
-                throw damaged(i, "the picture changes its size");
-            }
+            check_view(frame, eye);
+        }
+        ++frames_;
+        samples_consumed_ = samples_told_;
+    }
+
+    /// Throws SetupError (BadInput) if there are none.
+    [[nodiscard]] std::uint64_t frames() const {
+        if (frames_ == 0) {
+            throw SetupError(ErrorKind::BadInput,
+                             fmt::format("{}: the session holds no frame to replay", file_));
+        }
+        return frames_;
+    }
+    [[nodiscard]] std::uint64_t samples_consumed() const { return samples_consumed_; }
+    [[nodiscard]] const gaze::StereoView& first_views() const { return first_views_; }
+
+  private:
+    [[nodiscard]] SetupError damaged(std::string_view what) const {
+        return {ErrorKind::BadInput, fmt::format("{}: frame {}: {}: the recording is damaged; "
+                                                 "replay its gaze with --clock wall instead",
+                                                 file_, frames_, what)};
+    }
+
+    void check_view(const frame::FrameRecord& frame, gaze::Eye eye) const {
+        const gaze::EyeView& view = frame.views[gaze::index(eye)];
+        const gaze::EyeView& first = first_views_[gaze::index(eye)];
+        const double turn =
+            glm::length(view.pose.orientation) + glm::length(frame.head.orientation);
+        const glm::dvec3 place = view.pose.position_m + frame.head.position_m;
+        const auto [smallest, largest] = std::minmax(view.width_px, view.height_px);
+        if (!gaze::is_valid(view) || smallest < 2 || largest > 16384 ||
+            !(std::abs(turn - 2.0) < 1e-3) || !std::isfinite(place.x + place.y + place.z) ||
+            !std::isfinite(frame.scene_time_s)) {
+            throw damaged(
+                fmt::format("impossible view of the {} eye", gaze::kEyeNames[gaze::index(eye)]));
+        }
+        if (view.width_px != first.width_px || view.height_px != first.height_px) {
+            throw damaged("the picture changes its size");
         }
     }
-}
+
+    std::string file_;
+    std::uint64_t frames_ = 0;
+    std::uint64_t samples_told_ = 0;
+    std::uint64_t samples_consumed_ = 0;  ///< by these frames
+    gaze::StereoView first_views_{};
+};
 
 ExitCode replay_session(const ReplayCommand& command, run::ProgramSettings& settings,
                         run::FrameRunRequest& request) {
-    const session::SessionFile session = value_or_throw(session::read_session(command.file));
-    if (!session.closed_cleanly) {
+    const auto session = value_or_throw(session::OpenSession::open(command.file));
+    const session::SessionInfo& info = session.info();
+    if (!info.closed_cleanly) {
         spdlog::warn("{}: the recording was not closed; what it holds is replayed", command.file);
     }
-    if (const auto taken = settings::take_recorded(session.header.config, command.file, settings);
+    if (const auto taken = settings::take_recorded(info.header.config, command.file, settings);
         !taken) {
         throw SetupError(ErrorKind::BadInput, taken.error().message);
     }
@@ -127,28 +172,24 @@ ExitCode replay_session(const ReplayCommand& command, run::ProgramSettings& sett
     }
     value_or_throw(settings.check());
     if (command.clock == "wall") {
-        return replay_trace(command, trace_of(session, command.file), settings, request);
+        TraceOfSession trace(command.file);
+        play_to(trace, session);
+        return replay_trace(command, trace.take(), settings, request);
     }
     if (command.speed != 1.0) {
         throw SetupError(ErrorKind::Usage,
                          "--speed: a session's own time line is replayed as it was; use --clock "
                          "wall to play its gaze faster or slower");
     }
-    check_frames(session, command.file);
-    std::vector<drivers::SessionSource::Sample> samples;
-    for (const session::RecordedSample& recorded : session.samples) {
-        if (recorded.frame < session.frames.size()) {
-            samples.push_back(
-                {session.frames[recorded.frame].frame.stamps.latch.ns, recorded.sample});
-        }
-    }
-    request.make_source = [samples, file = command.file](std::int64_t) {
-        return std::make_unique<drivers::SessionSource>(file, samples);
+    ReplayableFrames found(command.file);
+    play_to(found, session);
+    request.recording = {&session, found.frames(), found.first_views()};
+    request.make_source = [&session, samples = found.samples_consumed()](std::int64_t) {
+        return std::make_unique<drivers::SessionSource>(session, samples);
     };
     request.clock = run::RunClock::Recorded;
-    request.session = &session;
     const auto as_recorded = [&](settings::Concerns what) {
-        return settings::are_as_recorded(session.header.config, what, settings);
+        return settings::are_as_recorded(info.header.config, what, settings);
     };
     request.same_gaze = as_recorded(settings::Concerns::Foveae);
     request.same_rendering = as_recorded(settings::Concerns::Picture);

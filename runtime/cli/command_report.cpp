@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,7 +10,6 @@
 #include "runtime/report/session_summary.h"
 #include "runtime/report/summary_json.h"
 #include "runtime/report/summary_text.h"
-#include "runtime/session/session_file.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -23,14 +21,12 @@ struct ReportCommand {
 };
 
 /// Where a recording ends that was not closed, and what is known of what it lacks.
-std::string end_of(const session::SessionFile& session) {
+std::string end_of(const session::SessionInfo& info, const session::PlaybackEnd& end) {
     std::string text = "The recording was not closed: it ";
-    text += session.frames.empty()
-                ? "has no frames."
-                : fmt::format("ends at frame {}.", session.frames.back().frame.index);
-    if (session.writing_failed) {
+    text += end.last_frame ? fmt::format("ends at frame {}.", *end.last_frame) : "has no frames.";
+    if (info.writing_failed) {
         text += " Writing it failed there.";
-    } else if (session.had_write_ahead_log) {
+    } else if (info.had_write_ahead_log) {
         text += " It lacks at most its last 100 ms.";
     }
     return text;
@@ -40,26 +36,25 @@ ExitCode report(const ReportCommand& command) {
     if (!command.json.empty()) {
         value_or_throw(report::check_output(command.json));
     }
-    const session::SessionFile session = value_or_throw(session::read_session(command.file));
-    const latency::SummaryReport result = report::summarize(session);
+    const auto session = value_or_throw(session::OpenSession::open(command.file));
+    const session::SessionInfo& info = session.info();
+    const report::SessionSummary summary = value_or_throw(report::summarize(session));
     if (command.json != "-" && !command.log.quiet) {
-        fmt::print("{}", report::summary_text(result));
-        if (!session.closed_cleanly) {
-            fmt::print("{}\n", end_of(session));
+        fmt::print("{}", report::summary_text(summary.report));
+        if (!info.closed_cleanly) {
+            fmt::print("{}\n", end_of(info, summary.end));
         }
-        const auto error = std::find_if(session.events.rbegin(), session.events.rend(),
-                                        [](const auto& event) { return event.kind == "error"; });
-        if (error != session.events.rend()) {
-            fmt::print("The run failed: {}\n", error->text);
+        if (summary.end.last_error) {
+            fmt::print("The run failed: {}\n", *summary.end.last_error);
         }
-        if (session.records_dropped > 0) {
+        if (info.records_dropped > 0) {
             fmt::print("The recording lacks {} records that the disk was too slow for.\n",
-                       session.records_dropped);
+                       info.records_dropped);
         }
     }
     if (!command.json.empty()) {
         value_or_throw(
-            report::write_text(command.json, report::summary_json(result).dump(2) + "\n"));
+            report::write_text(command.json, report::summary_json(summary.report).dump(2) + "\n"));
     }
     return ExitCode::Ok;
 }

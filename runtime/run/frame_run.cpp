@@ -127,7 +127,7 @@ class FrameRun {
   private:
     [[nodiscard]] latency::LoopClock loop_clock() const {
         if (request_.clock == RunClock::Recorded) {
-            return report::summary_config(*request_.session).clock;
+            return request_.recording->session->info().header.meta.clock;
         }
         return request_.clock == RunClock::Virtual ? latency::LoopClock::Virtual
                                                    : latency::LoopClock::Wall;
@@ -157,16 +157,15 @@ class FrameRun {
         session::SessionHeader header;
         header.passes = renderer.passes();
         header.grids = renderer.grids();
-        header.meta = {{"program", fmt::format("gazeloop {}", kVersion)},
-                       {"command_line", request_.command_line},
-                       {"started_utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
-                                                   fmt::gmtime(std::chrono::system_clock::to_time_t(
-                                                       std::chrono::system_clock::now())))},
-                       {"clock", loop_clock() == latency::LoopClock::Virtual ? "virtual" : "wall"},
-                       {"target", values_.target.name},
-                       {"target_format", vk::to_string(target_->format())}};
-        const auto display_meta = report::meta_of(display_);
-        header.meta.insert(header.meta.end(), display_meta.begin(), display_meta.end());
+        header.meta = {.program = fmt::format("gazeloop {}", kVersion),
+                       .command_line = request_.command_line,
+                       .started_utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                                                  fmt::gmtime(std::chrono::system_clock::to_time_t(
+                                                      std::chrono::system_clock::now()))),
+                       .clock = loop_clock(),
+                       .target = values_.target.name,
+                       .target_format = vk::to_string(target_->format()),
+                       .display = display_};
         header.config = request_.settings->list();
         for (const auto& [name, value] : target_->properties()) {
             header.device.push_back({name, value});
@@ -186,15 +185,9 @@ class FrameRun {
                     VirtualTimeline::Model{.period_ns = display_.period_ns(),
                                            .gpu_ns = time::ms_to_ns(values_.virtual_time.gpu_ms),
                                            .views = profile_views(display_, target_->extents())});
-            case RunClock::Recorded: {
-                std::vector<RecordedTimeline::Frame> frames;
-                frames.reserve(request_.session->frames.size());
-                for (const session::RecordedFrame& recorded : request_.session->frames) {
-                    frames.push_back({recorded.frame, recorded.gpu});
-                }
-                return std::make_unique<RecordedTimeline>(std::move(frames),
-                                                          request_.session->hidden);
-            }
+            case RunClock::Recorded:
+                return std::make_unique<RecordedTimeline>(*request_.recording->session,
+                                                          request_.recording->frames);
         }
         return std::make_unique<LiveTimeline>(time::measured_now().ns);
     }
@@ -203,8 +196,9 @@ class FrameRun {
         gaze::GazeToFovea gaze(gaze::fovea_policy(values_.gaze));
         latency::SummaryObserver summing(summary);
         LogObserver logging;
-        if (request_.session != nullptr && request_.clock == RunClock::Recorded) {
-            check_.emplace(*request_.session, request_.same_gaze, request_.same_rendering);
+        if (request_.clock == RunClock::Recorded) {
+            check_.emplace(*request_.recording->session, request_.same_gaze,
+                           request_.same_rendering);
         }
         LoopParts parts{
             .target = *target_,

@@ -11,7 +11,7 @@
 #include "runtime/error.h"
 #include "runtime/frame_loop.h"
 #include "runtime/run/program_settings.h"
-#include "runtime/session/session_file.h"
+#include "runtime/session/open_session.h"
 
 namespace gazeloop::run {
 
@@ -22,6 +22,13 @@ enum class RunClock {
     Recorded,  ///< a session's own
 };
 
+/// A recorded session that is run again, found whole from its first frame to its last.
+struct Recording {
+    const session::OpenSession* session = nullptr;  ///< never null
+    std::uint64_t frames = 0;                       ///< 1 or more, numbered from 0
+    gaze::StereoView views{};                       ///< of the first; all have its pictures' sizes
+};
+
 /// A run of the loop, ready to go; everything that can be refused without a device has been.
 struct FrameRunRequest {
     const ProgramSettings* settings = nullptr;
@@ -30,10 +37,10 @@ struct FrameRunRequest {
     std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)> make_source;
     /// The gaze of the target's own OpenXR session, in place of make_source.
     std::optional<drivers::OpenXrGazeOptions> openxr_gaze;
-    bool from_device = false;                       ///< the gaze, of either
-    const session::SessionFile* session = nullptr;  ///< with Recorded, and to be compared with
-    bool same_gaze = true;                          ///< settings as the session's
-    bool same_rendering = true;                     ///< settings as the session's
+    bool from_device = false;              ///< the gaze, of either
+    std::optional<Recording> recording{};  ///< with Recorded alone, and to be compared with
+    bool same_gaze = true;                 ///< settings as the recording's
+    bool same_rendering = true;            ///< settings as the recording's
     LoopOptions loop;
     bool hash = false;
     bool mark_fovea = false;

@@ -13,7 +13,7 @@
 #include "drivers/simulated/simulated_source.h"
 #include "drivers/trace/read_trace.h"
 #include "drivers/trace/trace_source.h"
-#include "runtime/session/session_file.h"
+#include "runtime/session/open_session.h"
 #include "runtime/settings/nearest_name.h"
 
 namespace gazeloop::run {

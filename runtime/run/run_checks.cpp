@@ -39,7 +39,7 @@ void check_recorded_target(const FrameRunRequest& request, const render::Rendere
         return;
     }
     for (const gaze::Eye eye : gaze::kEyes) {
-        const gaze::EyeView& view = request.session->frames.front().frame.views[gaze::index(eye)];
+        const gaze::EyeView& view = request.recording->views[gaze::index(eye)];
         const vk::Extent2D extent = config.extents[gaze::index(eye)];
         if (extent != vk::Extent2D(view.width_px, view.height_px)) {
             throw SetupError(

@@ -5,7 +5,6 @@
 #include "runtime/present/headless_target.h"
 #include "runtime/present/scaled_extent.h"
 #include "runtime/profiles/profiles_in_force.h"
-#include "runtime/report/session_summary.h"
 
 namespace gazeloop::run {
 namespace {
@@ -38,7 +37,12 @@ display::DisplayProfile display_of(const FrameRunRequest& request) {
     if (request.clock != RunClock::Recorded || values.target.name != "headless") {
         return value_or_throw(profiles::display_in_force(values.profile, *request.settings));
     }
-    return report::recorded_display(*request.session);
+    display::DisplayProfile display = request.recording->session->info().header.meta.display;
+    if (display.refresh_hz <= 0.0) {
+        constexpr double kUnrecorded_hz = 60.0;
+        display.refresh_hz = kUnrecorded_hz;
+    }
+    return display;
 }
 
 std::unique_ptr<present::OpenXrTarget> make_openxr_target(const FrameRunRequest& request,
@@ -61,14 +65,14 @@ std::unique_ptr<present::FrameTarget> make_headless_target(const FrameRunRequest
         .display = display,
         .extents = scaled_extents(display, values.render.scale),
         .paced = request.clock == RunClock::Wall};
-    if (request.clock == RunClock::Recorded && !request.session->frames.empty()) {
+    if (request.clock == RunClock::Recorded) {
         for (const gaze::Eye eye : gaze::kEyes) {
-            const gaze::EyeView& view =
-                request.session->frames.front().frame.views[gaze::index(eye)];
+            const gaze::EyeView& view = request.recording->views[gaze::index(eye)];
             options.extents[gaze::index(eye)] = vk::Extent2D(view.width_px, view.height_px);
         }
-        if (const auto format = request.session->meta("target_format")) {
-            options.format = format_named(*format);
+        const auto& format = request.recording->session->info().header.meta.target_format;
+        if (!format.empty()) {
+            options.format = format_named(format);
         }
     }
     return std::make_unique<present::HeadlessTarget>(options);

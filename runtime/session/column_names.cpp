@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "runtime/session/record_fields.h"
 
 namespace gazeloop::session {
@@ -25,18 +23,6 @@ std::string ColumnNames::insert_into(std::string_view table) const {
 std::string ColumnNames::update(std::string_view table, std::string_view key) const {
     return fmt::format("UPDATE {} SET {} = ? WHERE {} = ?", table, fmt::join(names_, " = ?, "),
                        key);
-}
-
-std::string ColumnNames::select_from(std::string_view table, std::string_view key,
-                                     std::span<const ColumnSource> sources) const {
-    std::vector<std::string> names = names_;
-    for (std::string& name : names) {
-        const auto at = std::ranges::find(sources, name, &ColumnSource::name);
-        if (at != sources.end()) {
-            name.insert(0, at->source + " AS ");
-        }
-    }
-    return fmt::format("SELECT {2}, {0} FROM {1} ORDER BY {2}", fmt::join(names, ", "), table, key);
 }
 
 ColumnNames named_value_columns() {

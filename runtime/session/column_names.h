@@ -7,12 +7,6 @@
 
 namespace gazeloop::session {
 
-/// What a column is read from where it has another name in the file: a column, or NULL.
-struct ColumnSource {
-    std::string name;
-    std::string source;
-};
-
 /// The columns of a record, in the order in which its fields are visited, and SQL with them.
 class ColumnNames {
   public:
@@ -24,10 +18,6 @@ class ColumnNames {
     [[nodiscard]] std::string insert_into(std::string_view table) const;
     /// Sets every column in the row whose `key` is the parameter after theirs.
     [[nodiscard]] std::string update(std::string_view table, std::string_view key) const;
-    /// The key, one column or several, then these columns, in the order of the key. Columns that
-    /// have a source are read from it.
-    [[nodiscard]] std::string select_from(std::string_view table, std::string_view key,
-                                          std::span<const ColumnSource> sources = {}) const;
     [[nodiscard]] std::span<const std::string> names() const { return names_; }
 
   private:

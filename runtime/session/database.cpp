@@ -6,6 +6,8 @@
 #include <string>
 #include <system_error>
 
+#include "runtime/session/row_statement.h"
+
 namespace gazeloop::session {
 namespace {
 
@@ -50,6 +52,7 @@ Database::Database(const std::filesystem::path& file, Access access) {
         sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
         sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
         sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, kLongestValueBytes);
+        add_row_function(opened);
     }
 }
 

@@ -105,7 +105,7 @@ void write_header(const std::filesystem::path& file, const SessionHeader& header
                          {std::string(kMetaClosed), std::string(kNotClosed)},
                          {std::string(kMetaPasses), header.passes.text()},
                          {std::string(kMetaGrids), header.grids.text()}});
-    insert_named_values(database, "meta", header.meta);
+    insert_named_values(database, "meta", rows_of(header.meta));
     insert_named_values(database, "config", header.config);
     insert_named_values(database, "device", header.device);
     // After the commit: a file that is copied without its companions is still a session.

@@ -70,11 +70,11 @@ nlohmann::ordered_json ReplayHash::json() const {
 }
 
 void ReplayCheck::on_frame(const frame::FrameRecord& record) {
-    if (!same_gaze_ || record.index >= session_.frames.size()) {
+    if (!same_gaze_ || !value_or_throw(move_to(handed_over_, record.index))) {
         return;
     }
     ++foveae_compared_;
-    if (bits(record.fovea) == bits(session_.frames[record.index].frame.fovea)) {
+    if (bits(record.fovea) == bits(handed_over_.row()->frame.fovea)) {
         ++foveae_equal_;
     } else if (!first_difference_) {
         first_difference_ = record.index;
@@ -82,10 +82,10 @@ void ReplayCheck::on_frame(const frame::FrameRecord& record) {
 }
 
 void ReplayCheck::on_gpu(const frame::FrameGpuRecord& record) {
-    if (!same_rendering_ || record.index >= session_.frames.size()) {
+    if (!same_rendering_ || !value_or_throw(move_to(finished_, record.index))) {
         return;
     }
-    const auto& recorded = session_.frames[record.index].gpu.pixel_hash;
+    const auto& recorded = finished_.row()->gpu.pixel_hash;
     if (!record.pixel_hash || !recorded) {
         return;
     }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "runtime/frame/frame_observer.h"
-#include "runtime/session/session_file.h"
+#include "runtime/session/cursor.h"
 
 namespace gazeloop::session {
 
@@ -30,14 +30,17 @@ class ReplayHash final : public frame::FrameObserver {
     std::uint64_t pixel_frames_ = 0;
 };
 
-/// Compares a replay with the recorded frames: fovea points bit by bit, and pixel hashes where both
-/// have them.
+/// Compares a replay with the recorded frames, which are read beside it: fovea points bit by bit,
+/// and pixel hashes where both have them. Throws SetupError (BadInput) where they cannot be read.
 class ReplayCheck final : public frame::FrameObserver {
   public:
     /// `session` must outlive this. Foveae are compared only if `same_gaze`, pixels only if
     /// `same_rendering` as well.
-    ReplayCheck(const session::SessionFile& session, bool same_gaze, bool same_rendering)
-        : session_(session), same_gaze_(same_gaze), same_rendering_(same_gaze && same_rendering) {}
+    ReplayCheck(const OpenSession& session, bool same_gaze, bool same_rendering)
+        : handed_over_(session),
+          finished_(session),
+          same_gaze_(same_gaze),
+          same_rendering_(same_gaze && same_rendering) {}
 
     void on_frame(const frame::FrameRecord& record) override;
     void on_gpu(const frame::FrameGpuRecord& record) override;
@@ -48,7 +51,8 @@ class ReplayCheck final : public frame::FrameObserver {
     [[nodiscard]] nlohmann::ordered_json json() const;
 
   private:
-    const session::SessionFile& session_;
+    FrameCursor handed_over_;  ///< at the frame of on_frame
+    FrameCursor finished_;     ///< at that of on_gpu, some frames behind
     bool same_gaze_;
     bool same_rendering_;
     std::uint64_t foveae_equal_ = 0;

@@ -5,25 +5,14 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "runtime/error.h"
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/hidden_mesh.h"
-#include "runtime/named_value.h"
+#include "runtime/session/session_header.h"
 
 namespace gazeloop::session {
-
-/// What a session states about itself before its first frame. Names are unique within each list;
-/// in `meta` the recorder keeps schema_version, records_dropped, closed, passes and grids itself.
-struct SessionHeader {
-    frame::PassList passes{};          ///< what the passes of its frames are called
-    frame::GridList grids{};           ///< and their grids
-    std::vector<NamedValue> meta{};    ///< program version, command line, start, target, clock
-    std::vector<NamedValue> config{};  ///< every setting in force, by key
-    std::vector<NamedValue> device{};  ///< Vulkan device and driver, OpenXR runtime, gaze source
-};
 
 /// What happened to a recording.
 struct RecordingStatus {

@@ -36,6 +36,10 @@ void Statement::bind(int parameter, std::string_view text) {
                               SQLITE_UTF8));
 }
 
+void Statement::bind_pointer(int parameter, void* pointer, const char* type) {
+    check(sqlite3_bind_pointer(handle_.get(), parameter + 1, pointer, type, nullptr));
+}
+
 void Statement::run() {
     while (next()) {
     }
@@ -50,36 +54,13 @@ bool Statement::next() {
     return result == SQLITE_ROW;
 }
 
-Statement::Type Statement::type(int column) const {
-    switch (sqlite3_column_type(handle_.get(), column)) {
-        case SQLITE_INTEGER:
-            return Type::Integer;
-        case SQLITE_FLOAT:
-            return Type::Real;
-        case SQLITE_TEXT:
-            return Type::Text;
-        case SQLITE_BLOB:
-            return Type::Blob;
-        default:
-            return Type::Null;
-    }
-}
-
 std::int64_t Statement::integer(int column) const {
     return sqlite3_column_int64(handle_.get(), column);
 }
 
-double Statement::real(int column) const { return sqlite3_column_double(handle_.get(), column); }
-
-std::string_view Statement::text(int column) const {
-    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(handle_.get(), column));
-    const int size = sqlite3_column_bytes(handle_.get(), column);
-    return bytes == nullptr ? std::string_view{}
-                            : std::string_view{bytes, static_cast<std::size_t>(size)};
-}
-
-std::string_view Statement::name(int column) const {
-    return sqlite3_column_name(handle_.get(), column);
+bool Statement::sorted() const {
+    constexpr int kKeepCounting = 0;
+    return sqlite3_stmt_status(handle_.get(), SQLITE_STMTSTATUS_SORT, kKeepCounting) > 0;
 }
 
 }  // namespace gazeloop::session

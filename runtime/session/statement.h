@@ -21,18 +21,17 @@ class Statement {
     void bind(int parameter, double value);           ///< not-a-number becomes NULL
     void bind(int parameter, std::string_view text);  ///< must live until the statement has run
 
+    /// For a function of our own that knows the type's name; both must outlive the statement.
+    void bind_pointer(int parameter, void* pointer, const char* type);
+
     /// Runs a statement that returns no rows, and makes it ready for the next run.
     void run();
 
     /// Moves to the next row; false after the last one.
     bool next();
 
-    enum class Type { Null, Integer, Real, Text, Blob };
-    [[nodiscard]] Type type(int column) const;
     [[nodiscard]] std::int64_t integer(int column) const;
-    [[nodiscard]] double real(int column) const;
-    [[nodiscard]] std::string_view text(int column) const;  ///< valid until the next move
-    [[nodiscard]] std::string_view name(int column) const;
+    [[nodiscard]] bool sorted() const;  ///< SQLite has sorted rows for it
 
   private:
     struct Finalize {

@@ -1,10 +1,9 @@
 #include "runtime/session/table_reader.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <bit>
-#include <limits>
 #include <vector>
 
 #include "runtime/session/schema.h"
@@ -28,31 +27,45 @@ std::string_view former_name(std::string_view name) {
     return name.starts_with("grid_") || name.starts_with("pass_") ? std::string_view{} : name;
 }
 
-/// What is read from elsewhere in a file of this version: former names, and NULL for columns that
-/// it lacks.
-std::vector<ColumnSource> sources(const Database& database, std::string_view table,
-                                  const ColumnNames& columns, int version) {
-    std::vector<ColumnSource> sources;
-    for (const std::string& name : columns.names()) {
-        const std::string_view before = version == 1 ? former_name(name) : name;
-        const bool later = std::ranges::find(kLaterColumns, before) != kLaterColumns.end();
-        if (before.empty() || (later && !has_column(database, table, before))) {
-            sources.push_back({name, "NULL"});
-        } else if (before != name) {
-            sources.push_back({name, std::string(before)});
-        }
-    }
-    return sources;
+/// What a column is read from in a file of this version: itself, a former name, or NULL where the
+/// file lacks it.
+std::string source_of(const Database& database, std::string_view table, std::string_view name,
+                      int version) {
+    const std::string_view before = version == 1 ? former_name(name) : name;
+    const bool later = std::ranges::find(kLaterColumns, before) != kLaterColumns.end();
+    const bool lacking = before.empty() || (later && !has_column(database, table, before));
+    return std::string(lacking ? "NULL" : before);
 }
 
-Statement select(const Database& database, std::string_view table, std::string_view key,
-                 const ColumnNames& columns, int version) {
+/// The table's rows in the unsigned order of the key, which begins with the first of the columns:
+/// one query after the other. SQLite's own order is that of signed numbers.
+std::vector<RowStatement> select(const Database& database, std::string_view table,
+                                 std::span<const std::string> columns, std::size_t key_columns,
+                                 int version) {
     try {
         if (!has_table(database, table)) {
             throw FormatError(fmt::format("not a session: has no table {}", table));
         }
-        return {database,
-                columns.select_from(table, key, sources(database, table, columns, version))};
+        std::vector<std::string> from;
+        for (const std::string& name : columns) {
+            from.push_back(source_of(database, table, name, version));
+        }
+        const std::string& key = columns.front();
+        // A key of one column is another name of the row's number.
+        const std::string order = fmt::format(
+            "ORDER BY {}", key_columns == 1
+                               ? "rowid"
+                               : fmt::format("{}", fmt::join(columns.first(key_columns), ", ")));
+        std::vector<RowStatement> parts;
+        const std::string negative = fmt::format("FROM {} WHERE {} < 0", table, key);
+        if (Statement(database, fmt::format("SELECT 1 {} LIMIT 1", negative)).next()) {
+            parts.emplace_back(database, from,
+                               fmt::format("FROM {} WHERE {} >= 0 {}", table, key, order));
+            parts.emplace_back(database, from, fmt::format("{} {}", negative, order));
+        } else {
+            parts.emplace_back(database, from, fmt::format("FROM {} {}", table, order));
+        }
+        return parts;
     } catch (const DatabaseError& error) {
         throw FormatError(fmt::format("table {}: {}", table, error.what()));
     }
@@ -67,30 +80,42 @@ bool has_table(const Database& database, std::string_view table) {
     return find.next();
 }
 
-TableReader::TableReader(const Database& database, std::string_view table, std::string_view key,
-                         const ColumnNames& columns, int version)
-    : table_(table),
-      key_columns_(1 + static_cast<int>(std::count(key.begin(), key.end(), ','))),
-      statement_(select(database, table, key, columns, version)) {}
+TableReader::TableReader(const Database& database, std::string_view table,
+                         std::span<const std::string_view> key, const ColumnNames& columns,
+                         int version)
+    : table_(table), key_columns_(key.size()), columns_(key.begin(), key.end()) {
+    columns_.insert(columns_.end(), columns.names().begin(), columns.names().end());
+    parts_ = select(database, table, columns_, key_columns_, version);
+}
 
 bool TableReader::next() {
     ++row_;
     column_ = 0;
-    try {
-        if (!statement_.next()) {
-            return false;
-        }
-    } catch (const DatabaseError& error) {
-        fail(error.what());
+    if (!step()) {
+        return false;
+    }
+    if (row_ == 1 && parts_[part_].sorted()) {
+        fail("is not stored by its key");
     }
     read_key();
     return true;
 }
 
+bool TableReader::step() {
+    try {
+        while (part_ < parts_.size() && !parts_[part_].next()) {
+            ++part_;
+        }
+    } catch (const DatabaseError& error) {
+        fail(error.what());
+    }
+    return part_ < parts_.size();
+}
+
 void TableReader::read_key() {
     Key key{};
     for (; column_ < key_columns_; ++column_) {
-        key[static_cast<std::size_t>(column_)] = integer();
+        read(cell(), key[column_]);
     }
     // A damaged tree may lead to the same rows again and again.
     if (key_ && key <= *key_) {
@@ -99,80 +124,17 @@ void TableReader::read_key() {
     key_ = key;
 }
 
-bool TableReader::at_null() const { return statement_.type(column_) == Statement::Type::Null; }
-
 void TableReader::fail(std::string_view what) const {
     throw FormatError(fmt::format("table {}, row {}: {}", table_, row_, what));
 }
 
 void TableReader::fail_field(std::string_view expected) const {
-    constexpr std::size_t kShown = 40;
-    const std::string_view text = statement_.text(column_);
-    fail(fmt::format("column {} holds {} where {} was expected", statement_.name(column_),
-                     at_null() ? "NULL" : fmt::format("'{}'", text.substr(0, kShown)), expected));
+    fail(fmt::format("column {} holds {} where {} was expected", columns_[column_], cell().shown(),
+                     expected));
 }
 
-std::int64_t TableReader::integer() const {
-    if (statement_.type(column_) != Statement::Type::Integer) {
-        fail_field("an integer");
-    }
-    return statement_.integer(column_);
-}
-
-std::int64_t TableReader::integer_below(std::int64_t end) const {
-    const std::int64_t value = integer();
-    if (value < 0 || value >= end) {
-        fail_field(fmt::format("an integer from 0 to {}", end - 1));
-    }
-    return value;
-}
-
-void TableReader::read(std::int64_t& value) { value = integer(); }
-
-void TableReader::read(std::uint64_t& value) { value = std::bit_cast<std::uint64_t>(integer()); }
-
-void TableReader::read(std::uint32_t& value) {
-    constexpr std::int64_t kEnd = std::int64_t{std::numeric_limits<std::uint32_t>::max()} + 1;
-    value = static_cast<std::uint32_t>(integer_below(kEnd));
-}
-
-void TableReader::read(bool& value) { value = integer_below(2) == 1; }
-
-void TableReader::read(double& value) {
-    if (at_null()) {
-        value = std::numeric_limits<double>::quiet_NaN();
-        return;
-    }
-    if (statement_.type(column_) != Statement::Type::Real) {
-        fail_field("a real number or NULL");
-    }
-    value = statement_.real(column_);
-}
-
-void TableReader::read(std::string& value) {
-    if (statement_.type(column_) != Statement::Type::Text) {
-        fail_field("text");
-    }
-    value = statement_.text(column_);
-}
-
-void TableReader::read(time::StampKind& value) {
-    value = static_cast<time::StampKind>(
-        integer_below(static_cast<std::int64_t>(time::kStampKindCount)));
-}
-
-void TableReader::read(gaze::FoveaState& value) {
-    value = static_cast<gaze::FoveaState>(
-        integer_below(static_cast<std::int64_t>(gaze::kFoveaStateNames.size())));
-}
-
-void TableReader::read(gaze::LossReason& value) {
-    value = static_cast<gaze::LossReason>(
-        integer_below(static_cast<std::int64_t>(gaze::kLossReasonNames.size())));
-}
-
-void TableReader::read(gaze::Eye& value) {
-    value = static_cast<gaze::Eye>(integer_below(static_cast<std::int64_t>(gaze::kEyeCount)));
+void TableReader::fail_range(std::int64_t end) const {
+    fail_field(fmt::format("an integer from 0 to {}", end - 1));
 }
 
 }  // namespace gazeloop::session

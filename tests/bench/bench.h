@@ -24,6 +24,7 @@ struct Options {
     unsigned rounds = 3;                 ///< --rounds
     std::vector<std::string> cases{};    ///< --case, by name; all of them if empty
     std::optional<std::string> trace{};  ///< --trace: recorded gaze for the benches that follow one
+    std::optional<std::string> against{};  ///< --against: another build's gazeloop
 
     [[nodiscard]] bool wants(std::string_view name) const;
 };
@@ -47,6 +48,10 @@ std::vector<Figure> maps(const Options& options);
 /// costs, and whether any is lost in a minute beside a loop under load. Runs under umockdev's
 /// preload library.
 std::vector<Figure> devices(const Options& options);
+
+/// `gazeloop report` on a session of an hour (1 kHz, 90 Hz, made once in virtual time and kept in
+/// the cache, 1.1 GB): its time and peak memory, and both over those of another build, in turns.
+std::vector<Figure> report(const Options& options);
 
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.
 [[nodiscard]] double median(std::vector<double> values);

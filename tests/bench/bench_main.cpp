@@ -20,8 +20,12 @@ struct Named {
     std::string_view name;
     std::vector<Figure> (*run)(const Options&);
 };
-constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast}, Named{"acuity", acuity},
-                              Named{"loop", loop}, Named{"maps", maps}, Named{"devices", devices}};
+constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
+                              Named{"acuity", acuity},
+                              Named{"loop", loop},
+                              Named{"maps", maps},
+                              Named{"devices", devices},
+                              Named{"report", report}};
 
 /// Preload libraries count from a program's start: it begins once more, under umockdev's.
 void begin_under_umockdev(char** arguments) {
@@ -76,6 +80,11 @@ int bench_main(int count, char** arguments) {
         .number_between(1, 100);
     program.option("--case", options.cases, "only this case; may be repeated");
     program.option("--trace", options.trace, "recorded gaze, for benches that follow one");
+    program
+        .option("--against", options.against,
+                "the gazeloop program of another build, for the bench report: it makes the "
+                "session of an hour, which both then read in turns, and gives the ratios")
+        .type("FILE");
     const auto parsed =
         line.parse(std::vector<std::string>(arguments + std::min(count, 1), arguments + count));
     if (!parsed) {

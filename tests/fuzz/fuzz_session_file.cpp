@@ -1,4 +1,4 @@
-// Any bytes as a session file: an error that names the file, or a session.
+// Any bytes as a session file, played to its end: an error that names the file, or a session.
 
 #include <cstddef>
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "runtime/session/session_file.h"
+#include "runtime/session/playback.h"
 #include "tests/support/temporary_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -18,9 +18,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     std::ofstream(file, std::ios::binary | std::ios::trunc)
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-    const Expected<session::SessionFile> session = session::read_session(file);
-    if (!session && (session.error().kind != ErrorKind::BadInput ||
-                     session.error().message.find(file.string()) == std::string::npos)) {
+    const Expected<session::PlaybackEnd> end = session::play(file, {});
+    if (!end && (end.error().kind != ErrorKind::BadInput ||
+                 end.error().message.find(file.string()) == std::string::npos)) {
         std::abort();
     }
     return 0;

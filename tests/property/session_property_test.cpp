@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "runtime/session/playback.h"
 #include "runtime/session/session_file.h"
+#include "runtime/session/session_recorder.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gazeloop::session {
@@ -334,6 +336,72 @@ RC_GTEST_PROP(Session, ComesBackBitForBit,
         RC_ASSERT(bits_of(session.frames[i].frame) == bits_of(frames[i].frame));
         RC_ASSERT(bits_of(session.frames[i].gpu) == bits_of(frames[i].gpu));
     }
+}
+
+/// What an observer is told, as bits: the live loop's calls and those of a playback are compared.
+class Told final : public frame::FrameObserver {
+  public:
+    void on_hidden(const gaze::HiddenChange& change) override {
+        Bits& call = calls.emplace_back(Bits{0, change.frame});
+        for (const gaze::HiddenMesh& mesh : *change.meshes) {
+            append(call, std::uint64_t{mesh.size()});
+            for (const gaze::HiddenTriangle& triangle : mesh) {
+                for (const glm::dvec2& corner : triangle.corners) {
+                    append(call, corner.x);
+                    append(call, corner.y);
+                }
+            }
+        }
+    }
+    void on_sample(const gaze::GazeSample& sample, std::uint64_t frame) override {
+        add(1, frame, bits_of(sample));
+    }
+    void on_frame(const frame::FrameRecord& record) override { add(2, 0, bits_of(record)); }
+    void on_gpu(const frame::FrameGpuRecord& record) override { add(3, 0, bits_of(record)); }
+
+    std::vector<Bits> calls;
+
+  private:
+    void add(std::uint64_t kind, std::uint64_t frame, const Bits& bits) {
+        Bits& call = calls.emplace_back(Bits{kind, frame});
+        call.insert(call.end(), bits.begin(), bits.end());
+    }
+};
+
+RC_GTEST_PROP(Session, IsPlayedAsItWasTold, (std::uint64_t seed, std::set<std::uint64_t> numbers)) {
+    numbers.insert({0, std::numeric_limits<std::uint64_t>::max()});
+    AnyRecord any(seed);
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "run.session";
+    const auto recorder = value_or_throw(SessionRecorder::create(file, {}));
+    Told live;
+    for (const std::uint64_t number : numbers) {
+        if (any.coin()) {
+            const gaze::HiddenChange change{number, any.hidden()};
+            recorder->add(change);
+            live.on_hidden(change);
+        }
+        while (any.coin()) {
+            const gaze::GazeSample sample = any.sample();
+            recorder->add(sample, number);
+            live.on_sample(sample, number);
+        }
+        const frame::FrameRecord frame = any.frame(number);
+        recorder->add(frame);
+        live.on_frame(frame);
+        if (any.coin()) {
+            const frame::FrameGpuRecord gpu = any.gpu(number);
+            recorder->add(gpu);
+            live.on_gpu(gpu);
+        }
+    }
+    RC_ASSERT(recorder->close().complete());
+
+    Told played;
+    const std::array<frame::FrameObserver*, 1> observers{&played};
+    const PlaybackEnd end = value_or_throw(play(file, observers));
+    RC_ASSERT(end.last_frame == std::optional(*numbers.rbegin()));
+    RC_ASSERT(played.calls == live.calls);
 }
 
 }  // namespace

@@ -39,8 +39,7 @@ TEST(Clock, OfTheDayMayStep) {
     const ScratchFolder folder;
     const session::SessionFile session = record(folder, stepped_clocks());
     std::tm stated{};
-    ASSERT_NE(strptime(std::string(session.meta("started_utc").value()).c_str(),
-                       "%Y-%m-%dT%H:%M:%SZ", &stated),
+    ASSERT_NE(strptime(session.header.meta.started_utc.c_str(), "%Y-%m-%dT%H:%M:%SZ", &stated),
               nullptr);
     ASSERT_GT(std::abs(std::difftime(timegm(&stated), std::time(nullptr))), 3000.0)
         << "the clock did not step at all";

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string>
 
+#include "runtime/session/session_recorder.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/latency/example_frame.h"
 #include "tests/unit/session/child_process.h"
@@ -261,6 +262,12 @@ TEST_F(ReadSession, RefusesRowsThatComeTwice) {
     loosen("event");
     change("INSERT INTO event SELECT * FROM event");
     EXPECT_THAT(error(), HasSubstr("table event, row 2: is out of order"));
+}
+
+TEST_F(ReadSession, RefusesATableThatIsNotStoredByItsKey) {
+    record();
+    loosen("view");
+    EXPECT_THAT(error(), HasSubstr("table view, row 1: is not stored by its key"));
 }
 
 TEST_F(ReadSession, RefusesSamplesThatGoBackInFrames) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "runtime/session/session_file.h"
+#include "runtime/session/session_recorder.h"
 #include "runtime/time/clock.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/latency/example_frame.h"

@@ -1,0 +1,120 @@
+#include "runtime/session/playback.h"
+
+#include <limits>
+#include <utility>
+
+#include "runtime/session/reading_error.h"
+#include "runtime/session/row_readers.h"
+
+namespace gazeloop::session {
+namespace {
+
+/// A reader that stands on its next piece.
+template <typename Rows>
+class Ahead {
+  public:
+    explicit Ahead(const OpenSession& session)
+        : rows_(session.database(), session.info().schema_version), more_(rows_.next()) {}
+
+    /// Hands over the pieces from here on while `due` says so.
+    template <typename Due, typename Tell>
+    void tell_while(const Due& due, const Tell& tell) {
+        while (more_ && due(rows_.row())) {
+            tell(rows_.row());
+            more_ = rows_.next();
+        }
+    }
+
+  private:
+    Rows rows_;
+    bool more_;
+};
+
+class Player {
+  public:
+    Player(const OpenSession& session, std::span<frame::FrameObserver* const> observers)
+        : observers_(observers),
+          frames_(session.database(), session.info().schema_version),
+          hidden_(session),
+          samples_(session),
+          events_(session) {}
+
+    PlaybackEnd run() {
+        while (frames_.next()) {
+            const RecordedFrame& recorded = frames_.row();
+            const std::uint64_t index = recorded.frame.index;
+            tell_before(index, recorded.frame.stamps.end_frame.ns);
+            tell([&](frame::FrameObserver& observer) { observer.on_frame(recorded.frame); });
+            if (recorded.gpu_known) {
+                tell([&](frame::FrameObserver& observer) { observer.on_gpu(recorded.gpu); });
+            }
+            end_.last_frame = index;
+        }
+        tell_before(std::numeric_limits<std::uint64_t>::max(),
+                    std::numeric_limits<std::int64_t>::max());
+        return std::move(end_);
+    }
+
+  private:
+    template <typename Call>
+    void tell(const Call& call) const {
+        for (frame::FrameObserver* const observer : observers_) {
+            call(*observer);
+        }
+    }
+
+    /// What comes before this frame is told, which ended at that time.
+    void tell_before(std::uint64_t frame, std::int64_t end_ns) {
+        const auto due = [&](const auto& piece) { return piece.frame <= frame; };
+        hidden_.tell_while(due, [this](const gaze::HiddenChange& change) {
+            tell([&](frame::FrameObserver& observer) { observer.on_hidden(change); });
+        });
+        samples_.tell_while(due, [this](const RecordedSample& one) {
+            tell(
+                [&](frame::FrameObserver& observer) { observer.on_sample(one.sample, one.frame); });
+        });
+        events_.tell_while(
+            [&](const RecordedEvent& event) {
+                return !event.time.known() || event.time.ns <= end_ns;
+            },
+            [this](const RecordedEvent& event) { tell_event(event); });
+    }
+
+    void tell_event(const RecordedEvent& event) {
+        if (event.kind == "error") {
+            end_.last_error = event.text;
+        }
+        tell([&](frame::FrameObserver& observer) {
+            observer.on_event(event.time, event.kind, event.text);
+        });
+    }
+
+    std::span<frame::FrameObserver* const> observers_;
+    FrameRows frames_;
+    Ahead<HiddenRows> hidden_;
+    Ahead<SampleRows> samples_;
+    Ahead<EventRows> events_;
+    PlaybackEnd end_;
+};
+
+}  // namespace
+
+Expected<PlaybackEnd> play(const OpenSession& session,
+                           std::span<frame::FrameObserver* const> observers) {
+    try {
+        return Player(session, observers).run();
+    } catch (...) {
+        return std::unexpected(reading_error(session.file()));
+    }
+}
+
+Expected<PlaybackEnd> play(const std::filesystem::path& session,
+                           std::span<frame::FrameObserver* const> observers) {
+    const Expected<OpenSession> open = OpenSession::open(session);
+    if (!open) {
+        return std::unexpected(open.error());
+    }
+    return play(*open, observers);
+}
+
+}  // namespace gazeloop::session

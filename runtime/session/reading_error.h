@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "runtime/error.h"
+
+namespace gazeloop::session {
+
+/// BadInput: what is wrong with the file.
+Error bad_session(const std::filesystem::path& file, std::string_view what);
+
+/// The exception that is being handled, as an error that names the file, if it is a FormatError or
+/// a DatabaseError; any other one goes on. Precondition: called in a handler.
+Error reading_error(const std::filesystem::path& file);
+
+}  // namespace gazeloop::session
