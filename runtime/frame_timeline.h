@@ -51,8 +51,8 @@ class FrameTimeline {
     /// pose gets it from the target, and gaze goes on coming while the target wants no frames.
     [[nodiscard]] virtual bool is_live() const { return false; }
 
-    /// Total time, ns, that the machine was suspended and this time line's clock did not count. 0 for
-    /// time lines that follow no hardware clock.
+    /// Total time, ns, that the machine was suspended and this time line's clock did not count. 0
+    /// for time lines that follow no hardware clock.
     [[nodiscard]] virtual std::int64_t slept_ns() const { return 0; }
 
     /// Whether the frame lies past the end of the recording.
