@@ -21,6 +21,8 @@ class Cursor {
   public:
     /// Before the first piece. The session must outlive it.
     explicit Cursor(const OpenSession& session);
+    Cursor(const Cursor&) = delete;
+    Cursor& operator=(const Cursor&) = delete;
     Cursor(Cursor&&) noexcept;
     Cursor& operator=(Cursor&&) noexcept;
     ~Cursor();

@@ -19,6 +19,8 @@ class OpenSession {
     /// the file): missing, not a session, of a newer or too old schema (both versions named),
     /// damaged (table and row named).
     static Expected<OpenSession> open(const std::filesystem::path& file);
+    OpenSession(const OpenSession&) = delete;
+    OpenSession& operator=(const OpenSession&) = delete;
     OpenSession(OpenSession&&) noexcept;
     OpenSession& operator=(OpenSession&&) noexcept;
     ~OpenSession();

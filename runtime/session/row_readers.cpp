@@ -91,7 +91,7 @@ void HiddenRows::look_ahead() {
     if (!triangles_->next()) {
         return;
     }
-    Triangle& next = ahead_.emplace();
+    HiddenRecord& next = ahead_.emplace();
     visit_hidden(*triangles_, next.frame, next.eye, next.triangle);
     if (next.frame < frame_before) {
         triangles_->fail("is of an earlier frame than the row before it");

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "runtime/gaze/hidden_mesh.h"
+#include "runtime/session/record.h"
 #include "runtime/session/recorded_rows.h"
 #include "runtime/session/table_reader.h"
 
@@ -46,15 +47,10 @@ class HiddenRows {
     [[nodiscard]] const gaze::HiddenChange& row() const { return row_; }
 
   private:
-    struct Triangle {
-        std::uint64_t frame = 0;
-        gaze::Eye eye{};
-        gaze::HiddenTriangle triangle;
-    };
     void look_ahead();
 
     std::optional<TableReader> triangles_;  ///< none in files from before there were any
-    std::optional<Triangle> ahead_;
+    std::optional<HiddenRecord> ahead_;
     gaze::HiddenChange row_;
 };
 

@@ -19,6 +19,7 @@ namespace {
         dup2(nowhere, stream);
     }
     std::vector<char*> words;
+    words.reserve(command.size() + 1);
     for (std::string& word : command) {
         words.push_back(word.data());
     }

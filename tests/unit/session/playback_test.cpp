@@ -155,7 +155,7 @@ TEST_F(Playback, PassesOnWhatAnObserverThrows) {
     recorder_->close();
     Thrower thrower;
     const std::array<frame::FrameObserver*, 1> observers{&thrower};
-    EXPECT_THROW((void)play(file, observers), std::logic_error);
+    EXPECT_THROW(value_or_throw(play(file, observers)), std::logic_error);
 }
 
 TEST_F(Playback, NamesAFileThatIsNone) {
