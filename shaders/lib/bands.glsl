@@ -1,5 +1,5 @@
 // Which cells a plan needs: columns [x, y) of each band of 4 rows; first the LP-buffer's bands, then
-// those of the pixels that are shaded directly (runtime/foveation/band_tiles.h).
+// those of the pixels that are shaded directly (runtime/foveation/picture/band_tiles.h).
 layout(std430, set = 2, binding = 4) readonly buffer Bands { uvec2 bands[]; };
 
 bool is_needed(uvec2 cell, uint first_band) {

@@ -24,7 +24,7 @@ namespace gazeloop::foveation {
 /// the inverse of a kernel with a flat end (sin). The inverse is tabulated at half columns.
 ///
 /// Errors as the shader reads them (linear interpolation, |f''| h^2 / 8): log2 2.4e-7 and exp2
-/// 2.3e-7 of r; the forward table's as runtime/foveation/map_error.h derives them.
+/// 2.3e-7 of r; the forward table's as runtime/foveation/log_polar/map_error.h derives them.
 struct MapTables {
     static constexpr std::size_t kMantissaSteps = 512;
     static constexpr std::size_t kForwardSteps = 4096;
