@@ -50,9 +50,7 @@ void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profil
     plan.log2_max_radius = 0.0;
     plan.disc_radius_px = 0.0;
     plan.disc_border_px = 0.0;
-    plan.disc.bands.clear();
-    plan.disc.tiles.clear();
-    plan.disc.counts = {};
+    plan.disc.start(view.height_px);
     LogPolarPlan::InGazeFrame in_frame{.uniforms = gaze_frame_uniforms(map.frame())};
     double core_u = kNoCore;
     if (parameters.disc) {

@@ -7,7 +7,8 @@
 namespace gazeloop::foveation {
 
 /// Plans an eye's picture by the acuity-derived map. `gaze` in the view frame (gaze::FoveaPoint's
-/// direction), of any length and direction. Reuses the plan's memory.
+/// direction), of any length and direction. Reuses the plan's memory,
+/// which no gaze makes grow.
 ///
 /// As in plan_kfr, a texel is in the plan exactly if the bilinear read of some pixel centre outside
 /// the disc's unblended core touches it, up to the granularity of kBandRows rows. The disc is the

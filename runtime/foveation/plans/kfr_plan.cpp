@@ -18,7 +18,7 @@ void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
     plan.lp = lp;
     plan.fovea = fovea;
     plan.log2_max_radius = map.log2_max_radius();
-    plan.disc.bands.clear();
+    plan.disc.start(image.height_px);
     plan.in_gaze_frame.reset();
     plan.disc_radius_px = 0.0;
     plan.disc_border_px = 0.0;
@@ -31,8 +31,6 @@ void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
         plan.disc_border_px = std::min(parameters.border_px, hole_px);
         plan.disc_radius_px = hole_px + plan.disc_border_px;
     }
-    plan.disc.tiles.clear();
-    plan.disc.counts = {};
     if (plan.disc_radius_px >= map.max_radius_px()) {
         plan.disc_border_px = 0.0;  // the disc covers the screen: there is nothing to blend with
     }

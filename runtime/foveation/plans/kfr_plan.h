@@ -6,7 +6,7 @@
 
 namespace gazeloop::foveation {
 
-/// Plans an eye's picture by KFR. Reuses the plan's memory: no allocation once it has grown.
+/// Plans an eye's picture by KFR. Reuses the plan's memory, which no gaze makes grow.
 ///
 /// A texel is in the plan exactly if the bilinear read of some pixel centre outside the disc's
 /// unblended core touches it (up to the granularity of kBandRows rows). With a hidden area, which

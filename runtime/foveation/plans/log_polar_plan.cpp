@@ -30,8 +30,7 @@ const frame::GridList& log_polar_grids() {
 void plan_lp_tiles(const RadialMap& map, double core_u, const HiddenArea* hidden,
                    LogPolarPlan& plan) {
     const double row_angle = 2.0 * std::numbers::pi / plan.lp.height;
-    plan.texels.bands.clear();
-    plan.texels.tiles.clear();
+    plan.texels.start(plan.lp.height);
     frame::GridCounts counts;
     counts.planned = std::uint64_t{plan.lp.width} * plan.lp.height;
     for (std::uint32_t y0 = 0; y0 < plan.lp.height; y0 += kBandRows) {

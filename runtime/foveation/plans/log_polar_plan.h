@@ -44,7 +44,7 @@ struct LogPolarPlan {
 void plan_lp_tiles(const RadialMap& map, double core_u, const HiddenArea* hidden,
                    LogPolarPlan& plan);
 
-/// The disc's part of every plan. `band_of(y0, y1)` gives the columns of the pixels of these rows
+/// The disc's part of every plan, which is at its start. `band_of(y0, y1)` gives the columns of the pixels of these rows
 /// that lie in the disc.
 template <typename BandOf>
 void plan_disc_tiles(std::uint32_t height_px, const HiddenArea* hidden, const BandOf& band_of,

@@ -19,6 +19,10 @@ struct ShadedGrid {
     std::vector<Columns> bands;  ///< cells that are shaded, kBandRows rows each; none: no cell is
     std::vector<Tile> tiles;     ///< what is drawn for them
     frame::GridCounts counts;    ///< of this eye
+
+    /// Empties it. Keeps room for every band and tile that a grid of this height can have, so that
+    /// no later gaze makes it grow.
+    void start(std::uint32_t height);
 };
 
 /// One eye's picture at one gaze.
@@ -50,8 +54,8 @@ class MethodPlan {
     /// pictures do not allow.
     virtual Expected<void> prepare(const gaze::StereoView& views) = 0;
 
-    /// Plans one eye's picture at one gaze, in microseconds. Reuses the plan's memory: no
-    /// allocation once it has grown. `hidden` must be of this picture; null: nothing is hidden.
+    /// Plans one eye's picture at one gaze, in microseconds. Reuses the plan's memory: only the
+    /// first call for a prepare() allocates, wherever the gaze is then. `hidden` must be of this picture; null: nothing is hidden.
     /// Precondition: prepare() for views that this one belongs to.
     virtual void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
                       const HiddenArea* hidden, EyePlan& plan) const = 0;
