@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/trace_report.h"
 
 namespace gazeloop::gaze {
 
@@ -25,6 +26,7 @@ struct GazeTrace {
     std::vector<gaze::GazeSample> samples;
     std::uint64_t rows_out_of_order = 0;
     std::uint64_t rows_missing = 0;  ///< by gaps in the sequence numbers, where the file has them
+    TraceReport report;              ///< what the file's reader found
 };
 
 }  // namespace gazeloop::gaze
