@@ -21,12 +21,12 @@ void require(bool held) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace gazeloop::latency;
+    using namespace gazeloop::time;
     constexpr std::int64_t kPollingUnit_ns = 100'000;
     ClockFit clock(size > 0 ? data[size - 1] * kPollingUnit_ns : 0);
     std::int64_t device_ns = 0;
     std::int64_t arrived_ns = 1'000'000'000'000;
-    // Two bytes a sample: what both clocks advance by; the lowest bits choose a scale.
+    // Two bytes per sample: what both clocks advance by; the lowest bits choose a scale.
     for (std::size_t i = 0; i + 2 <= size; i += 2) {
         const auto scaled = [](std::uint8_t byte) {
             return std::int64_t{static_cast<std::int8_t>(byte)} << (8 * (byte & 7U));

@@ -10,6 +10,7 @@
 
 #include "runtime/foveation/log_polar/float_map.h"
 #include "runtime/foveation/plans/acuity_plan.h"
+#include "runtime/foveation/plans/kfr_plan.h"
 
 namespace {
 
