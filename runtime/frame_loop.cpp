@@ -12,7 +12,7 @@
 namespace gazeloop {
 namespace {
 
-/// A second of a 1000 Hz tracker, so that a late frame makes no room for its samples first.
+/// One second of a 1000 Hz tracker, so that a late frame need not allocate for its samples.
 constexpr std::size_t kSamplesAtOnce = 1000;
 
 class FrameLoop {
@@ -68,7 +68,7 @@ class FrameLoop {
             parts_.renderer.wait_idle();
             report_finished_frames();
         } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch)
-            // A second failure of what has failed: the first one is told.
+            // It failed again after its failure; the first one is reported.
         }
     }
 
@@ -99,7 +99,7 @@ class FrameLoop {
         }
     }
 
-    /// Counted to the end of the frame by the clock, not by what a runtime announces.
+    /// Counted up to the end of the frame by the clock, not by what a runtime announces.
     [[nodiscard]] bool time_is_up() const {
         return *options_.seconds <= 0.0 ||
                (timeline_ != nullptr && static_cast<double>(timeline_->now().ns) +
@@ -140,7 +140,7 @@ class FrameLoop {
         record.views = planned_.views;
         follow_hidden_area(record.index);
 
-        // A frame that is not to be drawn still takes the gaze, so that none is late for the next.
+        // A frame that is not drawn still takes the gaze, so that the next one gets no old gaze.
         if (planned_.should_render) {
             view_.targets = parts_.target.acquire();
             parts_.renderer.prepare(planned_.views);
@@ -167,7 +167,7 @@ class FrameLoop {
         result_.period_ns = planned_.period_ns;
     }
 
-    /// Another mask, or other fields of view for it: rare, so that it may take its time.
+    /// Another mask, or other fields of view for it. This is rare, so it may take its time.
     void follow_hidden_area(std::uint64_t frame) {
         const gaze::HiddenMeshes meshes = options_.hidden_area ? planned_.hidden : nullptr;
         const bool changed = meshes != hidden_.meshes;
@@ -208,8 +208,8 @@ class FrameLoop {
         }
     }
 
-    /// While the target wants no frames the gaze is taken all the same: the first one after would
-    /// find a queue full of the oldest.
+    /// While the target wants no frames, the gaze is still taken. Otherwise the first frame after
+    /// that would find a queue full of the oldest gaze.
     void take_idle_gaze() {
         if (timeline_ != nullptr && timeline_->is_live()) {
             read_gaze(timeline_->now().ns);
@@ -225,7 +225,7 @@ class FrameLoop {
         return timeline_->is_live() ? parts_.target.head_at(time_ns) : std::nullopt;
     }
 
-    /// What needs no gaze goes to the GPU before it is read.
+    /// What needs no gaze goes to the GPU before the gaze is read.
     void begin(std::uint64_t frame) {
         view_.index = frame;
         view_.scene_time_s = planned_.scene_time_s;
@@ -245,8 +245,8 @@ class FrameLoop {
         }
     }
 
-    /// Frames overlap on the GPU only while it keeps up with the display: behind a backlog the gaze
-    /// would age by whole frames between latch and display.
+    /// Frames overlap on the GPU only while it keeps up with the display. Behind a backlog, the
+    /// gaze would age by whole frames between latch and display.
     void wait_for_gpu() {
         if (last_gpu_ns_ > planned_.period_ns) {
             parts_.renderer.wait_for_slot(1);

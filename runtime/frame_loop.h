@@ -17,22 +17,23 @@ namespace gazeloop {
 
 /// Why a loop ended.
 enum class LoopEnd {
-    Limit,        ///< the asked number of frames or seconds
+    Limit,        ///< the requested number of frames or seconds
     SourceEnd,    ///< the trace or the recorded session is over
     Interrupted,  ///< by a signal
     Closed,       ///< its window was closed
-    TargetEnd,    ///< the runtime wanted it
+    TargetEnd,    ///< the runtime asked for it
 };
 
 struct LoopOptions {
     std::optional<std::uint64_t> frames;
-    std::optional<double> seconds;  ///< of the time line, from its start
+    std::optional<double> seconds;  ///< on the time line, from its start
     bool end_with_source = false;
     bool hidden_area = true;  ///< leave out what no eye sees
-    /// Read the gaze only when the GPU has finished what needs no gaze: the gaze is younger, but
-    /// frames overlap less.
+    /// Read the gaze only when the GPU has finished what needs no gaze. The gaze is younger then,
+    /// but frames overlap less.
     bool wait_before_latch = false;
-    std::function<std::optional<LoopEnd>()> stop;  ///< called once per frame: is it to end, and why
+    std::function<std::optional<LoopEnd>()>
+        stop;  ///< called once per frame: the reason to end, if any
 };
 
 struct LoopResult {
@@ -43,7 +44,7 @@ struct LoopResult {
 };
 
 /// The parts of a running loop. Time line and source are made at the first frame that the target
-/// asks for, so that no recorded gaze is lost to set-up.
+/// asks for, so that no recorded gaze is lost during set-up.
 struct LoopParts {
     present::FrameTarget& target;
     render::FrameRenderer& renderer;

@@ -20,8 +20,8 @@ struct PlannedFrame {
     gaze::HiddenMeshes hidden;
 };
 
-/// Who says what time it is: the clock on the wall, a model of it, or a recording. The loop asks
-/// here for every time, display time and view, so that it runs the same in all three.
+/// Where times come from: the wall clock, a model of it, or a recording. The loop asks here for
+/// every time, display time and view, so that it runs the same by all three.
 class FrameTimeline {
   public:
     FrameTimeline() = default;
@@ -29,29 +29,29 @@ class FrameTimeline {
     FrameTimeline& operator=(const FrameTimeline&) = delete;
     virtual ~FrameTimeline() = default;
 
-    /// The time now. Called at each of the frame's points in the order of FrameStamps.
+    /// The time now. Called at each point of the frame, in the order of FrameStamps.
     virtual time::Stamp now() = 0;
 
-    /// The frame's time line begins; from here to the next call now() refers to it.
+    /// Begins a frame: until the next call, now() refers to it.
     virtual void begin(std::uint64_t /*frame*/) {}
 
-    /// What to render, given what the target announced. `head` is the gaze source's head motion, or
-    /// null.
+    /// Decides what to render, given what the target announced. `head` is the gaze source's head
+    /// motion, or null.
     virtual void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
                       PlannedFrame& frame) = 0;
 
     /// When the gaze is read: the time now, unless it was decided before.
     virtual time::Stamp latch() { return now(); }
 
-    /// Puts a frame's points into this time line (the loop has filled them in from now()).
+    /// Moves a frame's stamps, which the loop has filled in from now(), onto this time line.
     virtual void settle(frame::FrameRecord&) {}
     virtual void settle(frame::FrameGpuRecord&) {}
 
-    /// Whether time passes by itself, under the target's own head: then a sample without a head
-    /// pose gets it from the target, and gaze goes on coming while the target wants no frames.
+    /// Whether time passes by itself and the head is the target's own. If so, a sample without a
+    /// head pose gets the target's, and gaze is read on while the target wants no frames.
     [[nodiscard]] virtual bool is_live() const { return false; }
 
-    /// Total time, ns, that the machine was suspended and this time line's clock did not count. 0
+    /// How long the machine was suspended in all, ns, which this time line's clock did not count. 0
     /// for time lines that follow no hardware clock.
     [[nodiscard]] virtual std::int64_t slept_ns() const { return 0; }
 
@@ -59,8 +59,8 @@ class FrameTimeline {
     [[nodiscard]] virtual bool over(std::uint64_t /*frame*/) const { return false; }
 };
 
-/// Wall clock; the target's announcements stand. Where the gaze source recorded the head, that head
-/// looks around: the world moves about the target's head so that the views are the recorded ones.
+/// Wall clock; display times and periods are as the target announces them. Where the gaze source
+/// recorded the head, the views are that head's: the world is moved around the target's head.
 class LiveTimeline final : public FrameTimeline {
   public:
     explicit LiveTimeline(std::int64_t start_ns) : start_ns_(start_ns) {}
@@ -76,8 +76,8 @@ class LiveTimeline final : public FrameTimeline {
 };
 
 /// Virtual time: frame k wakes, latches and submits at k periods, is on the GPU for the modelled
-/// duration and is displayed a period later. Nothing that is measured enters, so that the same
-/// trace gives the same frames on every machine; a target is only a sink.
+/// duration and is displayed one period later. Nothing measured enters, so the same trace gives the
+/// same frames on every machine. The target only takes the frames.
 class VirtualTimeline final : public FrameTimeline {
   public:
     struct Model {
@@ -99,8 +99,8 @@ class VirtualTimeline final : public FrameTimeline {
     std::uint64_t frame_ = 0;
 };
 
-/// A recorded session's frames: their views, display and latch times are used again. They are read
-/// as the loop goes on. Throws SetupError (BadInput) where that fails.
+/// A recorded session's frames: their views, display times and latch times are used again. They are
+/// read as the loop goes on. Throws SetupError (BadInput) if that fails.
 class RecordedTimeline final : public FrameTimeline {
   public:
     /// Preconditions: the session outlives this, and holds this many frames (1 or more), numbered

@@ -94,8 +94,8 @@ class DeviceSource::Reader {
         watch_.wait(pause, wake_fd_);
     }
 
-    /// After a loss the node may be there for a moment longer, and events of its coming may still
-    /// wait: neither is a reason to take it for plugged in again.
+    /// After a loss, the node may stay for a moment, and events of its arrival may still be queued.
+    /// Neither means that it was plugged in again.
     void let_settle() const {
         pollfd wake{.fd = wake_fd_, .events = POLLIN, .revents = 0};
         ::poll(&wake, 1, static_cast<int>(kRetryAfter.count()));
@@ -156,9 +156,9 @@ class DeviceSource::Reader {
     std::atomic<bool> stop_{false};
     int wake_fd_;
     std::uint32_t failures_ = 0;  ///< in a row, of a device that gave no sample
-    /// Before the first look, so that nothing comes unseen, and by the thread that makes the
-    /// readers: libudev 252 sets up a hash key at its first use without a lock, and two readers
-    /// that begin at once could find a device without its properties.
+    /// Made before the first look at the devices, so that none arrives unseen. Made by the thread
+    /// that makes the readers, because libudev 252 sets up a hash key at its first use without a
+    /// lock: two readers that begin at once could find a device without its properties.
     DeviceWatch watch_;
     std::thread thread_;  // last: it uses the others
 };

@@ -22,12 +22,12 @@ constexpr int kGazeInterface = 5;
 constexpr std::uint8_t kSetReport = 9;
 constexpr std::uint8_t kGazeStream = 0x0C;
 constexpr unsigned kRequestTimeout_ms = 500;
-/// Halts and errors with no data between them, before it is opened anew.
+/// After so many halts and errors with no data between them, it is opened again.
 constexpr int kMostFailures = 5;
-/// A headset that is pulled out fails at once, and its hub tells the kernel of it a moment later
-/// (hubs are polled four times a second and more).
+/// A headset that is pulled out fails at once. Its hub tells the kernel a moment later: hubs are
+/// polled at least four times per second.
 constexpr std::int64_t kMayStillGo_ns = 500'000'000;
-/// For all that is under way to end, of a device that is let go.
+/// How long the transfers of a device that is released may take to end.
 constexpr std::int64_t kLongestEnd_ns = 2'000'000'000;
 
 std::unexpected<Error> no_device(const FoundDevice& found, const std::string& what) {
@@ -194,8 +194,8 @@ bool UsbHeadset::end_all(std::int64_t until_ns) {
     return true;
 }
 
-/// Closing the device takes them off it, so that nobody is called back; but libusb has no way to
-/// free one that has not ended.
+/// Closing the device detaches its transfers, so that no callback comes. But libusb has no way to
+/// free a transfer that has not ended.
 void UsbHeadset::leave_what_is_under_way() {
     static std::atomic<Transfer*> left{nullptr};  // so that all of them can still be reached
     const auto leave = [](std::unique_ptr<Transfer>& transfer) {
@@ -241,8 +241,8 @@ Expected<void> UsbHeadset::read(std::chrono::milliseconds longest, DeviceFeed& f
     return {};
 }
 
-/// The gaze is lost with the failure, not once it is known why, and until the next packet: the loop
-/// hears of it before an endpoint is cleared, which may take a while.
+/// The gaze counts as lost from the failure to the next packet. The loop is told before the cause
+/// is known and before an endpoint is cleared, which may take a while.
 void UsbHeadset::tell_loss() {
     if (halted_ || gone_ || !failure_.empty()) {
         feed_->push_loss(time::measured_now());

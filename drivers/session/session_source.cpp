@@ -12,7 +12,7 @@ SessionSource::SessionSource(const session::OpenSession& session, std::uint64_t 
     next();
 }
 
-/// What was consumed by a frame that the session has not got is left out.
+/// Leaves out samples whose frame the session lacks.
 void SessionSource::next() {
     do {
         more_ = value_or_throw(samples_.next());

@@ -9,9 +9,9 @@
 
 namespace gazeloop::drivers {
 
-/// The gaze of a recorded session, handed over again exactly as the recorded frames consumed it:
-/// each sample at the latch of its frame. It is read as it is asked for, from the local file.
-/// Throws SetupError (BadInput) where that fails.
+/// The gaze of a recorded session, given out again exactly as the recorded frames consumed it: each
+/// sample at the latch of its frame. It is read from the local file as the loop asks for
+/// it. Throws SetupError (BadInput) if that fails.
 class SessionSource final : public GazeSource {
   public:
     /// `sample_count`: how many samples the session's frames consumed, for the description. The
@@ -19,7 +19,7 @@ class SessionSource final : public GazeSource {
     SessionSource(const session::OpenSession& session, std::uint64_t sample_count);
 
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;
-    /// Samples come as they were recorded: with a head pose, or on purpose without.
+    /// Samples are as they were recorded: with a head pose, or without one on purpose.
     [[nodiscard]] bool fixed_in_head() const override { return true; }
     [[nodiscard]] bool finished() const override { return !more_; }
     [[nodiscard]] std::string description() const override;
@@ -29,7 +29,7 @@ class SessionSource final : public GazeSource {
 
     std::string file_;
     std::uint64_t sample_count_;
-    session::SampleCursor samples_;  ///< at the next one to hand over
+    session::SampleCursor samples_;  ///< at the next one to give out
     session::FrameCursor frames_;    ///< at the frame that consumed it
     bool more_ = true;
 };

@@ -55,7 +55,7 @@ void add_simulate_command(Command program) {
     gaze.option("file", command->file, "the trace to write (overwritten)").required().type("OUT");
     gaze.option("--seconds", command->seconds, "length").number_between(1e-3, 1e5);
     command->options.aliases = {
-        {"--rate", "sim.rate_hz", "samples a second, 1 to 10000", ""},
+        {"--rate", "sim.rate_hz", "samples per second, 1 to 10000", ""},
         {"--seed", "sim.seed", "the same seed gives the same trace", ""},
         {"--tracker", "profile.tracker", "tracker profile, by name or .toml file", ""},
     };

@@ -36,15 +36,15 @@ struct RunOptions {
     };
     std::vector<Alias> aliases{
         {"--target", "target.name", "openxr or headless", ""},
-        {"--scene", "render.scene", "what is rendered", ""},
+        {"--scene", "render.scene", "scene to render", ""},
         {"--method", "render.method", "which samples a picture takes: full, kfr, acuity", ""},
-        {"--display", "profile.display", "display profile, by name or .toml file", ""},
-        {"--sigma", "kfr.sigma", "picture width over LP-buffer width, .5 to 32", ""},
+        {"--display", "profile.display", "display profile: a name or a .toml file", ""},
+        {"--sigma", "kfr.sigma", "picture width / LP-buffer width, .5 to 32", ""},
         {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16", ""},
         {"--mar", "acuity.mar", "slope of the MAR line, e.g. .022", ""},
         {"--seed", "sim.seed", "the same seed gives the same simulated gaze", ""},
-        {"--tracker", "profile.tracker", "tracker profile, by name or .toml file", ""},
-        {"--spp", "render.spp", "samples a texel or pixel, 1 to 16", ""},
+        {"--tracker", "profile.tracker", "tracker profile: a name or a .toml file", ""},
+        {"--spp", "render.spp", "samples per texel or pixel, 1 to 16", ""},
     };
     std::optional<std::int64_t> frames;
     std::optional<double> seconds;

@@ -96,7 +96,7 @@ void add_simulate_tracker_command(Command simulate) {
     app.option("--trace", command->trace, "what it sees; without: simulated gaze").type("FILE");
     app.option("--seconds", command->seconds, "end after S seconds (until interrupted)")
         .number_between(0.0, 1e9);
-    app.option("--rate", command->gaze.tracker.rate_hz, "samples a second, Hz")
+    app.option("--rate", command->gaze.tracker.rate_hz, "samples per second, Hz")
         .number_between(1.0, 1e4);
     app.option("--seed", command->gaze.seed, "the same seed gives the same gaze");
     command->log.add_to(app);

@@ -39,8 +39,8 @@ struct Around {
     bool to_the_end = false;  ///< so is where the gaze is infinitely far
 };
 
-/// A gaze as one eye's picture has it. Points of the gaze are given by their nearness n to its
-/// origin, homogeneously: the eye sees the point n in the direction towards_ + n * aside_m_.
+/// A gaze as it appears in one eye's picture. A point of the gaze is given by its nearness n to the
+/// gaze's origin, in homogeneous form: the eye sees it in the direction towards_ + n * aside_m_.
 class LineOfSight {
   public:
     LineOfSight(const CombinedGaze& gaze_in_world, const DepthPatch& patch) : patch_(patch) {
@@ -115,8 +115,8 @@ class LineOfSight {
             for (std::size_t column = 0; column < patch_.columns; column += every(columns)) {
                 const double at_x = tangent_x(static_cast<double>(column));
                 const Surface surface = surface_at(sample(column, row), at_x, at_y);
-                // Where the gaze at the surface's distance is in the picture, times a depth: with
-                // some thousand samples a frame, one that is elsewhere must not cost a division.
+                // Where the picture has the gaze's point at the surface's distance, times a depth.
+                // There are some thousand samples per frame: one elsewhere must cost no division.
                 const glm::dvec3 there = surface.ahead * towards_ + surface.near * aside_m_;
                 const double tolerance = reach * -there.z;
                 if (std::abs(there.x + at_x * there.z) <= tolerance &&
@@ -131,8 +131,8 @@ class LineOfSight {
     }
 
   private:
-    /// The line is walked a sample at a time, so that what it crosses is met within half a sample,
-    /// and twice that where the surface slopes as steeply as the line.
+    /// The line is walked in steps of one sample. So what it crosses is met within half a sample,
+    /// or within one where the surface slopes as steeply as the line.
     static constexpr double kOnTheLine = 1.0;
     /// More samples than a patch has across, many times over.
     static constexpr double kMostSteps = 1024.0;
@@ -201,8 +201,8 @@ class LineOfSight {
         return half < kInfinite;
     }
 
-    /// Of a half float that is known. Its exponent and mantissa are a float's but for the
-    /// exponent's bias, 15 and not 127; below 2^-14 it counts in steps of 2^-24.
+    /// The value of a half float that is known. Exponent and mantissa are as in a float, except
+    /// that the exponent's bias is 15, not 127. Below 2^-14 it counts in steps of 2^-24.
     static double value(std::uint16_t half) {
         constexpr std::uint16_t kLeastNormal = 0x0400;
         return half < kLeastNormal ? half * 0x1p-24

@@ -12,19 +12,19 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
     constexpr double kForever_ms = 1e7;
     return {
         {"gaze.fixation_distance_m",
-         "distance at which gaze is held in world, and where one ray for both eyes is split, m",
+         "distance at which gaze is held in world and one ray is split between the eyes, m",
          Number{&gaze.fixation_distance_m, 0.1, 1000.0}, Concerns::Foveae},
         // Samples are recorded as split.
         {"gaze.fixation_from_depth",
-         "split one ray for both eyes where the last frame's depth says, if it does",
+         "split one ray between the eyes at the last frame's depth, where that is known",
          &gaze.fixation_from_depth, Concerns::Input},
         {"gaze.hold_ms", "lost gaze: hold the last point for this long",
          Number{&gaze.hold_ms, 0.0, kForever_ms}, Concerns::Foveae},
-        {"gaze.minimum_confidence", "samples that state less are invalid",
+        {"gaze.minimum_confidence", "samples that state a lower confidence are invalid",
          Number{&gaze.minimum_confidence, 0.0, 1.0}, Concerns::Foveae},
-        {"gaze.return_ms", "lost gaze: then return to straight ahead in this time",
+        {"gaze.return_ms", "lost gaze: after the hold, return to straight ahead in this time",
          Number{&gaze.return_ms, 0.0, kForever_ms}, Concerns::Foveae},
-        {"gaze.stale_ms", "samples older than this at the latch count as lost",
+        {"gaze.stale_ms", "samples older than this when the gaze is read count as lost",
          Number{&gaze.stale_ms, 0.0, kForever_ms}, Concerns::Foveae},
     };
 }
@@ -38,8 +38,8 @@ FoveaPolicy fovea_policy(const GazeSettings& gaze) {
 }
 
 Expected<void> check(const GazeSettings& gaze, const settings::Settings& all) {
-    // Gaze that stops coming counts as lost only when it is stale: past its hold time by then, the
-    // fovea would begin its return in the middle.
+    // Gaze that stops coming counts as lost only when it is stale. If its hold time were over by
+    // then, the fovea's return would begin in the middle.
     if (gaze.hold_ms < gaze.stale_ms) {
         return std::unexpected(
             Error{ErrorKind::Usage,

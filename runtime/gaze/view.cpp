@@ -41,11 +41,11 @@ PixelPosition project(const glm::dvec3& direction, const EyeView& view, double l
 
     const glm::dvec3 d = unit(direction).value_or(kStraightAhead);
 
-    // The offset from the picture's centre, times the depth: it stays finite at the image plane,
-    // and there it points the way in which the position has gone to infinity. Dividing by the depth
-    // is the projection; dividing by more, where the offset would pass the limit, stops on the
-    // limit in the same direction from the centre. So the result is continuous everywhere but
-    // straight behind.
+    // The offset from the picture's centre, times the depth. At the image plane it stays finite,
+    // and points the way in which the position has gone to infinity. Dividing it by the depth is
+    // the projection. Where the offset would pass the limit, it is divided by more, so that it
+    // stops on the limit in the same direction. So the result is continuous everywhere but straight
+    // behind.
     const double depth = std::max(-d.z, 0.0);
     const double x = d.x * across.px_per_tangent + (across.principal_px - width / 2.0) * depth;
     const double y = d.y * down.px_per_tangent + (down.principal_px - height / 2.0) * depth;

@@ -10,9 +10,9 @@
 namespace gazeloop::latency {
 namespace {
 
-// Magnitudes below 2^9 ns have a bin each. Every power of two above is cut into equal bins: 256 of
-// them, so that half a bin is at most 2^-9 (0.195 %) of the magnitude, up to 2^42 ns (73 minutes),
-// and 8 beyond, where only a broken clock leads.
+// Magnitudes below 2^9 ns have a bin each. Every power of two above is cut into equal bins. Up to
+// 2^42 ns (73 minutes) there are 256, so that half a bin is at most 2^-9 (0.195 %) of the
+// magnitude. Beyond, where only a broken clock leads, there are 8.
 constexpr int kExactBits = 9;
 constexpr int kFineLog2 = 8;
 constexpr int kCoarseFrom = 42;
@@ -21,8 +21,8 @@ constexpr std::size_t kExactBins = std::size_t{1} << kExactBits;
 constexpr std::size_t kFineEnd = kExactBins + (std::size_t{kCoarseFrom - kExactBits} << kFineLog2);
 constexpr std::size_t kBinsPerSign = kFineEnd + (std::size_t{64 - kCoarseFrom} << kCoarseLog2);
 
-// Percentages such as 99.9 are no binary fractions: products with them are taken to be off by this
-// share, far below one sample in any count that fits a bin.
+// Percentages such as 99.9 are not binary fractions, so products with them are taken to be off by
+// this share. It is far below one sample in any count that fits a bin.
 constexpr double kRounding = 1e-12;
 
 std::uint64_t magnitude(std::int64_t value) {

@@ -8,11 +8,11 @@ std::vector<settings::SettingRow> rows_of(LayersSettings& layers) {
     using settings::Concerns;
     const settings::OnlyWhile only = only_under({"layers"});
     return {
-        {"layers.n", "eccentricity layers, at most", settings::Whole{&layers.n, 2, 4},
+        {"layers.n", "greatest number of eccentricity layers", settings::Whole{&layers.n, 2, 4},
          Concerns::Picture, only},
-        {"layers.outer_weight", "work of the outer layers' samples: 0.5 at half rate",
+        {"layers.outer_weight", "work per sample of the outer layers; 0.5: rendered at half rate",
          settings::Number{&layers.outer_weight, 0.05, 1.0}, Concerns::Picture, only},
-        {"layers.s2_fixed", "middle layer at 2x2 pixels, as published (layers.n over 2)",
+        {"layers.s2_fixed", "middle layer at 2x2 pixels per sample, as published (layers.n 3 or 4)",
          &layers.s2_fixed, Concerns::Picture, only},
     };
 }

@@ -12,11 +12,12 @@ std::vector<settings::SettingRow> rows_of(RingsSettings& rings) {
     using settings::Number;
     const settings::OnlyWhile only = only_under({"rings"});
     return {
-        {"rings.inner_deg", "a sample a pixel within; both 0: as acuity.mar asks",
+        {"rings.inner_deg",
+         "one sample per pixel up to this eccentricity; both 0: as acuity.mar asks",
          Number{&rings.inner_deg, 0.0, 180.0}, Concerns::Picture, only},
-        {"rings.outer_deg", "2x2 pixels a sample within, 4x4 beyond",
+        {"rings.outer_deg", "one sample per 2x2 pixels from there to this one, per 4x4 beyond",
          Number{&rings.outer_deg, 0.0, 180.0}, Concerns::Picture, only},
-        {"rings.tile_px", "side of the tiles that have one rate",
+        {"rings.tile_px", "side of a tile, all of which has one rate",
          settings::Whole{&rings.tile_px, RingParameters::kMinTilePx, RingParameters::kMaxTilePx},
          Concerns::Picture, only},
     };

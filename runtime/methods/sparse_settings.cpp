@@ -16,20 +16,20 @@ std::vector<settings::SettingRow> rows_of(SparseSettings& sparse) {
     using settings::Number;
     const settings::OnlyWhile only = only_under({"sparse"});
     return {
-        {"sparse.disc_share", "of the samples that the full disc takes",
+        {"sparse.disc_share", "share of the samples that the full disc takes",
          Number{&sparse.disc_share, 0.0, 0.9}, Concerns::Picture, only},
-        {"sparse.narrow_share", "of the draws that are from the narrow Gaussian",
+        {"sparse.narrow_share", "share of the draws from the narrow Gaussian",
          Number{&sparse.narrow_share, 0.0, 1.0}, Concerns::Picture, only},
-        {"sparse.narrow_spread", "its standard deviation over the picture's diagonal",
+        {"sparse.narrow_spread", "SD of the narrow Gaussian, relative to the picture's diagonal",
          Number{&sparse.narrow_spread, SparseParameters::kMinSpread, SparseParameters::kMaxSpread},
          Concerns::Picture, only},
         {"sparse.placement", "how samples are placed",
          settings::Choice{.value = &sparse.placement, .names = {"gaussian", kBlueNoise}},
          Concerns::Picture, only},
-        {"sparse.share", "samples over pixels, gaze at the centre",
+        {"sparse.share", "samples per pixel of the picture, gaze at the centre",
          Number{&sparse.share, SparseParameters::kMinShare, SparseParameters::kMaxShare},
          Concerns::Picture, only},
-        {"sparse.wide_spread", "standard deviation of the wide Gaussian over the diagonal",
+        {"sparse.wide_spread", "SD of the wide Gaussian, relative to the picture's diagonal",
          Number{&sparse.wide_spread, SparseParameters::kMinSpread, SparseParameters::kMaxSpread},
          Concerns::Picture, only},
     };

@@ -149,8 +149,8 @@ EnvelopeRow::Errors judge(const MapUnderTest& map, const Probes& probes,
                              (input.cell.y + 0.5) / map.lp().height};
         const auto exact = map.exact().position(centre);
         const auto placed = map.placed(output.place);
-        // A texel that only touches the screen may have its centre far from it, where angles near a
-        // right one from the view's axis are any number of pixels.
+        // A texel that only touches the screen may have its centre far from it. There, at nearly a
+        // right angle from the view's axis, the smallest angle may be any number of pixels.
         if (exact && placed && distance_px(*exact, position) <= reach_px) {
             const double error = distance_px(*placed, *exact);
             errors.inverse_px = std::max(errors.inverse_px, error);

@@ -12,8 +12,8 @@ using Type = vk::DescriptorType;
 
 constexpr std::uint32_t kGroupSize = 64;
 
-/// Set 2: the map's uniforms, tables, columns and rows; bands and LP-buffer are not asked, in whose
-/// places (shaders/numerics/map_probe.comp) lie what is asked and what was answered.
+/// Set 2: the map's uniforms, tables, columns and rows. Bands and LP-buffer are not needed: their
+/// places hold the questions and the answers (shaders/numerics/map_probe.comp).
 constexpr std::array kMapBindings{Type::eUniformBuffer, Type::eUniformBuffer, Type::eStorageBuffer,
                                   Type::eStorageBuffer, Type::eStorageBuffer, Type::eStorageBuffer};
 constexpr std::array kFrameBindings{Type::eUniformBuffer};

@@ -26,8 +26,8 @@ void HeadlessTarget::wait_frame(TargetFrame& frame) {
     const std::int64_t period = options_.display.period_ns();
     frame.period_ns = period;
     if (options_.paced) {
-        // The emission after the last announced one, or if that is too close, the first one that
-        // leaves a period for the work; the loop wakes a period before it.
+        // The emission after the last announced one. If that is too close, the first one that
+        // leaves one period for the work. The loop wakes one period before it.
         const std::int64_t since = time::monotonic_ns() - first_emission_ns_;
         const std::int64_t first_in_time = (since + period - 1) / period + 1;
         next_emission_ = std::max(next_emission_ + 1, first_in_time);

@@ -82,8 +82,8 @@ PreviewFeed::~PreviewFeed() {
 }
 
 void PreviewFeed::on_rendered(const render::FrameView& view, const gaze::FrameFovea& fovea) {
-    // The window has taken the last picture only when it asks for one more than was given, and
-    // every submitted copy has been given by then.
+    // The window has taken the last picture only when it asks for one more than was given. Every
+    // submitted copy has been given by then.
     const std::uint64_t given = memory_->given.load(std::memory_order_acquire);
     if (given != copies_ || memory_->asked.load(std::memory_order_acquire) == given) {
         ++dropped_;

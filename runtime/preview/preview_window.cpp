@@ -148,7 +148,7 @@ class Window {
         title();
     }
 
-    /// A pixel a pixel where the picture fits the screen.
+    /// One screen pixel per picture pixel where the picture fits the screen.
     void show_at_picture_size() {
         std::uint32_t width = 0;
         std::uint32_t height = 0;

@@ -7,10 +7,10 @@ std::vector<settings::SettingRow> rows_of(ProfileSettings& profile) {
     using settings::Path;
     return {
         // Views, refresh period and what photons need are recorded.
-        {"profile.display", "display profile, or a .toml file", Path{&profile.display, ".toml"},
-         Concerns::Input},
-        {"profile.tracker", "tracker profile, or a .toml file", Path{&profile.tracker, ".toml"},
-         Concerns::Input},
+        {"profile.display", "display profile: a name or a .toml file",
+         Path{&profile.display, ".toml"}, Concerns::Input},
+        {"profile.tracker", "tracker profile: a name or a .toml file",
+         Path{&profile.tracker, ".toml"}, Concerns::Input},
     };
 }
 

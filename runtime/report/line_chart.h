@@ -24,7 +24,7 @@ struct ChartPoint {
 
 struct ChartLine {
     std::string label;
-    std::vector<ChartPoint> points;  ///< by x; the line breaks where a point is not drawable
+    std::vector<ChartPoint> points;  ///< by x; the line breaks at a point that cannot be drawn
     std::array<double, 3> colour{};  ///< sRGB, 0 to 1
     std::size_t dashes = 0;          ///< 0 solid, 1 dashed, 2 dash-dotted, 3 dotted
     double width = 2.0;
@@ -38,11 +38,11 @@ struct LineChart {
     std::vector<ChartLine> lines;  ///< in the order of the legend
 };
 
-/// Colours that colour-blind readers can tell apart too (Okabe and Ito 2008).
+/// Colours that colour-blind readers can also tell apart (Okabe and Ito 2008).
 [[nodiscard]] std::array<double, 3> chart_colour(std::size_t index);
 
-/// Draws the chart into a .png or .svg file. Errors: Usage for another ending, BadInput if the file
-/// cannot be written.
+/// Draws the chart into a .png or .svg file. Errors: Usage for any other ending, BadInput if the
+/// file cannot be written.
 Expected<void> write_chart(const LineChart& chart, const std::filesystem::path& file);
 
 }  // namespace gazeloop::report

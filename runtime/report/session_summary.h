@@ -10,7 +10,7 @@ namespace gazeloop::report {
 latency::SummaryConfig summary_config(const display::DisplayProfile& display,
                                       latency::LoopClock clock);
 
-/// What is known of a recorded session once it has been played.
+/// What a recorded session shows once it has been played.
 struct SessionSummary {
     latency::SummaryReport report;  ///< the same as at the end of its run
     session::PlaybackEnd end;

@@ -6,8 +6,8 @@
 
 namespace gazeloop::report {
 
-/// The report for programs: everything that the text says, units in the keys, null for what is
-/// withheld or unknown.
+/// The report for programs: everything that the text says, with units in the keys. null: withheld
+/// or unknown.
 nlohmann::ordered_json summary_json(const latency::SummaryReport& report);
 
 }  // namespace gazeloop::report

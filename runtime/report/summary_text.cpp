@@ -12,7 +12,7 @@
 namespace gazeloop::report {
 namespace {
 
-/// A column holds 8 characters and a blank: longer figures give up decimals, then digits.
+/// A column holds 8 characters and a blank. Longer figures lose decimals, then digits.
 std::string milliseconds(const std::optional<double>& ms) {
     if (!ms) {
         return "-";

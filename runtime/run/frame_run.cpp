@@ -104,7 +104,7 @@ class FrameRun {
                      config_.extents[0].width, config_.extents[0].height, values_.render.method,
                      values_.render.scene, values_.render.spp, values_.target.name);
         if (request_.clock == RunClock::Wall) {
-            // First draws compile shaders: that is not to look like a slow first frame.
+            // First draws compile shaders, which must not look like a slow first frame.
             render::warm_up(*context_, renderer, profile_views(display_, target_->extents()));
         }
         open_recording(renderer);
@@ -287,7 +287,7 @@ class FrameRun {
             window_->memory());
     }
 
-    /// A preview that breaks is no reason to end: the headset is what counts.
+    /// A preview that fails does not end the run: the headset is what counts.
     [[nodiscard]] std::optional<LoopEnd> why_stop() {
         if (interrupted()) {
             return LoopEnd::Interrupted;
@@ -379,7 +379,7 @@ class FrameRun {
         if (request_.hash) {
             text += hash_.text();
         }
-        // JSON on stdout stays alone there.
+        // If JSON goes to stdout, nothing else does.
         std::FILE* const out = request_.json == "-" ? stderr : stdout;
         std::fputs(text.c_str(), out);
         if (request_.json) {

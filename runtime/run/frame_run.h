@@ -19,17 +19,17 @@ namespace gazeloop::run {
 enum class RunClock {
     Wall,
     Virtual,
-    Recorded,  ///< a session's own
+    Recorded,  ///< the recorded session's own
 };
 
-/// A recorded session that is run again, found whole from its first frame to its last.
+/// A recorded session that is run again. It has been checked: no frame is missing.
 struct Recording {
     const session::OpenSession* session = nullptr;  ///< never null
     std::uint64_t frames = 0;                       ///< 1 or more, numbered from 0
-    gaze::StereoView views{};                       ///< of the first; all have its pictures' sizes
+    gaze::StereoView views{};  ///< of the first frame; all frames have its pictures' sizes
 };
 
-/// A run of the loop, ready to go; everything that can be refused without a device has been.
+/// A run of the loop, ready to start: everything that can be checked without a device has been.
 struct FrameRunRequest {
     const ProgramSettings* settings = nullptr;
     std::string command_line;
@@ -37,10 +37,10 @@ struct FrameRunRequest {
     std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)> make_source;
     /// The gaze of the target's own OpenXR session, in place of make_source.
     std::optional<drivers::OpenXrGazeOptions> openxr_gaze;
-    bool from_device = false;              ///< the gaze, of either
-    std::optional<Recording> recording{};  ///< with Recorded alone, and to be compared with
-    bool same_gaze = true;                 ///< settings as the recording's
-    bool same_rendering = true;            ///< settings as the recording's
+    bool from_device = false;              ///< the gaze, by either of the two
+    std::optional<Recording> recording{};  ///< set for Recorded only; the run is compared with it
+    bool same_gaze = true;                 ///< settings that decide foveae are the recording's
+    bool same_rendering = true;            ///< settings that decide pixels are the recording's
     LoopOptions loop;
     bool hash = false;
     bool mark_fovea = false;
@@ -51,9 +51,9 @@ struct FrameRunRequest {
     std::optional<std::filesystem::path> json;
 };
 
-/// Sets up target, device and renderer, runs the loop, prints the summary to stdout. What went
-/// wrong after the first frame is reported after the summary; the first of it is returned (none:
-/// all went well). Throws SetupError for what goes wrong before.
+/// Sets up target, device and renderer, runs the loop, and prints the summary to stdout. Throws
+/// SetupError for what goes wrong before the first frame. What goes wrong later is reported after
+/// the summary, and the first such error is returned (none: all went well).
 std::optional<ErrorKind> frame_run(const FrameRunRequest& request);
 
 }  // namespace gazeloop::run

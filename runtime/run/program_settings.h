@@ -14,7 +14,7 @@
 
 namespace gazeloop::run {
 
-/// Everything that can be configured, with its built-in value, each group by the room that uses it.
+/// Everything that can be configured, with its built-in value. Each room declares its own group.
 struct ProgramValues {
     gaze::GazeSettings gaze;
     drivers::hid::HidSettings hid;
@@ -34,7 +34,7 @@ class ProgramSettings : public settings::Settings {
 
     [[nodiscard]] const ProgramValues& values() const { return values_; }
 
-    /// Whether the settings fit together. Errors (Usage): which two do not, and what would.
+    /// Whether the settings fit together. Errors (Usage): names two that do not, and the remedy.
     [[nodiscard]] Expected<void> check() const;
 
   private:

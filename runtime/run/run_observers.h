@@ -7,7 +7,7 @@
 
 namespace gazeloop::run {
 
-/// Passes on to the session's recorder, and says at once when it stops recording.
+/// Passes everything on to the session's recorder. Warns at once when recording is in trouble.
 class RecordingObserver final : public frame::FrameObserver {
   public:
     explicit RecordingObserver(session::SessionRecorder& recorder) : recorder_(recorder) {}
@@ -32,11 +32,11 @@ class RecordingObserver final : public frame::FrameObserver {
     bool trouble_reported_ = false;
 };
 
-/// Says what happens as it happens.
+/// Logs events as they happen.
 class LogObserver final : public frame::FrameObserver {
   public:
     void on_event(time::Stamp, std::string_view kind, std::string_view text) override {
-        // Whoever runs with a device wants to know what it does.
+        // Users of a device want to know what it does.
         spdlog::log(kind == "tracker" ? spdlog::level::info : spdlog::level::debug, "{}: {}", kind,
                     text);
     }

@@ -9,7 +9,7 @@
 namespace gazeloop::run {
 namespace {
 
-constexpr std::uint32_t kMaxSide_px = 16384;  // of an image, on the devices that there are
+constexpr std::uint32_t kMaxSide_px = 16384;  // of an image, on today's devices
 
 vk::Format format_named(std::string_view text) {
     for (const vk::Format format : {vk::Format::eR8G8B8A8Srgb, vk::Format::eB8G8R8A8Srgb,

@@ -9,17 +9,17 @@
 
 namespace gazeloop::run {
 
-/// The profile that the settings name; for a replay of a recording off screen, what the recording
-/// says of its display, since the profile may have changed or be gone.
-/// Throws SetupError if it cannot be read.
+/// The profile that the settings name. For a headless replay of a recording: what the recording
+/// says of its display, because the profile may have changed or be gone. Throws SetupError if it
+/// cannot be read.
 [[nodiscard]] display::DisplayProfile display_of(const FrameRunRequest& request);
 
-/// Throws SetupError where there is no runtime, or none that can be used.
+/// Throws SetupError if there is no runtime, or none that can be used.
 [[nodiscard]] std::unique_ptr<present::OpenXrTarget> make_openxr_target(
     const FrameRunRequest& request, const display::DisplayProfile& display);
 
-/// Off screen, with the pictures' sizes and format of the recording that is replayed, if one is.
-/// Throws SetupError for a format that is not known.
+/// The headless target. A replay of a recording gets the sizes and the format of its pictures.
+/// Throws SetupError for an unknown format.
 [[nodiscard]] std::unique_ptr<present::FrameTarget> make_headless_target(
     const FrameRunRequest& request, const display::DisplayProfile& display);
 

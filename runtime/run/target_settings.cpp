@@ -8,7 +8,7 @@ std::vector<settings::SettingRow> rows_of(TargetSettings& target) {
         {"target.name", "where pictures go",
          settings::Choice{.value = &target.name, .names = {"openxr", "headless"}, .what = "target"},
          Concerns::Machine},
-        {"target.validation", "OpenXR core validation layer", &target.validation,
+        {"target.validation", "load the OpenXR core validation layer", &target.validation,
          Concerns::Machine},
     };
 }

@@ -7,7 +7,7 @@
 
 namespace gazeloop::session {
 
-/// The columns of a record, in the order in which its fields are visited, and SQL with them.
+/// The columns of a record, in the order in which its fields are visited, and SQL that names them.
 class ColumnNames {
   public:
     /// Visits a field of a record (see record_fields.h).
@@ -16,7 +16,7 @@ class ColumnNames {
         names_.push_back(std::string(head) + std::string(tail));
     }
     [[nodiscard]] std::string insert_into(std::string_view table) const;
-    /// Sets every column in the row whose `key` is the parameter after theirs.
+    /// Sets every column of one row. The parameter after the columns' is the row's `key`.
     [[nodiscard]] std::string update(std::string_view table, std::string_view key) const;
     [[nodiscard]] std::span<const std::string> names() const { return names_; }
 
@@ -26,8 +26,8 @@ class ColumnNames {
 
 ColumnNames named_value_columns();  ///< of meta, config and device
 ColumnNames sample_columns();       ///< of gaze
-ColumnNames frame_columns();        ///< of frame, less those of the GPU part
-ColumnNames gpu_columns();          ///< of frame, the GPU part
+ColumnNames frame_columns();        ///< of frame, without the GPU part
+ColumnNames gpu_columns();          ///< of frame, only the GPU part
 ColumnNames whole_frame_columns();  ///< both, in this order
 ColumnNames view_columns();
 ColumnNames fovea_columns();

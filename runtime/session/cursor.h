@@ -14,12 +14,12 @@ class FrameRows;
 class HiddenRows;
 class SampleRows;
 
-/// Goes through one kind of what a session holds, in memory of one piece: for those who follow a
-/// recording at their own pace.
+/// Goes through the rows of one kind in a session, one at a time, for readers that follow a
+/// recording at their own pace. Holds one row in memory.
 template <typename Rows, typename Row>
 class Cursor {
   public:
-    /// Before the first piece. The session must outlive it.
+    /// Starts before the first row. The session must outlive it.
     explicit Cursor(const OpenSession& session);
     Cursor(const Cursor&) = delete;
     Cursor& operator=(const Cursor&) = delete;
@@ -27,16 +27,16 @@ class Cursor {
     Cursor& operator=(Cursor&&) noexcept;
     ~Cursor();
 
-    /// Moves on; false after the last piece, for good. Errors (BadInput): damaged (file, table and
-    /// row named).
+    /// Moves to the next row; false after the last one, for good. Errors (BadInput): a damaged
+    /// session (file, table and row named).
     Expected<bool> next();
 
-    /// Where it stands; null before the first piece, after the last one, and after an error.
+    /// The current row; null before the first one, after the last one, and after an error.
     [[nodiscard]] const Row* row() const { return row_; }
 
   private:
     const OpenSession* session_;
-    std::unique_ptr<Rows> rows_;  ///< begun by the first move
+    std::unique_ptr<Rows> rows_;  ///< made by the first next()
     const Row* row_ = nullptr;
 };
 
@@ -48,7 +48,7 @@ extern template class Cursor<SampleRows, RecordedSample>;
 extern template class Cursor<FrameRows, RecordedFrame>;
 extern template class Cursor<HiddenRows, gaze::HiddenChange>;
 
-/// Moves on to a frame; false if the session has none of that index. Precondition: indices do not
+/// Moves on to the frame of this index; false if the session has none. Precondition: indices do not
 /// decrease from call to call.
 Expected<bool> move_to(FrameCursor& cursor, std::uint64_t index);
 

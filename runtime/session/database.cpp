@@ -36,7 +36,7 @@ DatabaseError::DatabaseError(sqlite3* database)
 void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 
 Database::Database(const std::filesystem::path& file, Access access) {
-    // An absolute name, so that SQLite takes none for its special ones (":memory:", "").
+    // An absolute name, so that SQLite never takes it for a special one (":memory:", "").
     const std::string name = std::filesystem::absolute(file).string();
     const int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE |
                       (access == Access::ReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE);
@@ -48,7 +48,7 @@ Database::Database(const std::filesystem::path& file, Access access) {
     }
     sqlite3_busy_timeout(opened, kBusyTimeoutMs);
     if (access == Access::ReadOnly) {
-        // It may come from anybody: no functions run from its schema, no huge values are built.
+        // The file may come from anybody: run no functions from its schema, build no huge values.
         sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
         sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
         sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, kLongestValueBytes);

@@ -8,8 +8,8 @@ struct sqlite3;
 
 namespace gazeloop::session {
 
-/// What SQLite refused, in its words and the system's. Does not leave this room: callers of its
-/// public headers get an Error or a RecordingStatus.
+/// What SQLite refused, in its words and the system's. Does not leave this room: users of the room
+/// get an Error or a RecordingStatus.
 class DatabaseError : public std::runtime_error {
   public:
     explicit DatabaseError(sqlite3* database);

@@ -5,7 +5,7 @@
 
 namespace gazeloop::session {
 
-/// Reads meta, config and device; no other table is touched. had_write_ahead_log stays unset.
+/// Reads meta, config and device, and no other table. had_write_ahead_log stays unset.
 /// Throws FormatError or DatabaseError.
 SessionInfo read_info(const Database& database);
 

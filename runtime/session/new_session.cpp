@@ -56,7 +56,7 @@ std::optional<Error> refuse_what_is_there(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
-/// An empty file of its own beside `file`, removed in the end.
+/// A new, empty file beside `file`, which is removed in the end.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const std::filesystem::path& file)
@@ -96,7 +96,7 @@ void insert_named_values(const Database& database, std::string_view table,
 
 void write_header(const std::filesystem::path& file, const SessionHeader& header) {
     Database database(file, Database::Access::ReadWrite);
-    // Nobody rolls back a file that was left under its temporary name.
+    // A file that was left under its temporary name is never rolled back.
     database.execute("PRAGMA journal_mode = MEMORY; BEGIN");
     database.execute(kCreateTables);
     insert_named_values(database, "meta",
@@ -120,7 +120,7 @@ int rename_to_new(const char* from, const char* to) {
     if (errno != EINVAL && errno != ENOSYS) {
         return errno;
     }
-    // A file system without that flag; its other name goes with the temporary file.
+    // A file system without that flag. The temporary name is removed later.
     return ::link(from, to) == 0 ? 0 : errno;
 }
 

@@ -8,9 +8,9 @@
 
 namespace gazeloop::session {
 
-/// Creates a session file with mode 0600, complete with schema and header, in WAL mode and open
-/// nowhere. It comes into being under a temporary name beside it (FILE.partial-XXXXXX), so that
-/// `file` is a session from its first moment on; after an error nothing is left. Errors: see
+/// Creates a session file with mode 0600, with schema and header, in WAL mode and open nowhere. It
+/// is made under a temporary name beside it (FILE.partial-XXXXXX) and then renamed, so `file` is a
+/// complete session as soon as it exists. After an error nothing is left. Errors: see
 /// SessionRecorder::create.
 std::optional<Error> create_session(const std::filesystem::path& file, const SessionHeader& header);
 

@@ -15,7 +15,7 @@
 namespace gazeloop::session {
 namespace {
 
-/// An empty one may be SQLite's own, for reading.
+/// An empty log may be one that SQLite made to read the file.
 bool has_write_ahead_log(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(file.string() + "-wal", error);

@@ -10,14 +10,17 @@ namespace gazeloop::session {
 
 class Database;
 
-/// A session file that is open for reading, also one whose recorder was killed or is still writing:
-/// then all that is read from it, whenever, is what there was at its opening, up to the last
-/// commit. Used by one thread at a time.
+/// A session file that is open for reading. Its recorder may have been killed, or may still be
+/// writing. Everything that is read is as it was at the last commit before opening. Used by one
+/// thread at a time.
 class OpenSession {
   public:
     /// Reads what the session says of itself, and none of its frames. Errors (BadInput, each naming
-    /// the file): missing, not a session, of a newer or too old schema (both versions named),
-    /// damaged (table and row named).
+    /// the file):
+    ///  - missing;
+    ///  - not a session;
+    ///  - of a newer or too old schema (both versions named);
+    ///  - damaged (table and row named).
     static Expected<OpenSession> open(const std::filesystem::path& file);
     OpenSession(const OpenSession&) = delete;
     OpenSession& operator=(const OpenSession&) = delete;
@@ -27,7 +30,7 @@ class OpenSession {
 
     [[nodiscard]] const SessionInfo& info() const { return info_; }
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-    /// For those who read its tables: play() and the cursors.
+    /// For play() and the cursors, which read its tables.
     [[nodiscard]] const Database& database() const { return *database_; }
 
   private:

@@ -9,14 +9,14 @@
 namespace gazeloop::session {
 namespace {
 
-/// A reader that stands on its next piece.
+/// A reader that is already at its next row.
 template <typename Rows>
 class Ahead {
   public:
     explicit Ahead(const OpenSession& session)
         : rows_(session.database(), session.info().schema_version), more_(rows_.next()) {}
 
-    /// Hands over the pieces from here on while `due` says so.
+    /// Tells the rows from here on, while they are due.
     template <typename Due, typename Tell>
     void tell_while(const Due& due, const Tell& tell) {
         while (more_ && due(rows_.row())) {
@@ -63,7 +63,7 @@ class Player {
         }
     }
 
-    /// What comes before this frame is told, which ended at that time.
+    /// Tells what comes before this frame, which ended at `end_ns`.
     void tell_before(std::uint64_t frame, std::int64_t end_ns) {
         const auto due = [&](const auto& piece) { return piece.frame <= frame; };
         hidden_.tell_while(due, [this](const gaze::HiddenChange& change) {

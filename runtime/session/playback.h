@@ -14,30 +14,33 @@ namespace gazeloop::session {
 
 /// How a recorded run ended.
 struct PlaybackEnd {
-    std::optional<std::uint64_t> last_frame{};  ///< its index; none: the session holds no frame
+    std::optional<std::uint64_t> last_frame{};  ///< its index; none: the session has no frame
     std::optional<std::string> last_error{};    ///< the text of the last event of the kind "error"
 };
 
-/// Tells observers what the loop told its own while the session was recorded, frame by frame by
-/// index, in memory that does not depend on the session's length. Of each frame:
+/// Calls observers as the loop did while the session was recorded, frame by frame in the order of
+/// their indices. The memory that this takes does not depend on the session's length. For each
+/// frame it calls, in this order:
 ///
-///     on_hidden   changes from this frame on, or from one before it that the file lacks
-///     on_sample   what it consumed, and what frames consumed that the file lacks, as it arrived
+///     on_hidden   for changes from this frame on
+///     on_sample   for what the frame consumed, in the order of arrival
 ///     on_event    in the order of the run; see below
 ///     on_frame
 ///     on_gpu      if the file has the frame's GPU part
 ///
-/// The file keeps of events only their order among themselves and their times. An event is told
-/// once those before it are, before the first frame that ended (end_frame) no earlier than its
-/// time; with an unknown time at once. What is left after the last frame follows in the same order.
-/// on_rendered is told of nothing: there are no pictures.
+/// Changes and samples of a frame that the file lacks come with the next frame that it has.
 ///
-/// Errors (BadInput): damaged (file, table and row named); observers have then been told what lay
-/// before. What an observer throws passes through.
+/// Of events, the file keeps only their times and their order among themselves. So an event comes
+/// after those before it, and before the first frame whose end (end_frame) is not earlier than the
+/// event's time. If its time is unknown, it comes at once. What is left after the last frame
+/// follows in the same order. on_rendered is never called: there are no pictures.
+///
+/// Errors (BadInput): a damaged session (file, table and row named). Observers have then been told
+/// what lay before. What an observer throws passes through.
 Expected<PlaybackEnd> play(const OpenSession& session,
                            std::span<frame::FrameObserver* const> observers);
 
-/// The same of a file, with the errors of OpenSession::open too.
+/// The same for a file. Errors: those of OpenSession::open too.
 Expected<PlaybackEnd> play(const std::filesystem::path& session,
                            std::span<frame::FrameObserver* const> observers);
 

@@ -10,8 +10,8 @@ namespace gazeloop::session {
 /// BadInput: what is wrong with the file.
 Error bad_session(const std::filesystem::path& file, std::string_view what);
 
-/// The exception that is being handled, as an error that names the file, if it is a FormatError or
-/// a DatabaseError; any other one goes on. Precondition: called in a handler.
+/// The exception that is being handled, as an error that names the file. Only for FormatError and
+/// DatabaseError; any other exception is thrown on. Precondition: called in a handler.
 Error reading_error(const std::filesystem::path& file);
 
 }  // namespace gazeloop::session

@@ -21,7 +21,7 @@ struct EventRecord {
     FixedText<240> text;
 };
 
-/// One triangle of what the views hide from a frame on; without corners where that is nothing.
+/// One triangle of what the views hide from a frame on. Has no corners if they hide nothing.
 struct HiddenRecord {
     std::uint64_t frame = 0;
     gaze::Eye eye = gaze::Eye::Left;

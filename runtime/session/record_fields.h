@@ -17,8 +17,8 @@ namespace gazeloop::session {
 // called as visit(head, tail, field) for the column named head + tail, always in the same order.
 // Fields are const when a record is written, and are assigned to when one is read.
 
-// A record that gets a new member changes its size, and does not compile here until somebody has
-// decided whether a session keeps it (SCHEMA.md) and the property test draws it.
+// A new member changes its record's size, so that this does not compile any more. Decide whether a
+// session keeps it (SCHEMA.md), and let the property test draw it.
 static_assert(sizeof(gaze::GazeSample) == 304, "a new member: see above");
 static_assert(sizeof(gaze::FoveaPoint) == 136, "a new member: see above");
 static_assert(sizeof(gaze::EyeView) == 96, "a new member: see above");
@@ -27,7 +27,7 @@ static_assert(sizeof(frame::GridCounts) == 40, "a new member: see above");
 static_assert(sizeof(frame::FrameRecord) == 1040, "a new member: see above");
 static_assert(sizeof(frame::FrameGpuRecord) == 152, "a new member: see above");
 
-/// By the places in the run's list, which meta keeps.
+/// By place in the run's lists of grids and passes, which meta keeps.
 inline constexpr std::array<std::string_view, 8> kGridColumns{
     "grid_0", "grid_1", "grid_2", "grid_3", "grid_4", "grid_5", "grid_6", "grid_7"};
 inline constexpr std::array<std::string_view, 12> kPassColumns{
@@ -51,14 +51,14 @@ void visit_pose(Visitor& visit, std::string_view column, Pose& pose) {
     visit(column, "_z_m", pose.position_m.z);
 }
 
-/// Written where there is no pose: not-a-number becomes NULL.
+/// What is written if there is no pose: not-a-number becomes NULL.
 inline gaze::Pose no_pose() {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     return {glm::dquat{kNan, kNan, kNan, kNan}, glm::dvec3{kNan}};
 }
 
-/// What a fitted clock knows of a sample: columns that are NULL where none was fitted, and that
-/// files have not which were written before there were any. `ready` is known as measured only.
+/// What a fitted clock knows of a sample. The columns are NULL where no clock was fitted, and
+/// missing in files from before clocks were fitted. `ready` is kept only as measured.
 template <typename Visitor, typename Timed>
 void visit_clocked(Visitor& visit, Timed& timed) {
     auto ready_ns = timed.ready.known() ? std::optional(timed.ready.ns) : std::nullopt;
@@ -97,10 +97,10 @@ void visit_sample(Visitor& visit, Frame& frame, Sample& sample) {
         sample.head = has_head ? std::optional(head) : std::nullopt;
     }
     visit_clocked(visit, sample);
-    visit("parallax", "_rad", sample.parallax_rad);  // files have it not that were written before
+    visit("parallax", "_rad", sample.parallax_rad);  // missing in older files
 }
 
-/// A count that is NULL where there is none: 0.
+/// A count. Where there is none it is 0, and NULL in the file.
 template <typename Visitor, typename Count>
 void visit_count(Visitor& visit, std::string_view head, std::string_view tail, bool there,
                  Count& count) {
@@ -219,7 +219,7 @@ inline gaze::HiddenTriangle no_triangle() {
     return triangle;
 }
 
-/// `kind` and `text` are text of the reader's or the writer's own kind.
+/// `kind` and `text` are of the type in which the reader or the writer holds text.
 template <typename Visitor, typename Time, typename Text>
 void visit_event(Visitor& visit, Time& time, Text& kind, Text& text) {
     visit_stamp(visit, "time", time);

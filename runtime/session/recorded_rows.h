@@ -15,8 +15,8 @@ struct RecordedSample {
 
 struct RecordedFrame {
     frame::FrameRecord frame;
-    frame::FrameGpuRecord gpu;  ///< with unknown stamps and no passes where the GPU part is missing
-    bool gpu_known = false;     ///< the GPU part is there
+    frame::FrameGpuRecord gpu;  ///< stamps unknown and no passes if !gpu_known
+    bool gpu_known = false;     ///< the file has the GPU part
 };
 
 struct RecordedEvent {

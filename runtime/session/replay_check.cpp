@@ -11,7 +11,7 @@
 namespace gazeloop::session {
 namespace {
 
-/// What of a frame's foveae the picture depends on, as bits.
+/// The bits of a frame's foveae that the picture depends on.
 using FoveaBits = std::array<std::uint64_t, 7 * gaze::kEyeCount>;
 
 FoveaBits bits(const gaze::FrameFovea& fovea) {

@@ -10,8 +10,8 @@
 
 namespace gazeloop::session {
 
-/// Folds everything a replay must reproduce into two numbers: every frame's fovea points bit by
-/// bit, and every frame's pixel hash.
+/// Hashes everything that a replay must reproduce into two numbers: every frame's fovea points, bit
+/// by bit, and every frame's pixel hash.
 class ReplayHash final : public frame::FrameObserver {
   public:
     void on_frame(const frame::FrameRecord& record) override;
@@ -30,8 +30,9 @@ class ReplayHash final : public frame::FrameObserver {
     std::uint64_t pixel_frames_ = 0;
 };
 
-/// Compares a replay with the recorded frames, which are read beside it: fovea points bit by bit,
-/// and pixel hashes where both have them. Throws SetupError (BadInput) where they cannot be read.
+/// Compares a replay with the recorded frames, which it reads as the replay goes on: fovea points
+/// bit by bit, and pixel hashes where both have them. Throws SetupError (BadInput) if a recorded
+/// frame cannot be read.
 class ReplayCheck final : public frame::FrameObserver {
   public:
     /// `session` must outlive this. Foveae are compared only if `same_gaze`, pixels only if

@@ -9,9 +9,9 @@
 
 namespace gazeloop::session {
 
-// What a session holds, one kind each, in memory of one piece. A reader moves by next(), which is
-// false after the last piece, for good; row() is the piece that it stands on. Members throw
-// FormatError. `version`: the file's schema.
+// Readers of what a session holds, one for each kind of row. Each holds one row in memory. next()
+// moves to the next row, and is false after the last one, for good; row() is the current one.
+// Members throw FormatError. `version`: the file's schema.
 
 /// By frame, then arrival.
 class SampleRows {
@@ -49,12 +49,12 @@ class HiddenRows {
   private:
     void look_ahead();
 
-    std::optional<TableReader> triangles_;  ///< none in files from before there were any
+    std::optional<TableReader> triangles_;  ///< none in files that lack the table
     std::optional<HiddenRecord> ahead_;
     gaze::HiddenChange row_;
 };
 
-/// In the order in which they were told.
+/// In the order in which they were recorded.
 class EventRows {
   public:
     EventRows(const Database& database, int version);

@@ -48,11 +48,11 @@ class Cell {
     std::string bytes_;
 };
 
-/// Makes the function known that copies a row. Only statements of our own may call it, no schema.
+/// Registers the SQL function that copies a row. Only our own statements may call it, no schema.
 void add_row_function(sqlite3* database);
 
-/// Rows of one query, all columns of each copied at once: SQLite's own access, column by column,
-/// takes longer than the rest of the reading. Members throw DatabaseError.
+/// Rows of one query. All columns of a row are copied at once, because SQLite's own access, column
+/// by column, takes longer than the rest of the reading. Members throw DatabaseError.
 class RowStatement {
   public:
     /// Reads these columns or expressions; `from` is the rest of the query, from FROM on. SQLite
@@ -63,15 +63,16 @@ class RowStatement {
     /// Moves to the next row; false after the last one.
     bool next() { return statement_.next(); }
 
-    /// Whether SQLite has had to sort the rows, as is known from the first one on. Then they were
-    /// all copied before that, and no cell is of the row.
+    /// Whether SQLite has had to sort the rows; known from the first row on. If so, all rows were
+    /// copied before the first one came, and the cells are not the current row's.
     [[nodiscard]] bool sorted() const { return statement_.sorted(); }
 
-    /// Of the row that it stands on, numbered from 0.
+    /// Of the current row, numbered from 0.
     [[nodiscard]] const Cell& cell(std::size_t column) const { return (*cells_)[column]; }
 
   private:
-    std::unique_ptr<std::vector<Cell>> cells_;  ///< where the statement puts them, wherever this is
+    std::unique_ptr<std::vector<Cell>>
+        cells_;  ///< on the heap, so that a move of this does not move them
     Statement statement_;
 };
 

@@ -5,7 +5,7 @@
 
 namespace gazeloop::session {
 
-/// The number in `meta.schema_version`; a change that an older reader cannot cope with raises it.
+/// The number in `meta.schema_version`. A change that an older reader cannot read raises it.
 inline constexpr int kSchemaVersion = 2;
 
 /// The oldest version that is still read.
@@ -14,13 +14,13 @@ inline constexpr int kOldestSchemaVersion = 1;
 /// Creates the tables in an empty database. SCHEMA.md says what their columns mean.
 extern const char* const kCreateTables;
 
-/// Columns and tables that the first files of version 1 lack, in whichever table they are.
+/// Columns that the first files of version 1 lack, in whichever table; then a table that they lack.
 inline constexpr std::array<std::string_view, 5> kLaterColumns{
     "texels_hidden", "pixels_hidden", "ready_ns", "uncertainty_ns", "parallax_rad"};
 inline constexpr std::string_view kHiddenTable = "hidden_area";
 
-/// Version 1 named the columns of `frame` for the two methods that it knew: what a column of today
-/// is read from. Columns of grids and passes that are not among them are NULL there.
+/// Version 1 named the columns of `frame` after the two methods that it knew. This says from which
+/// of them a column of today is read. Other columns of grids and passes are NULL in such a file.
 struct FormerColumn {
     std::string_view name;
     std::string_view before;

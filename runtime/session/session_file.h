@@ -10,7 +10,7 @@
 
 namespace gazeloop::session {
 
-/// A session as it lies in its file, complete.
+/// A complete session, as its file has it.
 struct SessionFile : SessionInfo {
     std::vector<RecordedSample> samples;  ///< by frame, then arrival
     std::vector<RecordedFrame> frames;    ///< by index
@@ -18,7 +18,7 @@ struct SessionFile : SessionInfo {
     std::vector<gaze::HiddenChange> hidden;  ///< by frame
 };
 
-/// Plays a session into memory: for short ones, to look about in. Not-a-number comes back as the
+/// Reads a whole session into memory; meant for short ones. Every not-a-number comes back as the
 /// quiet one. Errors: see play().
 Expected<SessionFile> read_session(const std::filesystem::path& file);
 

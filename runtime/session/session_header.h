@@ -11,8 +11,8 @@ namespace gazeloop::session {
 
 /// What a session states about itself before its first frame. Names are unique within each list.
 struct SessionHeader {
-    frame::PassList passes{};          ///< what the passes of its frames are called
-    frame::GridList grids{};           ///< and their grids
+    frame::PassList passes{};          ///< names of the passes of its frames
+    frame::GridList grids{};           ///< names of their grids
     SessionMeta meta{};                ///< what ran, when, by which clock, for which display
     std::vector<NamedValue> config{};  ///< every setting in force, by key
     std::vector<NamedValue> device{};  ///< Vulkan device and driver, OpenXR runtime, gaze source

@@ -10,14 +10,14 @@ namespace gazeloop::session {
 
 /// Everything that a session says beside its frames, samples and events.
 struct SessionInfo {
-    SessionHeader header;  ///< as it was given to the recorder, as far as its version keeps it
+    SessionHeader header;  ///< as given to the recorder, as far as its version keeps it
     int schema_version = 0;
-    std::uint64_t records_dropped = 0;  ///< by a full queue, as far as was known when writing ended
+    std::uint64_t records_dropped = 0;  ///< by a full queue, as known when writing ended
     bool closed_cleanly = false;
-    bool writing_failed = false;       ///< and the disk still took a note of it
-    bool had_write_ahead_log = false;  ///< a log with content lay beside it
+    bool writing_failed = false;       ///< and this could still be noted on disk
+    bool had_write_ahead_log = false;  ///< a log with content lay beside the file
 
-    /// The setting that was in force.
+    /// The value of a setting in that run; nothing if the session does not have it.
     [[nodiscard]] std::optional<std::string_view> config(std::string_view key) const;
 };
 

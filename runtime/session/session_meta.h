@@ -10,7 +10,7 @@
 
 namespace gazeloop::session {
 
-/// What the table `meta` says of a run, beside what the recorder itself keeps there.
+/// What the table `meta` says of a run, without what the recorder itself keeps there.
 struct SessionMeta {
     std::string program{};       ///< name and version
     std::string command_line{};  ///< as it was given
@@ -18,15 +18,15 @@ struct SessionMeta {
     latency::LoopClock clock = latency::LoopClock::Wall;
     std::string target{};         ///< where the pictures went
     std::string target_format{};  ///< of its pictures, as Vulkan names it
-    /// Name, period and all that decides when photons come. What is unknown is absent, empty, or
-    /// a refresh rate of 0.
+    /// Name, period and everything that decides when photons come. Unknown values are absent,
+    /// empty, or a refresh rate of 0.
     display::DisplayProfile display{};
 };
 
-/// The rows that keep it; what is unknown has none.
+/// The rows of `meta` for it. Unknown values have none.
 std::vector<NamedValue> rows_of(const SessionMeta& meta);
 
-/// What the rows say, as far as they do. Rows of other names mean nothing here.
+/// What the rows say; the rest stays unknown. Rows of other names are ignored.
 SessionMeta meta_of(std::span<const NamedValue> rows);
 
 }  // namespace gazeloop::session

@@ -24,12 +24,12 @@ namespace {
 /// 26 seconds of a 1000 Hz tracker and a 120 Hz display, 22 MB.
 constexpr std::size_t kQueueRecords = 32'768;
 
-/// The longest wait for records, and the longest transaction: together 50 ms, half of what is
-/// promised, so that a late wake-up of the thread breaks no promise.
+/// The longest wait for records, and the longest transaction. Together they are 50 ms, half of the
+/// promised 100 ms, so that a late wake-up of the thread does not break the promise.
 constexpr std::chrono::milliseconds kCommitInterval{25};
 
-/// Threads started in its lifetime take no signals: those are for the loop. A file size limit then
-/// is an error to report and no reason to die.
+/// Threads started in its lifetime take no signals: those are for the loop. Reaching the limit on
+/// file size is then an error to report, and does not kill the process.
 class SignalsBlocked {
   public:
     SignalsBlocked() {
@@ -85,7 +85,7 @@ class SessionRecorder::Impl {
     }
 
   private:
-    /// Nothing here may throw, out of memory included; so the message is made by who asks for it.
+    /// Nothing here may throw, even out of memory. So the message is made when it is asked for.
     void run() {
         try {
             while (!wait_for_close()) {

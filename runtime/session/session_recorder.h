@@ -21,20 +21,25 @@ struct RecordingStatus {
     [[nodiscard]] bool complete() const { return dropped == 0 && failure.empty(); }
 };
 
-/// Writes a session file (SQLite, WAL) from one thread of its own, fed by a bounded lock-free queue
-/// with one producer, the loop. Nothing here blocks the loop or allocates on it. What was handed
-/// over is committed within 50 ms, so that a process killed at any moment lacks at most the last
-/// 100 ms (more only while the disk itself does not answer; then the queue holds it). A full or
+/// Writes a session file (SQLite, WAL) on a thread of its own. The loop feeds it through a bounded
+/// lock-free queue, as its only producer. Nothing here blocks the loop or allocates on its thread.
+///
+/// Records are committed within 50 ms, so a process killed at any moment loses at most the last 100
+/// ms. Only while the disk does not answer may it lose more, which the queue then holds. A full or
 /// unwritable disk ends the writing, not the loop: see close().
 class SessionRecorder {
   public:
-    /// Creates the file with mode 0600; a process killed meanwhile leaves a readable session or
-    /// none. Errors (BadInput), after which nothing is left: the file exists already, or what an
-    /// earlier session left beside it (name another or remove it); the folder is missing or not
-    /// writable; the header has a name twice; the system has no memory or no thread left.
+    /// Creates the file with mode 0600. A process killed meanwhile leaves a readable session or
+    /// none. Errors (BadInput), after which nothing is left:
+    ///  - the file exists already, or something that an earlier session left beside it (name
+    ///  another
+    ///    file, or remove it);
+    ///  - the folder is missing or not writable;
+    ///  - the header has a name twice;
+    ///  - the system has no memory or no thread left.
     static Expected<std::unique_ptr<SessionRecorder>> create(const std::filesystem::path& file,
                                                              const SessionHeader& header);
-    /// What create() would refuse at once, without creating anything: to ask before a long set-up.
+    /// What create() would refuse at once, to ask before a long set-up. Creates nothing.
     static Expected<void> check(const std::filesystem::path& file);
     SessionRecorder(const SessionRecorder&) = delete;
     SessionRecorder& operator=(const SessionRecorder&) = delete;
@@ -50,14 +55,14 @@ class SessionRecorder {
     /// `text` is cut after 240 bytes, between characters.
     void event(time::Stamp time, std::string_view kind, std::string_view text);
 
-    /// Whether something has gone wrong, which the person who records may want to know at once: the
-    /// writing has ended early, or the file has been moved or removed. Does not block.
+    /// Whether something has gone wrong that the user may want to know at once: writing has ended
+    /// early, or the file has been moved or removed. Does not block.
     [[nodiscard]] bool in_trouble() const;
-    /// What that is, empty while there is none.
+    /// What has gone wrong; empty if nothing has.
     [[nodiscard]] std::string trouble() const;
 
-    /// Writes what is queued and closes the file, so that a single file remains (while somebody
-    /// reads it, its -wal and -shm stay until they have done). Idempotent; what is added later is
+    /// Writes what is queued and closes the file. A single file remains; while somebody reads it,
+    /// its -wal and -shm stay until the reader has closed it. Idempotent; what is added later is
     /// lost. Called by the destructor.
     RecordingStatus close();
 

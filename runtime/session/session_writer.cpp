@@ -105,7 +105,7 @@ void SessionWriter::mark_failed() {
     try {
         mark();
     } catch (const DatabaseError&) {
-        // The log may have no room for it any more; what is folded in leaves some.
+        // The log may have no room left for it; a checkpoint makes some.
         database_.execute("PRAGMA wal_checkpoint(TRUNCATE)");
         mark();
     }
@@ -115,11 +115,11 @@ void SessionWriter::finish() {
     set_meta(kMetaClosed, kClosed);
     database_.execute("PRAGMA wal_checkpoint(TRUNCATE)");
     try {
-        // Out of WAL mode. Only the first sector changes: a journal on disk would be of no use, and
-        // left by a process killed here it would keep readers out.
+        // Out of WAL mode. Only the first sector changes, so a journal on disk would be of no use.
+        // If a process killed here left one, it would keep readers out.
         database_.execute("PRAGMA journal_mode = MEMORY");
     } catch (const DatabaseError& error) {
-        // Somebody reads the file: everything is in it, but its companions go with that reader.
+        // Somebody reads the file. Everything is in it; its companions go when that reader ends.
         if (error.code() != SQLITE_BUSY && error.code() != SQLITE_LOCKED) {
             throw;
         }

@@ -10,20 +10,20 @@
 
 namespace gazeloop::session {
 
-/// Writes records into a session file, on one thread at a time. Members throw DatabaseError; the
-/// file then stays readable up to the last commit, and nothing more can be written.
+/// Writes records into a session file, on one thread at a time. Members throw DatabaseError. After
+/// that the file stays readable up to the last commit, and nothing more can be written.
 class SessionWriter {
   public:
-    /// `file` must be a session of its own as create_session() leaves it.
+    /// `file` must be a session as create_session() leaves it, which no one else writes.
     explicit SessionWriter(const std::filesystem::path& file);
 
     void begin();
     void write(const Record& record);
-    /// `dropped`: records that never came, so far.
+    /// `dropped`: how many records were lost before they came here, so far.
     void commit(std::uint64_t dropped);
 
-    /// Notes in the session, where the disk still allows it, that something here failed. What was
-    /// not committed is lost.
+    /// Notes in the session that writing failed, if the disk still allows it. What was not
+    /// committed is lost.
     void mark_failed();
 
     /// Marks the session as closed and folds everything into the one file.

@@ -21,7 +21,8 @@ class Statement {
     void bind(int parameter, double value);           ///< not-a-number becomes NULL
     void bind(int parameter, std::string_view text);  ///< must live until the statement has run
 
-    /// For a function of our own that knows the type's name; both must outlive the statement.
+    /// For an SQL function of our own that knows the type's name. Both arguments must outlive the
+    /// statement.
     void bind_pointer(int parameter, void* pointer, const char* type);
 
     /// Runs a statement that returns no rows, and makes it ready for the next run.

@@ -20,23 +20,23 @@
 
 namespace gazeloop::session {
 
-/// What is wrong with a file, with table and row. Does not leave this room.
+/// What is wrong with a file: names the table and the row. Does not leave this room.
 class FormatError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// The columns by whose order tables are read.
+/// The key columns, which give the order in which tables are read.
 inline constexpr std::array<std::string_view, 1> kByPosition{"position"};
 inline constexpr std::array<std::string_view, 1> kByNumber{"number"};
 inline constexpr std::array<std::string_view, 2> kByFrameAndEye{"frame", "eye"};
 
-/// Whether the file has a real table of that name: a view or a virtual table of the same name could
-/// hold anything, without end.
+/// Whether the file has a real table of that name. A view or a virtual table could return anything,
+/// without end.
 bool has_table(const Database& database, std::string_view table);
 
-/// The rows of one table in the order of its key, an unsigned number or two, checked field by
-/// field. Every member throws FormatError.
+/// The rows of one table, checked field by field, in the order of its key: one unsigned number or
+/// two. Every member throws FormatError.
 class TableReader {
   public:
     /// The key is one integer column or two. `version`: the file's schema.
@@ -56,7 +56,7 @@ class TableReader {
     /// Whether the row's next field is NULL.
     [[nodiscard]] bool at_null() const { return cell().is_null(); }
 
-    /// Reports the row.
+    /// Throws the FormatError that names the row.
     [[noreturn]] void fail(std::string_view what) const;
 
   private:

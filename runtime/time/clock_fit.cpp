@@ -31,8 +31,8 @@ constexpr std::size_t kEarlyRunToStep = 3;
 constexpr std::size_t kCalmAfterEarly = 2;
 /// Two samples may come early within this and still be of the same clock.
 constexpr double kLeastEarly_ns = 200e3;
-/// A first sample that all others are so much earlier than tells nothing of them: it waited, or
-/// bore the time of another run of the device.
+/// If all others are earlier than a first sample by so much, it tells nothing of them: it waited,
+/// or had the time of another run of the device.
 constexpr double kOfAnotherTime_ns = 1e9;
 constexpr double kLateHeights = 2.5;
 constexpr double kLeastLate_ns = 50e3;
@@ -380,8 +380,8 @@ double ClockFit::height_of_last_second_ns() const {
     return std::max(least, 0.0);
 }
 
-/// The same of the samples since regular timestamps jumped, until these are all of the last second:
-/// by so much the clock may have been set back.
+/// The same for the samples since regular timestamps jumped: the clock may have been set back by so
+/// much. 0 once all samples of the last second came after the jump.
 double ClockFit::height_since_jump_ns() const {
     const bool covered = bucket_count_ >= kBucketsOfLastSecond &&
                          buckets_[bucket_count_ - kBucketsOfLastSecond].begin_ns >= jump_ns_;

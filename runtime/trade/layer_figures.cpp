@@ -127,7 +127,8 @@ std::string claims() {
         const auto growth = value_or_throw(
             foveation::layer_cost_growth(20.0, 90.0, quality.line, kChoices[kFourLayers].options));
         text += fmt::format(
-            " {}: {:.1f}k pixels a degree, within {:.1f} % of a straight line; exponent {:.2f} at "
+            " {}: {:.1f}k pixels per degree, within {:.1f} % of a straight line; exponent {:.2f} "
+            "at "
             "90 degrees{}",
             quality.name, growth.slope_per_deg * 1e-3, 100.0 * growth.worst_deviation,
             growth.end_exponent,

@@ -94,7 +94,7 @@ std::string plan_report_text(const PlanReport& report) {
         }
     }
     text +=
-        "\nleast: offered over required samples a degree in the worst direction, where it is "
+        "\nleast: offered over required samples per degree in the worst direction, where it is "
         "least; required is what the model asks for, and at most what the display can show.\n";
     return text;
 }
@@ -165,7 +165,7 @@ report::LineChart density_chart(const PlanReport& report) {
         .subtitle = heading(asked),
         .x = {"eccentricity from the gaze, degrees", kFromDeg,
               std::max(field.greatest_eccentricity_deg(), 10.0 * kFromDeg), true},
-        .y = {"samples a degree, in the direction served worst", 0.5, 100.0, true},
+        .y = {"samples per degree, in the direction served worst", 0.5, 100.0, true},
         .lines = {}};
     double highest = 0.0;
     std::size_t colour = 0;

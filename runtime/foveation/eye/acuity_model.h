@@ -32,9 +32,10 @@ class AcuityModel {
     return 2.0 * model.cutoff_cpd(eccentricity_deg, nasal);
 }
 
-/// How far a direction in the visual field lies towards the nose. 1 on the nasal meridian, falling
-/// linearly with the angle from it to 0 at a right angle and beyond (Mantiuk et al. 2022).
-/// `direction_rad`: 0 to the right, counter-clockwise as seen by the viewer, any number of turns.
+/// How far a direction in the visual field lies towards the nose: 1 on the nasal meridian. It falls
+/// linearly with the angle from that meridian, to 0 at a right angle and beyond (Mantiuk et al.
+/// 2022). `direction_rad`: 0 to the right, counter-clockwise as seen by the viewer, any number of
+/// turns.
 [[nodiscard]] double nasal_share(gaze::Eye eye, double direction_rad);
 
 }  // namespace gazeloop::foveation

@@ -5,10 +5,12 @@
 namespace gazeloop::foveation {
 
 /// Geisler and Perry 1998, "A real-time foveated multiresolution system for low-bandwidth video
-/// communication". The contrast threshold CT(f, e) = CT0 exp(alpha f (e + e2) / e2) reaches 1, full
-/// contrast, at the cut-off f = e2 ln(1 / CT0) / (alpha (e + e2)).
+/// communication". The contrast threshold is
+///     CT(f, e) = CT0 exp(alpha f (e + e2) / e2).
+/// It reaches 1 (full contrast) at the cut-off
+///     f = e2 ln(1 / CT0) / (alpha (e + e2)).
 ///
-/// The constants are the ones in common use with this formula; they have not been compared with the
+/// The constants are the ones in common use with this formula. They have not been compared with the
 /// printed paper.
 class GeislerPerryAcuity final : public AcuityModel {
   public:

@@ -38,8 +38,8 @@ double StelaAcuity::reach_deg(std::size_t entry, const StelaDecay& decay) const 
 
 double StelaAcuity::cutoff_cpd(double eccentricity_deg, double nasal) const {
     const StelaDecay decay = stela_decay(field_ == StelaField::Directional ? nasal : 0.0);
-    // A grating's reach rises with frequency to one peak and falls from there on: it is a concave
-    // function of frequency over a linear one. The peak first, then the far side's crossing.
+    // A grating's reach rises with frequency to one peak, then falls, because it is a concave
+    // function of frequency over a linear one. Find the peak, then the crossing beyond it.
     std::size_t low = 0;
     std::size_t high = kEntries - 1;
     while (low < high) {

@@ -16,9 +16,9 @@ enum class StelaField {
 };
 
 /// The cut-off by stelaCSF: the highest frequency at which a grating of full contrast is seen
-/// (sensitivity 1). Where even the best frequency's sensitivity is below 1, nothing is: 0. Under
-/// the default conditions that is beyond 43.6 degrees on the temporal side. At the fovea the
-/// default conditions give 71 cycles per degree, beyond the 64 that the model was fitted to.
+/// (sensitivity 1). It is 0 where no frequency reaches sensitivity 1, so that nothing is seen.
+/// Under the default conditions that is beyond 43.6 degrees on the temporal side. At the fovea they
+/// give 71 cycles per degree, beyond the 64 that the model was fitted to.
 class StelaAcuity final : public AcuityModel {
   public:
     /// Errors: as check_conditions.

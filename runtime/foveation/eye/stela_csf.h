@@ -32,10 +32,12 @@ struct StelaDecay {
 [[nodiscard]] StelaDecay stela_decay(double nasal);
 
 /// Contrast sensitivity (1 / threshold contrast) at the fovea for an achromatic grating, by
-/// stelaCSF with its published parameters. (Mantiuk, Ashraf and Chapiro 2022, "stelaCSF: a unified
-/// model of contrast sensitivity as the function of spatio-temporal frequency, eccentricity,
-/// luminance and area".) Fitted for .0625 to 64 cycles per degree; beyond, it is the formula's
-/// continuation. Preconditions: frequency_cpd > 0, conditions that check_conditions accepts.
+/// stelaCSF with its published parameters. Fitted for .0625 to 64 cycles per degree; outside that
+/// range the formula is extrapolated. Preconditions: frequency_cpd > 0, conditions that
+/// check_conditions accepts.
+///
+/// Source: Mantiuk, Ashraf and Chapiro 2022, "stelaCSF: a unified model of contrast sensitivity as
+/// the function of spatio-temporal frequency, eccentricity, luminance and area".
 [[nodiscard]] double stela_foveal_sensitivity(double frequency_cpd,
                                               const StelaConditions& conditions);
 

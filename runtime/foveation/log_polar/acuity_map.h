@@ -27,8 +27,8 @@ class AcuityMap final : public RadialMap {
     [[nodiscard]] Density density_at(double eccentricity_deg, LpSize lp) const;
 
     /// The eccentricity inside which pixels are better shaded directly: the greatest, up to 90
-    /// degrees, at which the LP-buffer offers one texel per pixel. That is a pixel of the display
-    /// at the gaze, or at the point of the picture nearest to it.
+    /// degrees, at which the LP-buffer offers one texel per pixel. The pixel counts as large as it
+    /// is at the gaze, or at the point of the picture nearest to the gaze.
     [[nodiscard]] double disc_eccentricity_deg(LpSize lp) const;
 
   private:

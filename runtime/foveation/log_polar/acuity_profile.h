@@ -15,8 +15,8 @@ struct AcuityParameters {
     static constexpr double kMaxPixelsPerDegree = 1e5;
 
     MarLine mar{};
-    /// The display's density, where the map assumes that the display is the limit; 0: the greatest
-    /// in view, so that no gaze needs another map.
+    /// The display's density, which limits what the map offers. 0: the greatest in view, so that no
+    /// gaze needs another map.
     double pixels_per_degree = 0.0;
     std::uint32_t lp_width = 0;   ///< the LP-buffer's columns; 0: as the line asks for
     std::uint32_t lp_height = 0;  ///< likewise, rows
@@ -24,21 +24,23 @@ struct AcuityParameters {
     double border_px = 6.0;  ///< width of the blend at the gaze from disc to LP-buffer, [0, 64]
 };
 
-/// The radial function that a display and a MAR line ask for (the gaze-independent part of the
-/// acuity-derived map), Nyquist sampled. Let p be the pixels per degree, and e_c = (2/p - omega0) /
-/// m the eccentricity up to which the display, not the eye, is the limit. The columns out to an
-/// eccentricity are
+/// The radial function that a display and a MAR line ask for, Nyquist sampled: the part of the
+/// acuity-derived map that does not depend on the gaze. Let p be the pixels per degree. Up to the
+/// eccentricity e_c = (2/p - omega0) / m, the display and not the eye is the limit. The number of
+/// columns out to an eccentricity is
 ///     U(e) = p e                                             up to e_c,
-///     U(e) = p e_c + (2/m) ln[(omega0 + m e) / (2/p)]        beyond;
-/// with e_c <= 0, the logarithm alone with omega0 in place of 2/p. U is continuously
+///     U(e) = p e_c + (2/m) ln[(omega0 + m e) / (2/p)]        beyond.
+/// Where e_c <= 0, it is the logarithm's term alone, with omega0 in place of 2/p. U is continuously
 /// differentiable. (The idea is also published as VaFR, arXiv 2503.23410.)
 class AcuityProfile {
   public:
     /// Where the map ends; a gaze within 90 degrees of the view's axis sees less.
     static constexpr double kMaxEccentricityDeg = 179.0;
 
-    /// Errors (Usage), each with the value and the valid range: a parameter out of range or not a
-    /// number; a picture under 2 x 2 px or with a side over 16384; an invalid field of view.
+    /// Errors (Usage), each with the value and the valid range:
+    ///  - a parameter out of range or not a number;
+    ///  - a picture under 2 x 2 px or with a side over 16384;
+    ///  - an invalid field of view.
     static Expected<AcuityProfile> create(const AcuityParameters& parameters,
                                           const gaze::EyeView& view);
 
@@ -51,9 +53,9 @@ class AcuityProfile {
     [[nodiscard]] double pixels_per_degree() const { return pixels_per_degree_; }
     [[nodiscard]] const MarLine& mar() const { return mar_; }
 
-    /// The LP-buffer that holds every eccentricity. As stated, or U(kMaxEccentricityDeg) columns
-    /// and the most rows that any eccentricity asks for: the maximum of 360 sin e min(p, 2 /
-    /// omega(e)).
+    /// The LP-buffer's size: as stated, else what holds every eccentricity. That is
+    /// U(kMaxEccentricityDeg) columns, and the most rows that any eccentricity asks for: the
+    /// maximum of 360 sin e min(p, 2 / omega(e)).
     [[nodiscard]] LpSize lp() const { return lp_; }
 
     /// The share of the LP-buffer's width within an eccentricity, and its inverse: U and U^-1
@@ -67,7 +69,7 @@ class AcuityProfile {
     MarLine mar_;
     double pixels_per_degree_;
     double display_limit_deg_;
-    double omega_at_limit_deg_;  ///< of a cycle: 2/p, or omega0 where the eye is the limit
+    double omega_at_limit_deg_;  ///< degrees per cycle: 2/p, or omega0 where the eye is the limit
     double max_columns_;
     LpSize lp_;
 };

@@ -9,9 +9,9 @@
 
 namespace gazeloop::foveation {
 
-/// The shaders' arithmetic on a map, operation by operation in float (shaders/lib/log_polar.glsl
-/// and gaze_frame.glsl), so that its exactness can be tested and measured without a device. Keep
-/// both sides alike.
+/// The shaders' arithmetic on a map, operation by operation in float, so that its exactness can be
+/// tested and measured without a device. Keep it the same as shaders/lib/log_polar.glsl and
+/// gaze_frame.glsl.
 class FloatMap {
   public:
     /// The tables must outlive the map.

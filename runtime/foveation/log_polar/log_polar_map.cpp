@@ -154,8 +154,8 @@ double LogPolarMap::change_between(double holds_at, double fails_at,
     return std::exp(holds_at * log_max_radius_);
 }
 
-/// The radius at which a function of the radius is greatest; its x is searched in steps, then by
-/// golden sections around the greatest step.
+/// The radius at which a function of the radius is greatest. x = ln r / L is searched in steps,
+/// then by golden sections around the best step.
 template <typename Function>
 double LogPolarMap::peak(const Function& function) const {
     const auto at = [&](double x) { return function(std::exp(x * log_max_radius_)); };
@@ -183,8 +183,8 @@ double LogPolarMap::disc_radius_px(LpSize lp) const {
     const auto offers_texel = [&](double radius_px) {
         return texels_per_pixel(radius_px, lp) >= 1.0;
     };
-    // A kernel's density may rise and fall more than once: each fall below a texel a pixel is a
-    // candidate, and the screen's end if there is no fall before it.
+    // A kernel's density may rise and fall more than once. Each fall below one texel per pixel is a
+    // candidate; so is the screen's end, if the density has not fallen before it.
     double best_radius = 0.0;
     double best_gain = 0.0;
     const auto consider = [&](double radius_px) {

@@ -25,17 +25,18 @@ struct KfrParameters {
     bool close_hole = false;
 };
 
-/// The LP-buffer's size: as stated, else W/sigma x H/sigma, rounded. Errors (Usage): a parameter
-/// out of range or not a number; a picture under 2 x 2 px; an LP-buffer under 2 x 4 texels; either
-/// with a side over 16384.
+/// The LP-buffer's size: as stated, else W/sigma x H/sigma, rounded. Errors (Usage):
+///  - a parameter out of range or not a number;
+///  - a picture under 2 x 2 px, or an LP-buffer under 2 x 4 texels;
+///  - a side of either over 16384.
 Expected<LpSize> lp_buffer_size(const KfrParameters& parameters, ImageSize image);
 
 /// Kernel log-polar mapping around one fovea, in double precision:
 ///     u = K(ln r / L),   r = exp(L K^-1(u)),   L = ln rmax
-/// with r in pixels from the fovea (Meng et al. 2018; PowerKernel is variant B, the form of the
-/// paper's Eq. 8, figures and released code). Radii under 1 px map to u = 0, radii beyond rmax to
-/// 1. The distance to the farthest corner, rmax, exceeds 1 px for every picture of at least 2 x 2
-/// px, wherever the fovea is.
+/// with r in pixels from the fovea, and rmax the distance to the farthest corner (Meng et al.
+/// 2018). PowerKernel is variant B, the form of the paper's Eq. 8, figures and released code. Radii
+/// under 1 px map to u = 0, radii beyond rmax to 1. rmax is over 1 px for every picture of at least
+/// 2 x 2 px, wherever the fovea is.
 class LogPolarMap final : public RadialMap {
   public:
     LogPolarMap(RadialKernel kernel, ImageSize image, const gaze::PixelPosition& fovea);
@@ -59,10 +60,10 @@ class LogPolarMap final : public RadialMap {
     [[nodiscard]] double texels_per_pixel(double radius_px, LpSize lp) const;
 
     /// The radius within which direct shading saves the most samples: one at which the LP-buffer
-    /// falls below one texel per pixel. If the buffer never reaches one texel per pixel, the radius
-    /// of the kernel's hole at the fovea, inside which the density falls towards the fovea. That
+    /// falls below one texel per pixel. If the buffer never reaches one texel per pixel, it is the
+    /// radius of the kernel's hole at the fovea, in which density falls towards the fovea. That
     /// radius is limited so that closing the hole costs at most a tenth of the LP-buffer's texels.
-    /// 0: none.
+    /// 0: no disc.
     [[nodiscard]] double disc_radius_px(LpSize lp) const;
 
     /// The radius of the hole that the kernel leaves at the fovea: where the radial density first

@@ -27,8 +27,8 @@ constexpr double kLog2Error = 1.0 / (8.0 * std::numbers::ln2 * kSteps2) + 3.0 * 
 /// 2^x, relative: f'' / f = ln^2 2; entries, fraction and interpolation round four times.
 constexpr double kExp2Error = std::numbers::ln2 * std::numbers::ln2 / (8.0 * kSteps2) + 4.0 * kEps;
 
-/// turns(): the fit's 2.3e-8; the quotient's error, whose weight is at most 1 / (2 pi); the final
-/// subtraction from 1, .5 or .25, half a unit in the last place below 1.
+/// turns(), the sum of three errors: the fit's 2.3e-8; the quotient's, with a weight of at most 1 /
+/// (2 pi); and half a unit in the last place below 1, of the final subtraction from 1, .5 or .25.
 constexpr double kTurnsError = 2.3e-8 + kDivision / kTurn + 0.5 * kEps;
 
 double distance_px(const gaze::PixelPosition& a, const gaze::PixelPosition& b) {
@@ -55,9 +55,9 @@ double half_ulp(double value) {
     return 0.5 * static_cast<double>(std::nextafter(rounded, 2.0F) - rounded);
 }
 
-/// Of the relative error of q, squared radius over the greatest squared radius, in y = log2 q; and
-/// of y's table, its sum with the exponent, its scaling (two), and the root taken of it (twice a
-/// root's error), in radius: dr / r = dy ln2 / 2.
+/// The relative error in radius: dr / r = dy ln2 / 2, where y = log2 q and q is the squared radius
+/// over the greatest squared radius. dy has these parts: the relative error of q; y's table; its
+/// sum with the exponent and its scaling (two roundings); and its root, which counts twice.
 double radius_error(double q_error, double q) {
     const double y = std::abs(std::log2(q));
     return kHalfLn2 * (q_error / std::numbers::ln2 + kLog2Error + y * (3.0 * kEps + 2.0 * kSqrt));
@@ -65,8 +65,9 @@ double radius_error(double q_error, double q) {
 
 }  // namespace
 
-// The forward table's error is taken in double from the function itself, at three points of each
-// cell, with a quarter more for what lies between them: no formula with K'' holds for every kernel.
+// The forward table's error is measured in double on the function itself, because no formula with
+// K'' holds for every kernel. It is taken at three points of each cell, and increased by a quarter
+// for what lies between them.
 MapError::MapError(const RadialKernel& kernel) {
     std::visit(
         [&](const auto& k) {
@@ -123,8 +124,9 @@ double MapError::forward_px(const AcuityMap& map, const gaze::PixelPosition& pos
     const double ray_rad = 4.0 * kEps * glm::length(terms) / glm::length(ray);
     const double rho = std::max(frame.polar(position).rho, 1e-12);
     const double eccentricity = 2.0 * std::atan(rho);
-    // across^2: two products, a sum; the length: a root, and half of the three roundings under it,
-    // in both factors; their sum and product; the division; the difference from 1 behind.
+    // Term by term: across^2 (two products, a sum); the length, in both factors (a root, and half
+    // of the three roundings under it); their sum and product; the division; behind the eye, the
+    // difference from 1.
     const double q_error = 3.0 * kEps + 2.0 * (kSqrt + 1.5 * kEps) + 2.0 * kEps + kDivision + kEps;
     const double half_sine = std::sin(0.5 * eccentricity);
     const double q = half_sine * half_sine;
@@ -147,8 +149,9 @@ double MapError::inverse_px(const LogPolarMap& map, const LpShare& centre) {
     const double r = map.radius_px(centre.u);
     const double exponent = std::log2(map.max_radius_px() / r);
     const double fovea = std::hypot(map.fovea().x_px, map.fovea().y_px);
-    // The exponent: the column's entry, log2 rmax and their product; 2^x; rmax and the product with
-    // it; the direction's entries and the products with them; the sum with the fovea.
+    // Term by term: the exponent (the column's entry, log2 rmax and their product); 2^x; rmax and
+    // the product with it; the direction's entries and the products with them. Then the sum with
+    // the fovea.
     const double relative = std::numbers::ln2 * 3.0 * kEps * exponent + kExp2Error + 2.0 * kEps +
                             2.0 * std::numbers::sqrt2 * kEps;
     return r * relative + kEps * (2.0 * fovea + r);
@@ -162,10 +165,10 @@ double MapError::inverse_px(const AcuityMap& map, const LpShare& centre) {
     const GazeFrame& frame = map.frame();
     const glm::dvec3 ray =
         frame.gaze_from_picture() * glm::dvec3(position->x_px, position->y_px, 1.0);
-    // The ray in the gaze's frame: rho, the direction's entry and two products across (4); along,
-    // rho^2 (3) and the difference: 6 together, of components not longer than the ray. The
-    // rotation: three entries, products and sums (5) of terms that together are at most 3 times as
-    // long.
+    // The ray in the gaze's frame has 6 roundings, of components not longer than the ray. Across:
+    // rho, the direction's entry and two products (4). Along: rho^2 (3) and the difference. The
+    // rotation has 5: three entries, products and sums, of terms that together are at most 3 times
+    // as long.
     const double ray_rad = (6.0 + 15.0) * kEps;
     return ray_rad * pixels_per_degree(frame.view(), frame.view_from_gaze() * ray).finest /
            kRadiansPerDegree;

@@ -9,8 +9,8 @@ namespace gazeloop::foveation {
 
 /// Bounds on the error of float arithmetic and tables, in pixels of the picture. They are derived
 /// in map_error.cpp from the shaders' operations as written, with the rounding that Vulkan allows.
-/// They hold where a position has consequences: between the centres of the first and the last
-/// column, beyond which the sampler clamps.
+/// They hold between the centres of the first and the last column; beyond these the sampler clamps,
+/// so that an error there has no effect.
 class MapError {
   public:
     /// Bounds for every map with this kernel, or this profile.
@@ -23,8 +23,8 @@ class MapError {
     [[nodiscard]] double forward_px(const AcuityMap& map,
                                     const gaze::PixelPosition& position) const;
 
-    /// The error that remains with perfect arithmetic, because u and v are handed on as floats:
-    /// half a unit in the last place of each.
+    /// The error that remains with perfect arithmetic. u and v are passed on as floats, so each is
+    /// off by up to half a unit in the last place.
     [[nodiscard]] static double conditioning_px(const RadialMap& map,
                                                 const gaze::PixelPosition& position);
 

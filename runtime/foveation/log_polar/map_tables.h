@@ -12,8 +12,8 @@
 namespace gazeloop::foveation {
 
 /// The float tables that replace transcendental functions in the shaders (shaders/lib). They depend
-/// on the map and the LP-buffer's size only: fovea, L and the gaze's rotation stay uniforms
-/// (map_uniforms.h), so that a new gaze rebuilds nothing.
+/// only on the map and the LP-buffer's size. Fovea, L and the gaze's rotation stay uniforms
+/// (map_uniforms.h), so a new gaze rebuilds nothing.
 ///
 /// The shader's forward map takes q: r^2 / rmax^2 (picture frame) or sin^2(e / 2) (gaze frame).
 /// Both are at most 1 and need no trigonometry. It reads the forward table at
@@ -23,8 +23,8 @@ namespace gazeloop::foveation {
 /// greatest. The root does the same for the table's steps. It also removes the infinite slope of
 /// the inverse of a kernel with a flat end (sin). The inverse is tabulated at half columns.
 ///
-/// Errors as the shader reads them (linear interpolation, |f''| h^2 / 8): log2 2.4e-7 and exp2
-/// 2.3e-7 of r; the forward table's as runtime/foveation/log_polar/map_error.h derives them.
+/// Errors as the shader reads them, by linear interpolation (|f''| h^2 / 8): 2.4e-7 of r for log2
+/// and 2.3e-7 of r for exp2. map_error.h derives the forward table's.
 struct MapTables {
     static constexpr std::size_t kMantissaSteps = 512;
     static constexpr std::size_t kForwardSteps = 4096;
@@ -40,8 +40,8 @@ struct MapTables {
     /// u at t = i / kForwardSteps: falls from 1 to 0.
     std::array<float, kForwardSteps + 1> forward{};
     /// At i / (2 w) of the width, 2 w + 1 entries: even entries are column edges, odd ones column
-    /// centres. Picture frame: 1 - K^-1, in r = rmax 2^(-column log2 rmax); gaze frame: rho = tan(e
-    /// / 2), in the ray (2 rho cosine, 2 rho sine, 1 - rho^2).
+    /// centres. Picture frame: 1 - K^-1, so that r = rmax 2^(-column log2 rmax). Gaze frame: rho =
+    /// tan(e / 2), so that the ray is (2 rho cosine, 2 rho sine, 1 - rho^2).
     std::vector<float> column;
     /// Cosine and sine of the rows' centre angles, (j + .5) 2 pi / h. h entries.
     struct Direction {

@@ -24,7 +24,7 @@ double horner(std::span<const double> ascending, double x) {
     return value;
 }
 
-/// The coefficients over Bernstein's basis on [0, 1], from those over powers of x:
+/// The coefficients in Bernstein's basis on [0, 1], from those of the powers of x:
 /// b_j = sum over i <= j of C(j, i) / C(d, i) a_i.
 std::vector<double> bernstein(std::span<const double> ascending) {
     const std::size_t degree = ascending.size() - 1;
@@ -41,9 +41,9 @@ std::vector<double> bernstein(std::span<const double> ascending) {
     return result;
 }
 
-/// Where a polynomial, given by its Bernstein coefficients on [low, high], is less than -tolerance;
-/// none if it is proven that it is not. Half of an interval that is as narrow as doubles are is
-/// judged by its ends.
+/// A place at which a polynomial is less than -tolerance; nothing if it is proven that there is
+/// none. The polynomial is given by its Bernstein coefficients on [low, high]. An interval too
+/// narrow for doubles to halve is judged by its ends.
 std::optional<double> negative_at(const std::vector<double>& coefficients, double low, double high,
                                   double tolerance) {
     if (coefficients.front() < -tolerance) {

@@ -19,7 +19,7 @@ struct PowerKernel {
 };
 
 /// Variant A: the paper's Eq. 10 as printed, which exchanges K and its inverse. It contradicts the
-/// paper's own figures and released code; it is here so that the difference can be measured.
+/// paper's own figures and released code. It is here so that the difference can be measured.
 struct PrintedPowerKernel {
     double alpha = 4.0;  ///< as PowerKernel
 

@@ -19,7 +19,7 @@ namespace gazeloop::foveation {
 inline constexpr std::array<std::string_view, 6> kKernelNames{
     "power", "power-as-printed", "polynomial", "sin", "exp", "table"};
 
-/// The kernel of a log-polar map: a continuous K that rises from K(0) = 0 to K(1) = 1, with its
+/// The kernel of a log-polar map: a continuous K that rises from K(0) = 0 to K(1) = 1. With its
 /// inverse and derivative, in double precision. One of the kinds in kKernelNames.
 class RadialKernel {
   public:
@@ -43,7 +43,7 @@ class RadialKernel {
     [[nodiscard]] double inverse(double y) const {
         return std::visit([y](const auto& kernel) { return kernel.inverse(y); }, kind_);
     }
-    /// dK/dx; may be infinite at 0 and 0 at either end.
+    /// dK/dx; may be infinite at x = 0, and may be 0 at either end.
     [[nodiscard]] double derivative(double x) const {
         return std::visit([x](const auto& kernel) { return kernel.derivative(x); }, kind_);
     }

@@ -29,8 +29,8 @@ struct Density {
     double tangential = 0.0;
 };
 
-/// A log-polar map at one gaze, in double precision: a frame, and in it a monotone function between
-/// columns and the distance from the fovea. LogPolarMap measures pixels from a fovea in the
+/// A log-polar map at one gaze, in double precision. It has a frame, in which a monotone function
+/// relates columns to the distance from the fovea. LogPolarMap measures pixels from a fovea in the
 /// picture, AcuityMap degrees from a gaze in space. What does not depend on the gaze lies in
 /// MapTables.
 class RadialMap {
@@ -40,17 +40,17 @@ class RadialMap {
     /// Where the LP-buffer holds a position of the picture. Finite for every finite position.
     [[nodiscard]] virtual LpShare share(const gaze::PixelPosition& position) const = 0;
 
-    /// The inverse; beyond the picture where the share lies there. Nothing: no position in the
-    /// picture's plane (behind the eye), which occurs only in a frame of angles.
+    /// The inverse of share(); the position may lie beyond the picture. Nothing for a share with no
+    /// position in the picture's plane (behind the eye), which occurs only in a frame of angles.
     [[nodiscard]] virtual std::optional<gaze::PixelPosition> position(
         const LpShare& share) const = 0;
 
     /// Per pixel (LogPolarMap) or per degree (AcuityMap).
     [[nodiscard]] virtual Density density(const gaze::PixelPosition& position, LpSize lp) const = 0;
 
-    /// The columns that pixel centres lie in, within the wedge of the rows' directions from
-    /// `from_rad` to `to_rad` (LpShare::v times 2 pi; to > from). Nothing: the wedge misses the
-    /// screen. Exact for the rectangle that the pixel centres span.
+    /// The columns that pixel centres lie in, within a wedge of directions around the fovea:
+    /// `from_rad` to `to_rad`, each LpShare::v times 2 pi, to > from. Nothing if the wedge misses
+    /// the screen. Exact for the rectangle that the pixel centres span.
     [[nodiscard]] virtual std::optional<ColumnRange> on_screen(double from_rad,
                                                                double to_rad) const = 0;
 

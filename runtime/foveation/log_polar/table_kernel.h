@@ -9,8 +9,8 @@
 
 namespace gazeloop::foveation {
 
-/// A kernel through given samples, by monotone piecewise cubics (Fritsch and Carlson 1980, with
-/// Brodlie's weighted harmonic means as slopes): between rising samples it rises.
+/// A kernel through given samples, by monotone piecewise cubics: between rising samples it rises.
+/// Fritsch and Carlson 1980, with Brodlie's weighted harmonic means as slopes.
 class TableKernel {
   public:
     static constexpr std::size_t kMinSamples = 2;
@@ -29,8 +29,8 @@ class TableKernel {
         std::string message;  ///< the value and the valid range
     };
 
-    /// Both coordinates must rise from sample to sample by kMinStep at least, from (0, 0) to
-    /// (1, 1).
+    /// Both coordinates must rise by at least kMinStep from sample to sample, from (0, 0) to (1,
+    /// 1).
     static std::expected<TableKernel, Flaw> create(std::span<const Sample> samples);
 
     [[nodiscard]] double operator()(double x) const;

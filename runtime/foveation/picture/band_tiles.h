@@ -9,13 +9,13 @@
 
 namespace gazeloop::foveation {
 
-/// Height of the bands in which a plan says what it needs. Software and hardware rasterisers shade
-/// in blocks of 2 to 4 rows, so that finer bands would save nothing. A power of two; the shaders'
-/// side is shaders/lib/bands.glsl.
+/// Height, in rows, of the bands in which a plan says what it needs. Software and hardware
+/// rasterisers shade in blocks of 2 to 4 rows, so finer bands would save nothing. A power of two;
+/// the same in shaders/lib/bands.glsl.
 inline constexpr std::uint32_t kBandRows = 4;
 
-/// Height of the tiles that are drawn. A draw costs a software driver about as much as a thousand
-/// samples, so there are few of them. What a tile holds beyond its bands is masked.
+/// Height, in rows, of the tiles that are drawn. A draw costs a software driver about as much as a
+/// thousand samples, so tiles are few. What a tile holds beyond its bands is masked.
 inline constexpr std::uint32_t kTileRows = 64;
 
 /// What a band of rows needs: columns [first, end); nothing if they are equal.
@@ -32,8 +32,8 @@ struct Columns {
     return both.empty() ? Columns{} : both;
 }
 
-/// Appends tiles that hold every column of every band: one tile per run of kTileRows rows that
-/// needs any, as small as its bands allow. Band i has the rows [i * kBandRows, min((i + 1) *
+/// Appends tiles that together hold every column of every band. Each run of kTileRows rows gets at
+/// most one tile, as small as its bands allow. Band i has the rows [i * kBandRows, min((i + 1) *
 /// kBandRows, height)).
 void append_band_tiles(std::span<const Columns> bands, std::uint32_t height,
                        std::vector<Tile>& tiles);

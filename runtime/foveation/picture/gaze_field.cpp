@@ -21,10 +21,10 @@ bool inside(const gaze::PixelPosition& pixel, const gaze::EyeView& view) {
 
 double eccentricity_deg(double rho) { return glm::degrees(2.0 * std::atan(rho)); }
 
-/// The tangents between which an axis of the picture sees a cone: `across` and `forward` are the
-/// cone's axis, of unit length with a third component that does not matter here. The cone touches
-/// the plane through the third axis at angle a where the sine of its half-angle is the distance of
-/// its axis from that plane.
+/// The range of tangents that a cone covers on one axis of the picture. `across` and `forward` are
+/// components of the cone's axis, a unit vector whose third component does not matter here. Take
+/// the planes through the third axis, by their angle a. The cone touches one where the sine of its
+/// half-angle equals the distance of its axis (a unit vector) from that plane.
 struct Tangents {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();

@@ -14,18 +14,17 @@ namespace gazeloop::foveation {
 struct FieldPoint {
     gaze::PixelPosition pixel;
     double eccentricity_deg = 0.0;  ///< the true angle from the gaze, not a distance in pixels
-    /// Around the gaze: 0 to the right, counter-clockwise; turned with the gaze as GazeFrame is,
-    /// which by Listing's law is how an eye turns.
+    /// Around the gaze: 0 to the right, counter-clockwise. It turns with the gaze as GazeFrame
+    /// does, which is how an eye turns (Listing's law).
     double direction_rad = 0.0;
     /// How the pixel position moves. First column: by one degree outward from the gaze. Second
     /// column: by one degree of visual angle (not of direction) counter-clockwise around it.
     glm::dmat2 px_per_deg{1.0};
 };
 
-/// The visual field around one gaze, on one eye's flat picture: a GazeFrame that has been checked,
-/// in degrees, and what models and plans ask of it. On such a picture a circle of eccentricity
-/// around an off-axis gaze is no circle in pixels, so whatever depends on acuity has to be computed
-/// here.
+/// The visual field around one gaze, on one eye's flat picture: a checked GazeFrame, in degrees,
+/// with what models and plans ask of it. On a flat picture, a circle of eccentricity around an
+/// off-axis gaze is no circle in pixels. So whatever depends on acuity has to be computed here.
 class GazeField {
   public:
     /// `gaze_direction` in the view frame, of any length. Errors (Usage): a view that is not valid
@@ -45,8 +44,7 @@ class GazeField {
     /// The field at a pixel position, in the picture or beyond it.
     [[nodiscard]] FieldPoint at(const gaze::PixelPosition& pixel) const;
 
-    /// The field at an eccentricity in [0, 180] and a direction; none where that lies outside the
-    /// picture.
+    /// The field at an eccentricity in [0, 180] and a direction. Nothing outside the picture.
     [[nodiscard]] std::optional<FieldPoint> at(double eccentricity_deg, double direction_rad) const;
 
     /// Square degrees that a pixel covers.

@@ -84,15 +84,15 @@ std::optional<gaze::PixelPosition> GazeFrame::position(const GazePolar& polar) c
 
 std::optional<GazeFrame::RhoRange> GazeFrame::rho_in_wedge(std::span<const glm::dvec2> polygon,
                                                            double from_rad, double to_rad) const {
-    // A row's directions are a half-plane through the gaze. It cuts the picture in a line, so that
-    // the wedge between two of them is cut out of the polygon by two lines.
+    // A row's directions are a half-plane through the gaze, which cuts the picture in a line. So
+    // two lines cut the wedge between two rows out of the polygon.
     const bool all_directions = is_every_direction(from_rad, to_rad);
     const glm::dvec3 after_first{-std::sin(from_rad), std::cos(from_rad), 0.0};
     const glm::dvec3 before_last{std::sin(to_rad), -std::cos(to_rad), 0.0};
 
-    // Eccentricity has no extreme on the sphere but at the gaze and opposite of it, and none along
-    // the wedge's sides, so over the part in the wedge its extremes lie on the polygon's edges, or
-    // at the gaze inside. The sphere's point opposite of the gaze may lie inside as well.
+    // On the sphere, eccentricity has extremes only at the gaze and opposite of it, and it has none
+    // along the wedge's sides. So its extremes over the part in the wedge lie on the polygon's
+    // edges, or at the gaze, or at the point opposite of it, if these are inside.
     RhoRange range{std::numeric_limits<double>::infinity(), -1.0};
     const auto include = [&](const glm::dvec3& at) {
         const double rho = rho_of(at);
@@ -121,8 +121,8 @@ std::optional<GazeFrame::RhoRange> GazeFrame::rho_in_wedge(std::span<const glm::
         }
         include(a + part.from * b);
         include(a + part.to * b);
-        // Along a straight edge, which is an arc of a great circle, the cosine of eccentricity has
-        // one extreme: a.z, b.z are components along the gaze.
+        // A straight edge is an arc of a great circle. Along it, the cosine of eccentricity has one
+        // extreme. (a.z and b.z are components along the gaze.)
         const double aa = glm::dot(a, a);
         const double ab = glm::dot(a, b);
         const double bb = glm::dot(b, b);
@@ -167,9 +167,9 @@ std::optional<GazeFrame::RowSpan> GazeFrame::row_within(double y_px,
     if (eccentricity_rad >= kPi / 2.0) {
         return RowSpan{first, last};
     }
-    // The row is a line in space, a + b x. Seen from the eye it is half a great circle; position on
-    // it is the angle theta from the line's foot, the point nearest to the eye. The gaze's
-    // projection into the circle's plane lies at theta0 and has length g, and the cosine of
+    // The row is a line in space, a + b x. Seen from the eye it is half a great circle. Let theta
+    // be the angle on it from the line's foot, which is the point nearest to the eye. The gaze's
+    // projection into the circle's plane has length g and lies at theta0. Then the cosine of
     // eccentricity is g cos(theta - theta0).
     const glm::dvec3 a = gaze_from_picture_ * glm::dvec3(0.0, y_px, 1.0);
     const glm::dvec3 b = gaze_from_picture_[0];
@@ -213,8 +213,8 @@ PixelsPerDegree pixels_per_degree(const gaze::EyeView& view, const glm::dvec3& d
     const double x = direction.x / -direction.z;
     const double y = direction.y / -direction.z;
     // The metric of directions, pulled back to tangents x, y, has the inverse
-    // (1 + x^2 + y^2) [[1 + x^2, x y], [x y, 1 + y^2]]; in pixels its eigenvalues are the squares
-    // of pixels per radian.
+    // (1 + x^2 + y^2) [[1 + x^2, x y], [x y, 1 + y^2]]. Scaled to pixels, the eigenvalues of this
+    // inverse are the squares of pixels per radian.
     const double scale = 1.0 + x * x + y * y;
     const double xx = scale * (1.0 + x * x) * per_x * per_x;
     const double yy = scale * (1.0 + y * y) * per_y * per_y;

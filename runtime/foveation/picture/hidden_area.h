@@ -17,17 +17,16 @@ namespace gazeloop::foveation {
 /// Which pixels of one eye's picture nobody can see, so that nothing need be shaded for them.
 ///
 /// A compositor reads a picture bilinearly: what an eye sees at a position depends on the pixels
-/// less than 1 px away on each axis. So a pixel is hidden if everything that close to its centre,
-/// as far as it lies on the picture, lies inside the mesh. Every error is on the side of drawing:
-///  - a pixel near an edge that two triangles do not share counts as visible, even where further
-///    triangles overlap that edge;
-///  - what lies between two visible pixels of a row or of a column is visible: masks surround the
-///    picture (and Monado 25's mask is displaced where up and down differ);
-///  - rows are hidden only in whole groups of kGroupRows, and columns in blocks of kBlockColumns:
-///    few rectangles are quick to draw, and a block shared by two of them would be shaded twice;
-///  - triangles that are not finite, or lie farther from the picture than 2^20 px, are left out.
-/// The outermost 1/64 px of the picture are not asked about, because meshes end there with
-/// rounding.
+/// less than 1 px away on each axis. So a pixel is hidden if the mesh covers everything that close
+/// to its centre, as far as it lies on the picture. Every error is on the side of drawing:
+///  - A pixel near an edge that two triangles do not share counts as visible, even where further
+///    triangles overlap that edge.
+///  - What lies between two visible pixels of a row or of a column is visible, because masks
+///    surround the picture. (Monado 25's mask is displaced where up and down differ.)
+///  - Rows are hidden only in whole groups of kGroupRows, and columns in blocks of kBlockColumns.
+///    Few rectangles are quick to draw, and a block shared by two of them would be shaded twice.
+///  - Triangles that are not finite, or lie farther from the picture than 2^20 px, are left out.
+/// The outermost 1/64 px of the picture are not tested, because meshes end there with rounding.
 class HiddenArea {
   public:
     static constexpr std::uint32_t kGroupRows = 8;
@@ -47,8 +46,9 @@ class HiddenArea {
         return groups_[first_row / kGroupRows];
     }
 
-    /// The convex hull of the visible pixels' centres, px: its corners in the order in which angles
-    /// from x to y grow. It bounds what screen_wedge.h and GazeFrame::rho_in_wedge compute.
+    /// The convex hull of the visible pixels' centres: its corners, px, in the order in which
+    /// angles from x to y grow. It is the polygon that screen_wedge.h and GazeFrame::rho_in_wedge
+    /// take.
     [[nodiscard]] std::span<const glm::dvec2> outline() const { return outline_; }
 
   private:
@@ -64,8 +64,8 @@ class HiddenArea {
 /// What an eye's picture may leave out; null: nothing.
 using HiddenAreas = gaze::PerEye<std::shared_ptr<const HiddenArea>>;
 
-/// The areas of both eyes' views. Null where there is no mesh, or it hides no pixel, or all pixels
-/// (which no runtime can mean).
+/// The areas of both eyes' views. Null where there is no mesh, where it hides no pixel, and where
+/// it hides all of them (which no runtime can mean).
 HiddenAreas hidden_areas(const gaze::HiddenMeshes& meshes, const gaze::StereoView& views);
 
 }  // namespace gazeloop::foveation

@@ -7,8 +7,8 @@
 namespace gazeloop::foveation {
 
 double SampleGrid::worst_density() const {
-    // Gauss's reduction of a lattice in two dimensions. Each step shortens the longer vector, by at
-    // least a factor of sqrt(3) or it is the last; the limit is for vectors that are not finite.
+    // Gauss's reduction of a lattice in two dimensions. Each step but the last shortens the longer
+    // vector by at least a factor of sqrt(3). The limit is for vectors that are not finite.
     glm::dvec2 shorter = first;
     glm::dvec2 longer = second;
     for (int step = 0; step < 64; ++step) {

@@ -7,19 +7,20 @@
 
 namespace gazeloop::foveation {
 
-/// The grid of samples around a point, locally regular. Rows are the gradients of the two sample
-/// coordinates, that is samples per unit along each of two axes. In pixels the axes are x and y of
-/// the picture; in degrees they are outward from the gaze and around it.
+/// The grid of samples around a point, taken as regular there. Each member is the gradient of one
+/// sample coordinate: samples per unit along each of two axes. In pixels the axes are the picture's
+/// x and y; in degrees they point outward from the gaze and around it.
 struct SampleGrid {
-    glm::dvec2 first{0.0};   ///< gradient of one sample coordinate
-    glm::dvec2 second{0.0};  ///< ... and of the other
+    glm::dvec2 first{0.0};   ///< gradient of the first sample coordinate
+    glm::dvec2 second{0.0};  ///< gradient of the second
 
     /// A square grid of this many samples per unit.
     static SampleGrid square(double per_unit) { return {{per_unit, 0.0}, {0.0, per_unit}}; }
 
-    /// Samples per unit in the direction that the grid serves worst: the length of the shortest
-    /// vector of the reciprocal lattice that the gradients span. Gratings of up to half as many
-    /// cycles pass without aliasing in every direction (Petersen and Middleton 1962).
+    /// Samples per unit in the direction that the grid serves worst. This is the length of the
+    /// shortest vector of the reciprocal lattice, which the gradients span. Gratings of up to half
+    /// as many cycles per unit pass without aliasing in every direction (Petersen and Middleton
+    /// 1962).
     [[nodiscard]] double worst_density() const;
 
     /// Converts a grid given in pixels to the same grid in degrees at this point.

@@ -15,14 +15,14 @@ struct RadiusRange {
     double max_px = 0.0;
 };
 
-/// The distances from the fovea at which pixel centres can lie, within the wedge of directions from
-/// `from_rad` to `to_rad` (screen angles, y down; to > from). Nothing: the wedge misses the screen.
-/// The range is exact for the rectangle that the pixel centres span.
+/// The distances from the fovea at which pixel centres can lie, within a wedge of directions:
+/// `from_rad` to `to_rad`, screen angles, y down, to > from. Nothing if the wedge misses the
+/// screen. The range is exact for the rectangle that the pixel centres span.
 std::optional<RadiusRange> screen_radii_in_wedge(ImageSize image, const gaze::PixelPosition& fovea,
                                                  double from_rad, double to_rad);
 
-/// The same for a convex polygon, pixels: its corners in turn, with or against the clock; one or
-/// two make a point or a line. Nothing for none.
+/// The same for a convex polygon: its corners in turn, px, clockwise or counter-clockwise. One
+/// corner is a point, two are a line. Nothing if there are none.
 std::optional<RadiusRange> radii_in_wedge(std::span<const glm::dvec2> polygon,
                                           const gaze::PixelPosition& fovea, double from_rad,
                                           double to_rad);

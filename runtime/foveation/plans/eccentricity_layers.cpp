@@ -153,8 +153,8 @@ class Problem {
         return grid;
     }
 
-    /// The best boundaries among the candidates, each list in rising order: a dynamic programme, as
-    /// a layer's work depends on its two boundaries only.
+    /// The best boundaries among the candidates; each list is in rising order. A dynamic programme
+    /// finds them, because a layer's work depends only on its two boundaries.
     [[nodiscard]] Choice best_of(const std::vector<std::vector<double>>& candidates) const {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         const auto square = [](double x) { return x * x; };

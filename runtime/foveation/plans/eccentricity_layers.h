@@ -24,21 +24,21 @@ struct LayerDisplay {
 struct LayerOptions {
     static constexpr int kMaxLayers = 8;
 
-    int layers = 3;  ///< at most; 1 to kMaxLayers
-    /// Work of a layer's pixel by layer, inner first: e.g. 1, .5, .5 where the outer layers are
+    int layers = 3;  ///< at most this many; 1 to kMaxLayers
+    /// Work per pixel of each layer, inner first. For example 1, .5, .5 if the outer layers are
     /// rendered at half rate. Empty: 1 each. Else as many as layers; each > 0 and finite.
     std::vector<double> weights;
-    /// Fix the second layer's sampling factor, as the studied system does (s2 = 2); 0: free. Else
-    /// > 1, with layers >= 3.
+    /// The second layer's sampling factor, if it is fixed as in the studied system (s2 = 2). Then
+    /// > 1, with layers >= 3. 0: free.
     double second_factor = 0.0;
 };
 
 struct EccentricityLayer {
-    /// Outer edge. The last layer's is the display's e*; where aspect > 1 it also covers what lies
-    /// beyond.
+    /// Outer edge. The last layer's is the display's e*. Where aspect > 1, that layer also covers
+    /// what lies beyond.
     double radius_deg = 0.0;
     double factor = 1.0;    ///< s: display pixels per sample, each way
-    double width_px = 0.0;  ///< D: samples along the side (of the last layer, the longer one)
+    double width_px = 0.0;  ///< D: samples along its side; of the last layer, the longer side
     double pixels = 0.0;    ///< P: samples in all
     double weight = 1.0;    ///< w: work of one of them
 };
@@ -53,16 +53,18 @@ struct EccentricityLayers {
 
 /// Radii and sampling factors of eccentricity layers that satisfy a MAR line with the least work.
 /// Minimises sum w_i P_i over 0 <= e_1 <= ... <= e_{n-1} <= e*, with
-///     s_1 = 1, s_{i+1} = max(1, omega(e_i) / omega*), D_i = 2 D*/s_i tan(e_i) V*/W*, P_i = D_i^2,
-/// and D*/s_n, alpha* D_n^2 for the last (Eqs. 2 to 5). The paper's factors fall below 1 where the
-/// display is coarser than the eye; a layer never needs more than the display's own pixels.
+///     s_1 = 1, s_{i+1} = max(1, omega(e_i) / omega*), D_i = 2 D*/s_i tan(e_i) V*/W*, P_i = D_i^2.
+/// For the last layer, D_n = D*/s_n and P_n = alpha* D_n^2 (Eqs. 2 to 5). The paper's factors fall
+/// below 1 where the display is coarser than the eye. Here they do not, because a layer never needs
+/// more than the display's own pixels.
 ///
-/// Fewer layers than asked for come back where more save nothing: with a display that is narrow or
-/// coarser than the eye everywhere, or a flat line (then one layer, at s = 1). Where the display is
-/// finer than the fovea itself, the innermost layer may vanish, and s_1 is omega0 / omega*.
+/// Fewer layers than asked for come back where more would save nothing. That is so for a narrow
+/// display, for one that is coarser than the eye everywhere, and for a flat line (then one layer,
+/// at s = 1). Where the display is finer than the fovea itself, the innermost layer may vanish, and
+/// s_1 is omega0 / omega*.
 ///
-/// The optimum is global: a dynamic programme over the radii, refined by ever finer grids around
-/// its best. The work is within 1e-6 of the least.
+/// The optimum is global: a dynamic programme over the radii, then ever finer grids around its
+/// best. The work is within 1e-6 of the least.
 ///
 /// Errors (Usage): a parameter out of range or not a number, named with its range.
 Expected<EccentricityLayers> optimise_layers(const LayerDisplay& display, const MarLine& line,

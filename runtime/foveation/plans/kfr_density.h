@@ -6,8 +6,8 @@
 namespace gazeloop::foveation {
 
 /// What kernel foveated rendering offers: pixels in the disc's unblended core, texels of the
-/// LP-buffer outside it. The map is in pixels around the fovea, so that at an off-axis gaze its
-/// density is not the same all around at one eccentricity.
+/// LP-buffer outside it. The map is in pixels around the fovea. So at an off-axis gaze, its density
+/// at one eccentricity differs by direction.
 class KfrDensity final : public OfferedDensity {
   public:
     /// `core_px`: radius inside which only pixels are shown; 0: no disc.

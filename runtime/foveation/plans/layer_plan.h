@@ -13,7 +13,7 @@ namespace gazeloop::foveation {
 
 /// One layer of an eye's picture: what is rendered, and how finely.
 struct PlannedLayer {
-    double radius_deg = 0.0;  ///< shown up to this eccentricity; of the last layer 180
+    double radius_deg = 0.0;  ///< shown up to this eccentricity; 180 for the last layer
     double factor = 1.0;      ///< picture pixels per sample, each way
     Tile covers;              ///< pixels of the picture
     std::uint32_t width = 0;  ///< samples
@@ -29,17 +29,18 @@ struct LayerPlan {
 
     /// Samples if every layer is rendered for every frame.
     [[nodiscard]] std::uint64_t samples() const;
-    /// ... and with the layers' weights.
+    /// The same, each layer's samples times its weight.
     [[nodiscard]] double weighted_samples() const;
 };
 
-/// The display as the optimiser sees it: the axis with the coarser pixels, so that its sharpness
-/// angle holds for both.
+/// The display as the optimiser sees it: by the axis with the coarser pixels. So its sharpness
+/// angle holds for both axes.
 [[nodiscard]] LayerDisplay layer_display(const gaze::EyeView& view);
 
 /// Radii and factors are those that the optimiser finds for a gaze at the picture's centre. Pixels
-/// are coarsest there, so elsewhere they are more than enough. Eccentricity is the true angle, also
-/// off axis, where the published circle in pixels falls short. Errors: as optimise_layers.
+/// are coarsest there, so the layers are more than enough elsewhere. Eccentricity is the true
+/// angle, also off axis, where the published circle in pixels is too small. Errors: as
+/// optimise_layers.
 Expected<LayerPlan> plan_layers(const GazeField& field, const MarLine& line,
                                 const LayerOptions& options);
 

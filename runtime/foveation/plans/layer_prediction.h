@@ -5,9 +5,9 @@
 
 namespace gazeloop::foveation {
 
-/// The display that Guenter et al. predict for (section 5.2, Figures 12 and 13): as sharp as the
-/// fovea at its centre (omega* = omega0, Eq. 9), aspect .75, this wide. Precondition:
-/// 0 < fov_deg < 180.
+/// The display that Guenter et al. predict for (section 5.2, Figures 12 and 13), `fov_deg` wide. At
+/// its centre it is as sharp as the fovea (omega* = omega0, Eq. 9); its aspect is .75.
+/// Precondition: 0 < fov_deg < 180.
 [[nodiscard]] LayerDisplay foveal_display(double fov_deg, const MarLine& line);
 
 struct LayerPrediction {
@@ -25,8 +25,8 @@ Expected<LayerPrediction> predict_layers(double fov_deg, const MarLine& line,
 /// How straight cost over field of view is.
 struct CostGrowth {
     double slope_per_deg = 0.0;    ///< of the least-squares line, pixels per degree
-    double worst_deviation = 0.0;  ///< greatest distance from the line over the range's last cost
-    /// d ln cost / d ln fov at the range's end: 1 is linear; an unfoveated display's is over 2.
+    double worst_deviation = 0.0;  ///< greatest distance from the line / the range's last cost
+    /// d ln cost / d ln fov at the range's end: 1 is linear; without foveation it is over 2.
     double end_exponent = 0.0;
 };
 

@@ -13,16 +13,16 @@
 
 namespace gazeloop::foveation {
 
-/// Which samples one eye's picture takes by a log-polar method: texels of the LP-buffer, and pixels
-/// of the disc around the fovea, which are shaded directly.
+/// Which samples one eye's picture takes by a log-polar method: texels of the LP-buffer, and
+/// directly shaded pixels of the disc around the fovea.
 struct LogPolarPlan {
     LpSize lp;
     /// Set by plan_kfr only, whose map is centred by a translation; else 0.
     gaze::PixelPosition fovea;
     double log2_max_radius = 0.0;
     double disc_border_px = 0.0;  ///< the blend lies inside the radius
-    /// 0: no disc. Set by plan_acuity, it only says how large a ring to draw (exact for a centred
-    /// gaze).
+    /// 0: no disc. If set by plan_acuity, it is only the radius of the ring to draw, exact for a
+    /// centred gaze.
     double disc_radius_px = 0.0;
     /// Set by plan_acuity only, whose map is centred by a rotation.
     struct InGazeFrame {
@@ -31,7 +31,7 @@ struct LogPolarPlan {
         double border_half_sine = 0.0;  ///< the blend lies inside
     };
     std::optional<InGazeFrame> in_gaze_frame;
-    ShadedGrid texels;  ///< of the LP-buffer, that some pixel reads; no tile: the disc covers all
+    ShadedGrid texels;  ///< of the LP-buffer that some pixel reads; no tile: the disc covers all
     ShadedGrid disc;    ///< pixels that are shaded directly; none without a disc
 };
 
@@ -39,13 +39,13 @@ struct LogPolarPlan {
 [[nodiscard]] const frame::GridList& log_polar_grids();
 
 /// The LP part of every plan: fills `texels` with what the bilinear reads of pixel centres touch.
-/// Only pixel centres at columns beyond `core_u` count (negative: all) and, where an area is
-/// hidden, only visible ones. Precondition: plan.lp.
+/// Only pixel centres at columns beyond `core_u` count (negative: all). Where an area is hidden,
+/// only visible ones count. Precondition: plan.lp is set.
 void plan_lp_tiles(const RadialMap& map, double core_u, const HiddenArea* hidden,
                    LogPolarPlan& plan);
 
-/// The disc's part of every plan, which is at its start. `band_of(y0, y1)` gives the columns of the pixels of these rows
-/// that lie in the disc.
+/// The disc's part of every plan. `band_of(y0, y1)` gives the columns of the disc's pixels in the
+/// rows [y0, y1). Precondition: disc.start().
 template <typename BandOf>
 void plan_disc_tiles(std::uint32_t height_px, const HiddenArea* hidden, const BandOf& band_of,
                      ShadedGrid& disc) {
@@ -70,8 +70,8 @@ void plan_disc_tiles(std::uint32_t height_px, const HiddenArea* hidden, const Ba
 /// What the shaders are told of a plan (shaders/lib/log_polar.glsl).
 [[nodiscard]] MapUniforms map_uniforms(const LogPolarPlan& plan);
 
-/// Lends the memory of a method's plan to a log-polar plan while `make(LogPolarPlan&)` fills it,
-/// and takes the result over.
+/// Lets `make(LogPolarPlan&)` fill a log-polar plan in the memory of a method's plan, and takes the
+/// result over.
 template <typename Make>
 void plan_log_polar(EyePlan& plan, const Make& make) {
     plan.grids.resize(2);

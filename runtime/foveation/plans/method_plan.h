@@ -16,7 +16,7 @@ namespace gazeloop::foveation {
 
 /// What one eye's picture takes of one grid, and what it leaves out.
 struct ShadedGrid {
-    std::vector<Columns> bands;  ///< cells that are shaded, kBandRows rows each; none: no cell is
+    std::vector<Columns> bands;  ///< cells that are shaded, by kBandRows rows; none: no cell is
     std::vector<Tile> tiles;     ///< what is drawn for them
     frame::GridCounts counts;    ///< of this eye
 
@@ -50,13 +50,14 @@ class MethodPlan {
     [[nodiscard]] virtual bool fits(const gaze::StereoView& views) const = 0;
 
     /// Makes what depends on fields of view and sizes, if these have changed. May take
-    /// milliseconds, so call it before the gaze is read. Errors (Usage): parameters that the
-    /// pictures do not allow.
+    /// milliseconds, so call it before the gaze is read. Errors (Usage): parameters that do not fit
+    /// the pictures.
     virtual Expected<void> prepare(const gaze::StereoView& views) = 0;
 
     /// Plans one eye's picture at one gaze, in microseconds. Reuses the plan's memory: only the
-    /// first call for a prepare() allocates, wherever the gaze is then. `hidden` must be of this picture; null: nothing is hidden.
-    /// Precondition: prepare() for views that this one belongs to.
+    /// first call after a prepare() allocates, wherever the gaze is. `hidden` must be of this
+    /// picture; null: nothing is hidden. Precondition: prepare() for views that this one belongs
+    /// to.
     virtual void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
                       const HiddenArea* hidden, EyePlan& plan) const = 0;
 };

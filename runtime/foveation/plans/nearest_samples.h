@@ -11,9 +11,9 @@
 namespace gazeloop::foveation {
 
 /// For every pixel of a pattern's field, its k nearest samples. For a gaze anywhere in the picture,
-/// pixel (x, y) of the picture reads the entry of window(gaze) + (x, y). The samples in that entry,
-/// moved back by window(gaze), are the picture's pixels to fill it from. Samples that lie outside
-/// the picture are not rendered: a reader skips them.
+/// pixel (x, y) of the picture reads the entry at window(gaze) + (x, y). The samples in that entry,
+/// moved back by window(gaze), are the pixels to fill it from. Samples outside the picture are not
+/// rendered: a reader skips them.
 struct NearestSamples {
     static constexpr std::uint32_t kMaxNeighbours = 8;
 
@@ -28,9 +28,9 @@ struct NearestSamples {
     }
 };
 
-/// Exact, by distance between pixel centres; among equally near samples any. Takes 4 k bytes per
-/// pixel of the field, 16 k per pixel of the picture. Errors (Usage): k of 0 or over
-/// kMaxNeighbours, or over the number of samples.
+/// Exact, by distance between pixel centres; of equally near samples, it may take any. Uses 4 k
+/// bytes per pixel of the field, which is 16 k per pixel of the picture. Errors (Usage): k of 0,
+/// over kMaxNeighbours, or over the number of samples.
 Expected<NearestSamples> find_nearest_samples(const SparsePattern& pattern,
                                               std::uint32_t neighbours);
 

@@ -12,20 +12,20 @@
 
 namespace gazeloop::foveation {
 
-/// Foveation as variable-rate shading offers it today: one sample per pixel near the gaze, one per
-/// 2 x 2 and 4 x 4 pixels further out. The rate is chosen tile by tile.
+/// Foveation by variable-rate shading: one sample per pixel near the gaze, then one per 2 x 2 and
+/// one per 4 x 4 pixels further out. The rate is chosen tile by tile.
 struct RingParameters {
     static constexpr std::uint32_t kMinTilePx = 4;
     static constexpr std::uint32_t kMaxTilePx = 64;
 
     double inner_deg = 0.0;      ///< one sample per pixel within this; [0, 180]
-    double outer_deg = 0.0;      ///< 2 x 2 from there to this one; [inner_deg, 180]
+    double outer_deg = 0.0;      ///< one per 2 x 2 from there to this; [inner_deg, 180]
     std::uint32_t tile_px = 16;  ///< side of a tile; a multiple of 4 in [kMinTilePx, kMaxTilePx]
 };
 
-/// The narrowest rings that satisfy a model wherever the gaze is: pixels of the picture are
-/// coarsest on its axis, and all are taken to be as coarse. `nasal` as for AcuityModel; use 1 for a
-/// model that knows directions, so that the rings suffice on both sides.
+/// The narrowest rings that satisfy a model wherever the gaze is. Pixels of the picture are
+/// coarsest on its axis, and all are taken to be as coarse. `nasal` as for AcuityModel. For a model
+/// that knows directions, use 1: then the rings suffice on both sides.
 [[nodiscard]] RingParameters sufficient_rings(const gaze::EyeView& view, const AcuityModel& model,
                                               double nasal, std::uint32_t tile_px);
 
@@ -36,7 +36,7 @@ struct RingPlan {
     std::uint32_t rows = 0;
     /// log2 of a tile's rate, row by row: 0, 1 or 2.
     std::vector<std::uint8_t> log2_rate;
-    /// Samples by log2 of their rate. A sample whose pixels lie partly outside the picture counts.
+    /// Samples by log2 of their rate, including those whose pixels lie partly outside the picture.
     std::array<std::uint64_t, 3> samples_at{};
 
     [[nodiscard]] std::uint64_t samples() const {
@@ -44,8 +44,8 @@ struct RingPlan {
     }
 };
 
-/// A tile takes the rate of its point nearest to the gaze: no pixel gets less than its eccentricity
-/// asks for. Errors (Usage): a parameter out of range or not a number.
+/// A tile takes the rate of its point nearest to the gaze, so no pixel gets less than its
+/// eccentricity asks for. Errors (Usage): a parameter out of range or not a number.
 Expected<RingPlan> plan_rings(const GazeField& field, const RingParameters& parameters);
 
 class RingDensity final : public OfferedDensity {

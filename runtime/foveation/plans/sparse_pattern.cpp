@@ -56,8 +56,8 @@ struct Place {
     }
 };
 
-/// Places, found by cells. Not pixels: near the disc samples are about as close as pixels, and
-/// distances between pixels come in steps too coarse to space them by.
+/// Places, found by cells. Places are not whole pixels: near the disc, samples are about as close
+/// as pixels, and distances in whole pixels are too coarse to space them by.
 class Spacing {
   public:
     explicit Spacing(ImageSize field)
@@ -235,8 +235,8 @@ class PatternMaker {
     }
 
     /// Poisson discs: a candidate counts if no sample lies within `packing` of the mean spacing at
-    /// its place. The packing is relaxed in rounds until the picture has its samples, so that the
-    /// count is exact and the spacing as wide as it can be.
+    /// its place. The packing is relaxed in rounds until the picture has its samples. So the count
+    /// is exact, and the spacing as wide as possible.
     void take_spaced() {
         Spacing spacing(pattern_.field());
         constexpr double kFirstPacking = 0.9;

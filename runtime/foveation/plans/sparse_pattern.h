@@ -17,20 +17,20 @@ enum class SparsePlacement {
 };
 
 /// Sparse sampling ("Fooling around with foveated rendering"). Samples are every pixel of a disc
-/// around the gaze, and pixels drawn from a narrow and a wide Gaussian around it. The rest is
-/// filled from the nearest samples. The article gives no figures but the shares 1/10 and 1/5; the
-/// others are ours, with lengths relative to the picture's diagonal.
+/// around the gaze, and pixels drawn from a narrow and a wide Gaussian around it. All other pixels
+/// are filled from the nearest samples. The article gives only the shares 1/10 and 1/5; the other
+/// figures are ours, with lengths relative to the picture's diagonal.
 struct SparseParameters {
     static constexpr double kMinShare = 0.001;
     static constexpr double kMaxShare = 0.5;
     static constexpr double kMinSpread = 0.01;
     static constexpr double kMaxSpread = 2.0;
 
-    double share = 0.1;         ///< samples over pixels, gaze at the centre; [kMinShare, kMaxShare]
-    double disc_share = 0.25;   ///< of the samples that the disc takes; [0, .9]
-    double narrow_share = 0.4;  ///< of the draws that are from the narrow Gaussian; [0, 1]
-    double narrow_spread = 0.1;  ///< its standard deviation; [kMinSpread, kMaxSpread]
-    double wide_spread = 0.3;    ///< ... and the wide one's; as narrow_spread
+    double share = 0.1;          ///< samples per pixel, gaze at the centre; [kMinShare, kMaxShare]
+    double disc_share = 0.25;    ///< share of the samples that the disc takes; [0, .9]
+    double narrow_share = 0.4;   ///< share of the draws from the narrow Gaussian; [0, 1]
+    double narrow_spread = 0.1;  ///< its SD; [kMinSpread, kMaxSpread]
+    double wide_spread = 0.3;    ///< SD of the wide one; the same range
     SparsePlacement placement = SparsePlacement::Gaussian;
     std::uint64_t seed = 1;  ///< the same seed gives the same pattern, everywhere
 };
@@ -64,8 +64,8 @@ struct SparsePattern {
 
     [[nodiscard]] ImageSize field() const { return {2 * image.width_px, 2 * image.height_px}; }
 
-    /// Where the picture's top left pixel lies in the field for a gaze, rounded to a pixel corner;
-    /// a gaze outside the picture is taken at its edge. Precondition: fovea finite.
+    /// Where the picture's top left pixel lies in the field for a gaze. The gaze is rounded to a
+    /// pixel corner; outside the picture, its edge is taken. Precondition: fovea finite.
     [[nodiscard]] FieldPixel window(const gaze::PixelPosition& fovea) const;
 
     /// Samples that fall into the picture at this gaze. Precondition: fovea finite.
@@ -73,8 +73,10 @@ struct SparsePattern {
 };
 
 /// Makes a pattern with exactly round(share W H) samples, at least 1, in the picture with the gaze
-/// at its centre. Errors (Usage): a parameter out of range or not a number; a picture without
-/// pixels or with a side over 16384; a share that the Gaussians are too narrow to fill.
+/// at its centre. Errors (Usage):
+///  - a parameter out of range or not a number;
+///  - a picture without pixels, or with a side over 16384;
+///  - a share that the Gaussians are too narrow to fill.
 Expected<SparsePattern> make_sparse_pattern(const SparseParameters& parameters, ImageSize image);
 
 /// What a pattern offers: the square grid of the same density.
