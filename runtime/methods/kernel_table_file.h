@@ -9,8 +9,8 @@
 
 namespace gazeloop::methods {
 
-/// A kernel's samples as text, from the fovea outward. Lines of "x,y" (a first line of names, empty
-/// lines and lines that begin with # are skipped), or, `toml`, an array of pairs:
+/// A kernel's samples as text, from the fovea outward: lines of "x,y". A first line of names, empty
+/// lines and lines that begin with # are skipped. With `toml`, an array of pairs:
 ///     kernel = [[0, 0], [0.5, 0.1], [1, 1]]
 /// Errors (BadInput), with "name:line": a file that cannot be read, a cell that is no number,
 /// samples that break TableKernel's rules.

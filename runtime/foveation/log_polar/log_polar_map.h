@@ -33,8 +33,8 @@ Expected<LpSize> lp_buffer_size(const KfrParameters& parameters, ImageSize image
 
 /// Kernel log-polar mapping around one fovea, in double precision:
 ///     u = K(ln r / L),   r = exp(L K^-1(u)),   L = ln rmax
-/// with r in pixels from the fovea, and rmax the distance to the farthest corner (Meng et al.
-/// 2018). PowerKernel is variant B, the form of the paper's Eq. 8, figures and released code. Radii
+/// (Meng et al. 2018). r is in pixels from the fovea; rmax is the distance to the farthest corner.
+/// PowerKernel is variant B, the form of the paper's Eq. 8, figures and released code. Radii
 /// under 1 px map to u = 0, radii beyond rmax to 1. rmax is over 1 px for every picture of at least
 /// 2 x 2 px, wherever the fovea is.
 class LogPolarMap final : public RadialMap {

@@ -9,12 +9,12 @@ namespace gazeloop::foveation {
 /// Plans an eye's picture by the acuity-derived map. `gaze` in the view frame (gaze::FoveaPoint's
 /// direction), of any length and direction. Reuses the plan's memory, which no gaze makes grow.
 ///
-/// Texels are in the plan by the rule of plan_kfr: those that the bilinear read of some pixel
-/// centre outside the disc's unblended core touches, rounded out to whole bands of kBandRows rows.
-/// The disc is the circle of eccentricity AcuityMap::disc_eccentricity_deg, at least e_c. There is
-/// none without parameters.disc. The blend's border is border_px wide, in pixels at the gaze.
-/// `hidden` must be of this picture: only visible pixels count (up to their convex hull). Null: all
-/// count.
+/// As in plan_kfr, the plan has exactly the texels that are read, rounded out to whole bands of
+/// kBandRows rows. A texel is read if the bilinear read of some pixel centre outside the disc's
+/// unblended core touches it. The disc is the circle of eccentricity
+/// AcuityMap::disc_eccentricity_deg, at least e_c. There is none without parameters.disc. The
+/// blend's border is border_px wide, in pixels at the gaze. `hidden` must be of this picture: only
+/// visible pixels count (up to their convex hull). Null: all count.
 void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profile,
                  const gaze::EyeView& view, const glm::dvec3& gaze, LogPolarPlan& plan,
                  const HiddenArea* hidden = nullptr);

@@ -8,10 +8,10 @@ namespace gazeloop::foveation {
 
 /// Plans an eye's picture by KFR. Reuses the plan's memory, which no gaze makes grow.
 ///
-/// Only texels that are read are in the plan: those that the bilinear read of some pixel centre
-/// outside the disc's unblended core touches, rounded out to whole bands of kBandRows rows.
-/// `hidden` must be of this picture: only visible pixels count (up to their convex hull). Null: all
-/// count.
+/// The plan has exactly the texels that are read, rounded out to whole bands of kBandRows rows. A
+/// texel is read if the bilinear read of some pixel centre outside the disc's unblended core
+/// touches it. `hidden` must be of this picture: only visible pixels count (up to their convex
+/// hull). Null: all count.
 void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
               const gaze::PixelPosition& fovea, LogPolarPlan& plan,
               const HiddenArea* hidden = nullptr);
