@@ -32,7 +32,7 @@ int gazeloop_main(int count, char** arguments) {
     const auto log = spdlog::stderr_color_mt("gazeloop");
     log->set_pattern("%^%l%$: %v");
     spdlog::set_default_logger(log);
-    // Writing to a closed pipe or past a file size limit is an error to report, not a death.
+    // Writing to a closed pipe or past a file size limit is an error to report; it must not kill.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     gazeloop::run::catch_interrupts();

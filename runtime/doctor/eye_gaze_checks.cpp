@@ -14,7 +14,7 @@
 namespace gazeloop::doctor {
 namespace {
 
-/// What came while somebody listened.
+/// What came while it listened.
 struct Heard {
     std::uint64_t samples = 0;
     std::uint64_t with_gaze = 0;
@@ -34,7 +34,7 @@ void listen(const std::vector<gaze::GazeSample>& samples, Heard& heard) {
     }
 }
 
-/// Frames without pictures, because gaze comes only to who has the focus.
+/// Frames without pictures, because only a session with focus gets gaze.
 Heard listen_for(double seconds, present::FrameTarget& target, drivers::GazeSource& source) {
     Heard heard;
     std::vector<gaze::GazeSample> samples;

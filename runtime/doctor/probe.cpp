@@ -77,7 +77,7 @@ struct Pipe {
         to_parent.failed(error.what());
     }
     std::fflush(nullptr);
-    // No destructors: what a driver does at its end is nobody's question here.
+    // Without destructors: what a driver does at its end is not tested here.
     _exit(0);
 }
 
@@ -164,7 +164,7 @@ ProbeResult run_probe(const std::function<void(ProbeReport&)>& probe, const Prob
     if (pid == 0) {
         be_probe(probe, report, output);
     }
-    setpgid(pid, pid);  // whoever of the two is first
+    setpgid(pid, pid);  // parent and child both call it; either may be first
     report.close_write_end();
     output.close_write_end();
 

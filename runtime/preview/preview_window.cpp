@@ -46,7 +46,7 @@ std::string last_error;
 void on_error(int /*code*/, const char* text) { last_error = text; }
 
 void say(const std::string& text) {
-    // The loop may be gone; then nobody needs to know.
+    // The loop may be gone; then there is no one to tell.
     static_cast<void>(send(kWindowSocketFd, text.data(), text.size(), MSG_NOSIGNAL));
 }
 
@@ -134,7 +134,7 @@ class Window {
             glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
             glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
             glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-            // Without alpha: what a picture's alpha holds is nobody's business.
+            // Without alpha: a picture's alpha has no meaning here.
             glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, static_cast<GLsizei>(picture.width_px),
                          static_cast<GLsizei>(picture.height_px), 0,
                          frame_.blue_first ? GL_BGRA : GL_RGBA, GL_UNSIGNED_BYTE,

@@ -137,7 +137,7 @@ void FrameRenderer::wait_for_slot(std::uint32_t in_flight) {
 }
 
 void FrameRenderer::wait_for(vk::Semaphore timeline, std::uint64_t value) const {
-    // Drivers end what hangs; what is merely slow may take minutes in software, but not in silence.
+    // Drivers end work that hangs. Work that is only slow may take minutes in software; say so.
     constexpr std::chrono::seconds kPatience(10);
     std::chrono::seconds waited(0);
     while (context_->device().waitSemaphores(vk::SemaphoreWaitInfo({}, timeline, value),

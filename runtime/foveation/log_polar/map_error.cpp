@@ -22,7 +22,7 @@ constexpr double kSqrt = 9.0 * kEps;
 
 // Linear interpolation between entries h apart errs by |f''| h^2 / 8.
 constexpr double kSteps2 = double{MapTables::kMantissaSteps} * MapTables::kMantissaSteps;
-/// log2(1 + x), absolute: |f''| <= 1 / ln 2; entries and interpolation round thrice below 1.
+/// log2(1 + x), absolute: |f''| <= 1 / ln 2; entries and interpolation round three times below 1.
 constexpr double kLog2Error = 1.0 / (8.0 * std::numbers::ln2 * kSteps2) + 3.0 * kEps;
 /// 2^x, relative: f'' / f = ln^2 2; entries, fraction and interpolation round four times.
 constexpr double kExp2Error = std::numbers::ln2 * std::numbers::ln2 / (8.0 * kSteps2) + 4.0 * kEps;

@@ -111,7 +111,7 @@ Expected<PolynomialKernel> PolynomialKernel::create(std::span<const double> coef
                         "{:.6g}: the slope must lie in [0, inf) everywhere on [0, 1]",
                         *x, kernel.derivative(*x)));
     }
-    // What rounding leaves of a dip must not turn brackets around.
+    // Rounding may leave a dip, which must not reverse a bracket.
     for (std::size_t i = 1; i <= kNodes; ++i) {
         kernel.nodes_[i] = std::max(kernel.nodes_[i], kernel.nodes_[i - 1]);
     }

@@ -15,7 +15,8 @@
 namespace gazeloop::foveation {
 namespace {
 
-/// Wide enough for any flat display (179.9 degrees), narrow enough for none that is.
+/// Tangents of half the field of view. The range has room for every real flat display: .01 to 179.9
+/// degrees.
 constexpr double kMinHalfWidth = 1e-4;
 constexpr double kMaxHalfWidth = 1200.0;
 constexpr double kMaxWidthPx = 1e7;
@@ -105,7 +106,7 @@ class Problem {
         }
         std::vector<std::vector<double>> candidates(layers - 1, first_grid(radius));
         if (options_.second_factor > 0.0) {
-            // Where the line allows that factor, and not a sample earlier.
+            // Exactly where the line allows that factor.
             const double first =
                 (options_.second_factor * display_.sharpness_deg() - line_.omega0_deg) /
                 line_.slope;
@@ -223,7 +224,7 @@ Expected<EccentricityLayers> optimise_layers(const LayerDisplay& display, const 
     const Problem problem(display, line, options);
     Choice best;
     for (std::size_t layers = 1; layers <= static_cast<std::size_t>(options.layers); ++layers) {
-        // More layers have to earn their place.
+        // More layers are taken only if they save work.
         if (auto choice = problem.solve(layers); choice && choice->work < best.work * (1 - 1e-9)) {
             best = std::move(*choice);
         }
@@ -233,7 +234,7 @@ Expected<EccentricityLayers> optimise_layers(const LayerDisplay& display, const 
     double inner = 0.0;
     for (std::size_t i = 0; i < best.boundaries_deg.size(); ++i) {
         const double outer = best.boundaries_deg[i];
-        // A layer without extent is none.
+        // A layer without extent is left out.
         if (outer > inner) {
             const double factor = problem.factor(i, inner);
             const double width = problem.width_px(factor, outer);

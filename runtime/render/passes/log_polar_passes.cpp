@@ -213,7 +213,7 @@ class LogPolarPasses final : public MethodPasses {
              .fragment = fmt::format("{}.log_polar.frag", setup_.scene.shader()),
              .format = kLpFormat,
              .constants = pass_constants});
-        // A variant of its own: the mere statement of a depth costs a third of a resolve.
+        // A separate variant, because writing a depth alone costs a third of a resolve.
         const std::string resolve = setup_.depth_format == vk::Format::eUndefined
                                         ? "log_polar.frag"
                                         : "log_polar.depth.frag";
@@ -313,8 +313,7 @@ class LogPolarPasses final : public MethodPasses {
 std::unique_ptr<MethodPasses> make_kfr_passes(const PassSetup& setup,
                                               const foveation::KfrParameters& parameters) {
     for (const vk::Extent2D extent : setup.extents) {
-        // Now, not with the first frame: a setting that cannot be is no matter of the fields of
-        // view.
+        // Checked now, not with the first frame, because it does not depend on the fields of view.
         (void)value_or_throw(foveation::lp_buffer_size(parameters, {extent.width, extent.height}));
     }
     return std::make_unique<LogPolarPasses>(setup, std::make_unique<KfrMap>(parameters));
