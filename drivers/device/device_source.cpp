@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "drivers/device/silence.h"
 #include "drivers/device/udev.h"
 #include "runtime/time/clock.h"
 
@@ -26,6 +27,8 @@ constexpr milliseconds kLookAgainAfter{1000};
 constexpr milliseconds kRetryAfter{200};
 /// Nor often where it fails before it gave a sample: after twice the time of before, up to this.
 constexpr milliseconds kLongestRetry{5000};
+/// A tracker that gives no sample for so long after it was opened is told to be silent.
+constexpr milliseconds kSilentAfter{5000};
 
 }  // namespace
 
@@ -129,8 +132,12 @@ class DeviceSource::Reader {
         if (failures_ == 0) {
             greet();
         }
+        bool silence_told = false;
         while (!stopped()) {
             const auto read = tracker.read(kLongestRead, feed_);
+            if (greeted && read && !silence_told) {
+                silence_told = tell_silence(tracker, begin_ns);
+            }
             if (!greeted && read && (gave() || stays())) {
                 greet();
             }
@@ -149,6 +156,20 @@ class DeviceSource::Reader {
             }
         }
         return true;
+    }
+
+    /// Says that it gives no sample, if it has not for kSilentAfter; true once there is no more to
+    /// say.
+    bool tell_silence(const TrackerDevice& tracker, std::int64_t begin_ns) {
+        const time::Stamp now = time::measured_now();
+        const std::int64_t silent_ns = now.ns - begin_ns;
+        const auto text = silence_text(tracker.counts(), static_cast<double>(silent_ns) * 1e-9,
+                                       tracker.why_silent());
+        const bool long_enough = silent_ns >= std::chrono::nanoseconds(kSilentAfter).count();
+        if (text && long_enough) {
+            feed_.tell(now, *text);
+        }
+        return !text || long_enough;
     }
 
     DeviceKind kind_;

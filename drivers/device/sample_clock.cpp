@@ -18,7 +18,10 @@ constexpr std::uint64_t kBacklog = 48;
 }  // namespace
 
 void SampleClock::stamp(std::uint64_t ticks, std::int64_t arrived_ns, gaze::GazeSample& sample) {
-    sample.device_ns = counter_.to_ns(ticks);
+    const __int128 passed_ns =
+        static_cast<__int128>(arrived_ns) - last_stamped_ns_.value_or(arrived_ns);
+    last_stamped_ns_ = arrived_ns;
+    sample.device_ns = counter_.to_ns(ticks, time::saturated(passed_ns));
     sample.arrived = {arrived_ns, StampKind::Measured};
     sample.sampled = {};
     sample.ready = {};

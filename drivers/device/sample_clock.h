@@ -26,9 +26,9 @@ struct TrackerDelay {
 /// Gives the samples of one tracker their times.
 class SampleClock {
   public:
-    /// The tracker's counter has `bits` (1 to 64) and ticks of `tick_ns` (> 0).
-    SampleClock(std::uint32_t bits, double tick_ns, const TrackerDelay& delay)
-        : counter_(bits, tick_ns), delay_(delay), fit_(delay.polling_ns) {}
+    /// `counter` is the tracker's, before its first reading.
+    SampleClock(const time::TickCounter& counter, const TrackerDelay& delay)
+        : counter_(counter), delay_(delay), fit_(delay.polling_ns) {}
 
     /// Sets device_ns and arrived of a sample with that timestamp; to be called in the order of
     /// arrival. Where the clock's verdict allows, also ready (by the fitted clock), sampled (the
@@ -63,6 +63,7 @@ class SampleClock {
     TrackerDelay delay_;
     time::ClockFit fit_;
     std::optional<std::int64_t> last_device_ns_;
+    std::optional<std::int64_t> last_stamped_ns_;  ///< when the sample before had arrived
     std::int64_t last_arrived_ns_ = 0;
     std::uint64_t queued_in_a_row_ = 0;
     std::uint64_t backlog_ = 0;  ///< the longest of these since the sample stamped last

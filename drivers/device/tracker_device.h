@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drivers/device/device_feed.h"
@@ -31,10 +32,13 @@ struct TrackerFacts {
     std::optional<double> maximum_distance_m;
     std::optional<double> maximum_screen_width_m;  ///< that it can track gaze on
     std::optional<double> maximum_screen_height_m;
+    /// Feature reports that it gives no answer for, by id.
+    std::vector<std::uint8_t> unanswered_reports;
 };
 
 /// What came from a tracker.
 struct TrackerCounts {
+    std::uint64_t reports = 0;  ///< everything that came
     std::uint64_t samples = 0;
     std::uint64_t damaged = 0;  ///< reports that were cut short or make no sense
     std::uint64_t others = 0;   ///< reports of something else
@@ -61,6 +65,10 @@ class TrackerDevice {
                                               DeviceFeed& feed) = 0;
 
     [[nodiscard]] virtual TrackerCounts counts() const = 0;
+    /// Whether it was asked for something that it may still answer, or not answer at all.
+    [[nodiscard]] virtual bool asking() const { return false; }
+    /// What may keep one of its kind from sending, and where to look: "it may be ...".
+    [[nodiscard]] virtual std::string_view why_silent() const = 0;
     /// As it was last seen.
     [[nodiscard]] virtual PupilsMm pupils_mm() const { return {}; }
     /// The fit of the samples' timestamps; null before the first, and for a tracker without

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "drivers/device/silence.h"
 #include "runtime/time/clock.h"
 
 namespace gazeloop::drivers {
@@ -17,7 +18,6 @@ TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& dev
         probe.problem = tracker ? device.path + " was unplugged" : tracker.error().message;
         return probe;
     }
-    probe.facts = (*tracker)->facts();
     probe.remarks = (*tracker)->remarks();
 
     DeviceFeed feed;
@@ -27,7 +27,8 @@ TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& dev
     const std::int64_t begin_ns = time::monotonic_ns();
     const std::int64_t end_ns =
         begin_ns + std::chrono::duration_cast<std::chrono::nanoseconds>(listen).count();
-    while (time::monotonic_ns() < end_ns && !stop() && !probe.problem) {
+    // What it does not answer is part of what is wrong with it.
+    while ((time::monotonic_ns() < end_ns || (*tracker)->asking()) && !stop() && !probe.problem) {
         if (const auto read = (*tracker)->read(kLongestRead, feed); !read) {
             probe.problem = read.error().message;
         }
@@ -45,7 +46,11 @@ TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& dev
         }
     }
     probe.seconds = static_cast<double>(time::monotonic_ns() - begin_ns) * 1e-9;
+    probe.facts = (*tracker)->facts();
     probe.counts = (*tracker)->counts();
+    if (!probe.problem) {
+        probe.silence = silence_text(probe.counts, probe.seconds, (*tracker)->why_silent());
+    }
     probe.pupils_mm = (*tracker)->pupils_mm();
     if (probe.counts.samples > 1 && last_ns > *first_ns) {
         probe.rate_hz = static_cast<double>(probe.counts.samples - 1) * 1e9 /

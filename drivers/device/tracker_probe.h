@@ -22,6 +22,7 @@ struct TrackerProbe {
     TrackerSupport support;
     FoundDevice device;
     std::optional<std::string> problem;  ///< why it could not be listened to, or ceased
+    std::optional<std::string> silence;  ///< that it gave no sample, though it was listened to
     TrackerFacts facts;
     std::vector<std::string> remarks;  ///< of the device, when it was opened and later
     double seconds = 0.0;
@@ -32,7 +33,8 @@ struct TrackerProbe {
     std::optional<time::ClockFit> clock;  ///< of its timestamps, where it sends any
 };
 
-/// Opens a tracker, listens for this long or until `stop` says so, and stops it again.
+/// Opens a tracker, listens for this long or until `stop` says so, and stops it again. Listens for
+/// longer while it may still answer what it was asked.
 [[nodiscard]] TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& device,
                                          const OpenTracker& open, std::chrono::milliseconds listen,
                                          const StopRequested& stop);

@@ -14,6 +14,24 @@ constexpr std::uint32_t kWidestTimestamp = 64;
 /// More elements than any of the usages can need; a field may claim 65,535.
 constexpr std::uint32_t kMostElements = 256;
 
+/// What a counter in one element of the field runs through.
+time::TickRange counter_range(const ReportField& field) {
+    const bool is_signed = field.logical_minimum < 0;
+    const time::TickRange held = is_signed ? time::TickRange::of_signed_bits(field.bits)
+                                           : time::TickRange::of_bits(field.bits);
+    const auto least = static_cast<std::uint64_t>(field.logical_minimum);
+    const auto greatest = static_cast<std::uint64_t>(field.logical_maximum);
+    if (field.logical_minimum >= field.logical_maximum || !held.holds(least) ||
+        !held.holds(greatest)) {
+        return time::TickRange::of_bits(field.bits);
+    }
+    // -2^n + 1 to 2^n - 1: two's complement, written so that zero is in the middle.
+    const bool but_one = is_signed && (greatest & (greatest + 1)) == 0 && greatest == 0 - least;
+    const std::uint64_t missing = but_one ? 1 : 0;
+    return {.least = field.logical_minimum - static_cast<std::int64_t>(missing),
+            .span = greatest - least + missing};
+}
+
 /// Reads the fields one after the other into the layout. The first of several numbers with the same
 /// meaning is kept.
 class LayoutFinder {
@@ -160,6 +178,8 @@ class LayoutFinder {
             constexpr double kNsPerSecond = 1e9;
             slot = {.bit_offset = field.bit_offset + element * field.bits,
                     .bits = parts * field.bits,
+                    .range = parts > 1 ? time::TickRange::of_bits(parts * field.bits)
+                                       : counter_range(field),
                     .tick_ns = unit_size(field, Quantity::Time) * kNsPerSecond};
         }
         return parts;
@@ -207,12 +227,21 @@ class LayoutFinder {
 
 }  // namespace
 
+std::optional<std::uint64_t> TimestampField::ticks(std::span<const std::uint8_t> payload) const {
+    const std::optional<std::uint64_t> read = read_bits(payload, bit_offset, bits);
+    if (!read || range.least >= 0) {
+        return read;
+    }
+    const std::uint64_t sign = std::uint64_t{1} << (bits - 1);
+    return (*read ^ sign) - sign;
+}
+
 std::vector<std::uint8_t> EyeTrackerLayout::feature_ids() const {
     std::vector<std::uint8_t> ids;
     for (const auto* value :
-         {&quality, &minimum_distance, &optimum_distance, &maximum_distance, &maximum_width,
-          &maximum_height, &display_manufacturer, &display_product, &display_serial, &screen_width,
-          &screen_height, &status_feature.status, &status_feature.sampling_hz}) {
+         {&screen_width, &screen_height, &status_feature.status, &status_feature.sampling_hz,
+          &display_manufacturer, &display_product, &display_serial, &quality, &minimum_distance,
+          &optimum_distance, &maximum_distance, &maximum_width, &maximum_height}) {
         if (*value && std::ranges::find(ids, (*value)->report_id) == ids.end()) {
             ids.push_back((*value)->report_id);
         }

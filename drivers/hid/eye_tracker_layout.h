@@ -3,19 +3,38 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "drivers/hid/report_value.h"
 #include "runtime/error.h"
 #include "runtime/gaze/eye.h"
+#include "runtime/time/tick_range.h"
 
 namespace gazeloop::drivers::hid {
 
 /// A timestamp: one number, or an array of its bytes, least significant first.
+///
+/// Its counter begins anew after the field's logical maximum, at the logical minimum: of a field of
+/// 32 bits from 0 to 2^31 - 1 it has 31 bits, from 0 to 999,999 a million numbers, from -2^31 or
+/// -2^31 + 1 to 2^31 - 1 it has 32 and a sign. That is what a logical range says
+/// (HID 1.11, 6.2.2.7: what the field may hold). The width of the field counts where it states no
+/// range (maximum at or below the minimum, or none) or one that does not fit in it, and for an
+/// array, whose range is that of its parts. A counter that goes on beyond its stated range is as
+/// wide as its field after all (time::TickCounter).
 struct TimestampField {
     std::uint32_t bit_offset = 0;
-    std::uint32_t bits = 0;   ///< 1 .. 64; the counter wraps after so many
+    std::uint32_t bits = 0;   ///< 1 .. 64
+    time::TickRange range;    ///< inside held_in()
     double tick_ns = 1000.0;  ///< > 0
+
+    /// Of all numbers that the field can hold.
+    [[nodiscard]] time::TickRange held_in() const {
+        return range.least < 0 ? time::TickRange::of_signed_bits(bits)
+                               : time::TickRange::of_bits(bits);
+    }
+    /// Its number in a report, in two's complement; none where the payload ends before.
+    [[nodiscard]] std::optional<std::uint64_t> ticks(std::span<const std::uint8_t> payload) const;
 
     friend bool operator==(const TimestampField&, const TimestampField&) = default;
 };
@@ -63,7 +82,8 @@ struct EyeTrackerLayout {
     std::optional<ReportValue> screen_height;
     std::optional<ReportValue> mode_request;
 
-    /// The feature reports that something above is read from, by id.
+    /// The feature reports that something above is read from, by id: those without which gaze is
+    /// no good first (the screen's size, the status).
     [[nodiscard]] std::vector<std::uint8_t> feature_ids() const;
 };
 

@@ -57,7 +57,7 @@ TrackingReport decode_tracking(const TrackingLayout& layout, Payload payload) {
     TrackingReport report;
     report.report_id = layout.report_id;
     if (layout.timestamp) {
-        report.ticks = read_bits(payload, layout.timestamp->bit_offset, layout.timestamp->bits);
+        report.ticks = layout.timestamp->ticks(payload);
     }
     if (const auto gaze = position_of(layout.gaze_point, 2, payload)) {
         report.gaze_m = glm::dvec2(*gaze);

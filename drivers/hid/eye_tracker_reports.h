@@ -37,7 +37,7 @@ struct StatusReport {
 /// What the device does not say, or marks as no data, is absent.
 struct TrackingReport {
     std::uint8_t report_id = 0;
-    std::optional<std::uint64_t> ticks;  ///< of the timestamp field
+    std::optional<std::uint64_t> ticks;  ///< of the timestamp field, in two's complement
     std::optional<glm::dvec2> gaze_m;
     gaze::PerEye<std::optional<glm::dvec3>> eye_m;
     StatusReport status;     ///< where it stands in the same report

@@ -14,6 +14,8 @@
 #include <system_error>
 #include <utility>
 
+#include "runtime/time/clock.h"
+
 namespace gazeloop::drivers::hid {
 namespace {
 
@@ -24,6 +26,17 @@ hid_device_* open_with_hidapi(const std::string& path) {
     static std::mutex one_at_a_time;
     const std::scoped_lock lock(one_at_a_time);
     return hid_open_path(path.c_str());
+}
+
+/// Of a request that began then. Not every transport says ETIMEDOUT where nothing was answered
+/// (Bluetooth and uhid: EIO), but no device takes so long to refuse.
+RequestFailure failure(int result, std::int64_t begin_ns) {
+    constexpr double kLongestRefusal_s = 1.0;
+    const bool timed_out = result < 0 && errno == ETIMEDOUT;
+    const double seconds = static_cast<double>(time::monotonic_ns() - begin_ns) * 1e-9;
+    return {.why = timed_out || seconds >= kLongestRefusal_s ? RequestFailure::Why::Unanswered
+                                                             : RequestFailure::Why::Refused,
+            .seconds = seconds};
 }
 
 }  // namespace
@@ -78,25 +91,28 @@ Expected<std::size_t> HidrawDevice::read(std::span<std::uint8_t> report,
     return static_cast<std::size_t>(bytes);
 }
 
-std::optional<std::vector<std::uint8_t>> HidrawDevice::feature(std::uint8_t id,
-                                                               std::size_t payload_bytes) {
+std::expected<std::vector<std::uint8_t>, RequestFailure> HidrawDevice::feature(
+    std::uint8_t id, std::size_t payload_bytes) {
     std::vector<std::uint8_t> report(std::min(1 + payload_bytes, kLongestFeature), 0);
     report.front() = id;
-    const int bytes = hid_get_feature_report(device_.get(), report.data(), report.size());
+    const std::int64_t begin_ns = time::monotonic_ns();
+    const int bytes = ioctl(node_.fd(), HIDIOCGFEATURE(report.size()), report.data());
     if (bytes <= 0) {
-        return std::nullopt;
+        return std::unexpected(failure(bytes, begin_ns));
     }
     report.resize(std::min(report.size(), static_cast<std::size_t>(bytes)));
     return report;
 }
 
-Expected<void> HidrawDevice::send_feature(std::span<const std::uint8_t> report) {
+std::expected<void, RequestFailure> HidrawDevice::send_feature(
+    std::span<const std::uint8_t> report) {
     if (report.size() > kLongestFeature) {
-        return error(fmt::format("a request of {} bytes cannot be sent: at most {}", report.size(),
-                                 kLongestFeature));
+        return std::unexpected(RequestFailure{});
     }
-    if (hid_send_feature_report(device_.get(), report.data(), report.size()) < 0) {
-        return error("does not take the request");
+    const std::int64_t begin_ns = time::monotonic_ns();
+    const int bytes = ioctl(node_.fd(), HIDIOCSFEATURE(report.size()), report.data());
+    if (bytes < 0) {
+        return std::unexpected(failure(bytes, begin_ns));
     }
     return {};
 }

@@ -14,7 +14,8 @@ TrackerSamples::TrackerSamples(EyeTrackerLayout layout, const ScreenGeometry& ge
     for (const TrackingLayout& tracking : layout_.tracking) {
         std::optional<SampleClock>& clock = clocks_.emplace_back();
         if (tracking.timestamp) {
-            clock.emplace(tracking.timestamp->bits, tracking.timestamp->tick_ns, delay);
+            const TimestampField& field = *tracking.timestamp;
+            clock.emplace(time::TickCounter(field.range, field.held_in(), field.tick_ns), delay);
         }
     }
 }
@@ -41,6 +42,7 @@ void TrackerSamples::learn(const ScreenGeometry& geometry, std::optional<Tracker
 
 std::optional<gaze::GazeSample> TrackerSamples::take(std::span<const std::uint8_t> report,
                                                      std::int64_t arrived_ns) {
+    ++counts_.reports;
     const InputReport input = decode_input(layout_, report);
     tracked_last_ = std::holds_alternative<TrackingReport>(input);
     if (const auto* const status = std::get_if<StatusReport>(&input)) {

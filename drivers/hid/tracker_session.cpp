@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <future>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -13,25 +15,12 @@
 namespace gazeloop::drivers::hid {
 namespace {
 
-/// Reads the feature reports; one that cannot be read stays as it was. False where it was to stop.
-bool read_features(HidrawDevice& device, const EyeTrackerLayout& layout, const StopRequested& stop,
-                   std::vector<FeatureReport>& reports) {
-    for (const std::uint8_t id : layout.feature_ids()) {
-        const ReportSize* const size = find_report(layout.reports, ReportKind::Feature, id);
-        if (auto bytes = device.feature(id, size->payload_bytes())) {
-            std::erase_if(reports, [&](const FeatureReport& report) { return report.id == id; });
-            reports.push_back({id, std::move(*bytes)});
-        }
-        if (stop()) {
-            return false;
-        }
-    }
-    return true;
-}
+constexpr std::int64_t kAskAfter_ns = 1'000'000'000;
+/// Of one that does not answer, which takes seconds each time.
+constexpr std::int64_t kAskUnanswered_ns = 60'000'000'000;
 
-/// One line for each thing that it states, and what keeps gaze from coming; all but its status.
-std::vector<std::string> describe(const EyeTrackerLayout& layout, const TrackerFeatures& features,
-                                  const ScreenGeometry& geometry) {
+/// One line for each thing that it states; all but its status.
+std::vector<std::string> describe(const TrackerFeatures& features) {
     std::vector<std::string> lines;
     if (features.status.sampling_hz) {
         lines.push_back(fmt::format("states {} Hz", *features.status.sampling_hz));
@@ -58,40 +47,26 @@ std::vector<std::string> describe(const EyeTrackerLayout& layout, const TrackerF
         lines.push_back(
             fmt::format("states {:.3g} m as {}, which cannot be: left out", metres, of));
     }
-    if (auto problem = geometry_problem(layout, geometry)) {
-        lines.push_back(std::move(*problem));
-    }
     return lines;
 }
 
 }  // namespace
 
 TrackerSession::TrackerSession(std::string text, HidrawDevice device,
-                               std::vector<FeatureReport> reports, const EyeTrackerLayout& layout,
-                               const HidOptions& options, StopRequested stopped)
+                               const EyeTrackerLayout& layout, const HidOptions& options,
+                               StopRequested stopped)
     : text_(std::move(text)),
-      device_(std::move(device)),
+      device_(std::make_unique<HidrawDevice>(std::move(device))),
       layout_(layout),
       configured_(options.geometry),
-      stopped_(std::move(stopped)),
-      reports_(std::move(reports)),
-      features_(decode_features(layout_, reports_)),
-      reported_(describe(layout_, features_, geometry())),
-      samples_(layout_, geometry(), options.delay, features_.status.status) {
-    if (features_.status.status) {
-        remarks_.push_back(fmt::format("status: {}", text_of(*features_.status.status)));
-    }
-    remarks_.insert(remarks_.end(), reported_.begin(), reported_.end());
+      ask_after_ns_(kAskAfter_ns),
+      samples_(layout_, geometry(), options.delay),
+      requests_(std::make_unique<FeatureRequests>(*device_, std::move(stopped))) {
     if (auto start = encode_mode_request(layout_, kModeGaze | kModeEyePosition)) {
         start_ = std::move(*start);
         stop_ = encode_mode_request(layout_, kModeStop).value();
-        if (const auto sent = device_.send_feature(start_); !sent) {
-            refused_ = true;
-            remarks_.push_back(
-                fmt::format("asked to start, {}: asked again each second while no gaze comes",
-                            sent.error().message));
-        }
     }
+    ask(true, true);
 }
 
 ScreenGeometry TrackerSession::geometry() const {
@@ -106,8 +81,18 @@ ScreenGeometry TrackerSession::geometry() const {
 }
 
 TrackerSession::~TrackerSession() {
-    if (!stop_.empty() && device_.nobody_else_reads()) {
-        [[maybe_unused]] const auto sent = device_.send_feature(stop_);  // it may have gone
+    if (!requests_) {
+        return;  // moved from
+    }
+    requests_->end();
+    std::vector<std::string> untold;
+    for (const FeatureRequests::Outcome& outcome : requests_->take()) {
+        if (outcome.sent) {
+            take_start(outcome, untold);
+        }
+    }
+    if (started_ && device_->nobody_else_reads()) {
+        [[maybe_unused]] const auto sent = device_->send_feature(stop_);  // it may have gone
     }
 }
 
@@ -126,16 +111,25 @@ Expected<TrackerSession> TrackerSession::open(const FoundTracker& tracker,
     if (!device) {
         return std::unexpected(std::move(device.error()));
     }
-    std::vector<FeatureReport> reports;
-    if (!read_features(*device, *tracker.layout, stop, reports)) {
+    HidOptions of_this = options;
+    of_this.delay.polling_ns = tracker.polling_ns;
+    TrackerSession session(tracker.device.text(), std::move(*device), *tracker.layout, of_this,
+                           stop);
+    const auto until = std::chrono::steady_clock::now() + kPatience;
+    while (!session.requests_->done(kLongestRead) && !stop() &&
+           std::chrono::steady_clock::now() < until) {
+    }
+    if (stop()) {
         return std::unexpected(
             Error{ErrorKind::Interrupted,
                   fmt::format("{}: interrupted while it was opened", tracker.device.text())});
     }
-    HidOptions of_this = options;
-    of_this.delay.polling_ns = tracker.polling_ns;
-    return TrackerSession(tracker.device.text(), std::move(*device), std::move(reports),
-                          *tracker.layout, of_this, stop);
+    std::vector<std::string> lines = session.take_answers();
+    if (auto status = session.samples_.take_change()) {
+        session.remarks_.push_back(std::move(*status));
+    }
+    std::ranges::move(lines, std::back_inserter(session.remarks_));
+    return session;
 }
 
 TrackerFacts TrackerSession::facts() const {
@@ -152,10 +146,31 @@ TrackerFacts TrackerSession::facts() const {
     facts.maximum_distance_m = features_.maximum_distance_m;
     facts.maximum_screen_width_m = features_.maximum_width_m;
     facts.maximum_screen_height_m = features_.maximum_height_m;
+    facts.unanswered_reports = unanswered_;
     if (samples_.status()) {
         facts.status = text_of(*samples_.status());
     }
     return facts;
+}
+
+std::string_view TrackerSession::why_silent() const {
+    return "it may be off, not worn, see no eyes or want its maker's calibration; or it sends less "
+           "than its descriptor declares, which Linux keeps back (dmesg may say so)";
+}
+
+void TrackerSession::ask(bool start, bool features) {
+    std::vector<FeatureRequests::Request> requests;
+    if (start && !start_.empty()) {
+        requests.push_back({.id = start_.front(), .sent = start_});
+    }
+    for (const std::uint8_t id : layout_.feature_ids()) {
+        if (features && std::ranges::find(unanswered_, id) == unanswered_.end()) {
+            const ReportSize* const size = find_report(layout_.reports, ReportKind::Feature, id);
+            requests.push_back({.id = id, .payload_bytes = size->payload_bytes(), .sent = {}});
+        }
+    }
+    requests_->make(std::move(requests));
+    asking_ = true;
 }
 
 /// After a second without tracking data, and at most once a second. A reset, a suspension or
@@ -166,41 +181,104 @@ TrackerFacts TrackerSession::facts() const {
 /// screen's size and the rate may have come with its set-up, or it takes requests only now. Valid
 /// gaze needs neither; but data without it do not count as sending then, because without the
 /// screen's size no gaze may be valid.
-void TrackerSession::ask_again(std::int64_t now_ns, DeviceFeed& feed) {
-    constexpr std::int64_t kAskAfterNs = 1'000'000'000;
+void TrackerSession::ask_again(std::int64_t now_ns) {
     const std::int64_t heard_ns = ready_ ? gaze_ns_ : tracked_ns_;
-    if (now_ns - std::max(heard_ns, asked_ns_) < kAskAfterNs || (start_.empty() && !ready_)) {
-        return;
+    if (!asking_ && now_ns - std::max(heard_ns, asked_ns_) >= ask_after_ns_ &&
+        (!start_.empty() || ready_)) {
+        ask(true, std::exchange(ready_, false));
     }
-    const bool taken = start_.empty() || device_.send_feature(start_).has_value();
-    const bool only_now = taken && std::exchange(refused_, false);
-    if (only_now) {
-        feed.tell(time::measured_now(), "takes the request to start now");
-    }
-    if (std::exchange(ready_, false) || only_now) {
-        read_features_again(feed);
-    }
-    asked_ns_ = time::monotonic_ns();  // a device may take seconds for a request
 }
 
-void TrackerSession::read_features_again(DeviceFeed& feed) {
-    if (!read_features(device_, layout_, stopped_, reports_)) {
-        return;
-    }
-    features_ = decode_features(layout_, reports_);
-    samples_.learn(geometry(), features_.status.status);
-    const std::vector<std::string> before =
-        std::exchange(reported_, describe(layout_, features_, geometry()));
-    for (const std::string& line : reported_) {
-        if (std::ranges::find(before, line) == before.end()) {
-            feed.tell(time::measured_now(), line);
+std::vector<std::string> TrackerSession::take_answers() {
+    std::vector<std::string> lines;
+    const bool all = requests_->done();  // before they are taken, so that none is left
+    const bool refused = refused_;
+    bool any_feature = false;
+    for (FeatureRequests::Outcome& outcome : requests_->take()) {
+        if (outcome.sent) {
+            take_start(outcome, lines);
+            continue;
+        }
+        if (outcome.answer) {
+            any_feature = true;
+            std::erase_if(reports_,
+                          [&](const FeatureReport& report) { return report.id == outcome.id; });
+            reports_.push_back({outcome.id, std::move(*outcome.answer)});
+            continue;
+        }
+        const RequestFailure& failure = outcome.answer.error();
+        if (failure.why != RequestFailure::Why::Refused) {
+            unanswered_.push_back(outcome.id);
+            lines.push_back(
+                failure.why == RequestFailure::Why::Unanswered
+                    ? fmt::format("feature report {:#04x}: no answer in {:.0f} s; going on without",
+                                  outcome.id, failure.seconds)
+                    : fmt::format("feature report {:#04x}: not asked for, as {} requests before it "
+                                  "got no answer; going on without",
+                                  outcome.id, FeatureRequests::kMostUnanswered));
         }
     }
+    if (any_feature) {
+        learn_features(lines);
+    }
+    if (all) {
+        asking_ = false;
+        asked_ns_ = time::monotonic_ns();
+        auto problem = geometry_problem(layout_, geometry());
+        if (problem && problem != told_problem_) {
+            lines.push_back(*problem);
+        }
+        told_problem_ = std::move(problem);
+    }
+    if (refused && !refused_) {
+        read_again_ = true;  // it takes requests only now
+    }
+    if (all && std::exchange(read_again_, false)) {
+        ask(false, true);
+    }
+    return lines;
+}
+
+void TrackerSession::take_start(const FeatureRequests::Outcome& outcome,
+                                std::vector<std::string>& lines) {
+    const bool was_refused = refused_;
+    refused_ = !outcome.answer.has_value();
+    if (!refused_) {
+        started_ = true;
+        ask_after_ns_ = kAskAfter_ns;
+        if (was_refused) {
+            lines.emplace_back("takes the request to start now");
+        }
+        return;
+    }
+    // One that does not answer will not answer to a stop either, and nobody is to wait for that.
+    const RequestFailure& failure = outcome.answer.error();
+    const bool unanswered = failure.why != RequestFailure::Why::Refused;
+    started_ = started_ || !unanswered;
+    ask_after_ns_ = unanswered ? kAskUnanswered_ns : kAskAfter_ns;
+    if (!was_refused) {
+        lines.push_back(
+            unanswered ? fmt::format("request to start, feature report {:#04x}: no answer in "
+                                     "{:.0f} s; going on without",
+                                     outcome.id, failure.seconds)
+                       : fmt::format("request to start, feature report {:#04x}: does not take the "
+                                     "request: asked again each second while no gaze comes",
+                                     outcome.id));
+    }
+}
+
+void TrackerSession::learn_features(std::vector<std::string>& lines) {
+    features_ = decode_features(layout_, reports_);
+    samples_.learn(geometry(), features_.status.status);
+    const std::vector<std::string> before = std::exchange(reported_, describe(features_));
+    std::ranges::copy_if(reported_, std::back_inserter(lines), [&](const std::string& line) {
+        return std::ranges::find(before, line) == before.end();
+    });
 }
 
 Expected<void> TrackerSession::read(std::chrono::milliseconds longest, DeviceFeed& feed) {
     std::array<std::uint8_t, kLongestReport + 1> report;
-    const Expected<std::size_t> bytes = device_.read(report, longest);
+    const Expected<std::size_t> bytes = device_->read(report, longest);
     const std::int64_t arrived_ns = time::monotonic_ns();
     if (!bytes) {
         return std::unexpected(bytes.error());
@@ -216,7 +294,12 @@ Expected<void> TrackerSession::read(std::chrono::milliseconds longest, DeviceFee
         ready_ =
             ready_ || (samples_.status() != status && samples_.status() == TrackerStatus::Ready);
     }
-    ask_again(arrived_ns, feed);  // the status comes from one that was stopped, too
+    if (asking_) {
+        for (std::string& line : take_answers()) {
+            feed.tell(time::measured_now(), std::move(line));
+        }
+    }
+    ask_again(arrived_ns);  // the status comes from one that was stopped, too
     if (auto change = samples_.take_change()) {
         feed.tell({arrived_ns, time::StampKind::Measured}, std::move(*change));
     }
@@ -268,15 +351,24 @@ Expected<std::unique_ptr<TrackerDevice>> open_tracker(const HidOptions& options,
     return nullptr;
 }
 
-std::vector<TrackerProbe> probe_trackers(const HidOptions& options,
+std::vector<TrackerProbe> probe_trackers(const std::vector<FoundTracker>& trackers,
+                                         const HidOptions& options,
                                          std::chrono::milliseconds listen,
                                          const StopRequested& stop) {
+    std::vector<std::future<TrackerProbe>> listening;
+    listening.reserve(trackers.size());
+    for (const FoundTracker& tracker : trackers) {
+        listening.push_back(std::async(std::launch::async, [&] {
+            return probe_tracker(
+                kSupport, tracker.device,
+                [&](const StopRequested& stopped) { return opened(tracker, options, stopped); },
+                listen, stop);
+        }));
+    }
     std::vector<TrackerProbe> probes;
-    for (const FoundTracker& tracker : find_trackers()) {
-        probes.push_back(probe_tracker(
-            kSupport, tracker.device,
-            [&](const StopRequested& stopped) { return opened(tracker, options, stopped); }, listen,
-            stop));
+    probes.reserve(listening.size());
+    for (std::future<TrackerProbe>& probe : listening) {
+        probes.push_back(probe.get());
     }
     return probes;
 }

@@ -10,6 +10,7 @@ namespace gazeloop::drivers::psvr2 {
 
 std::optional<gaze::GazeSample> GazeSamples::take(std::span<const std::uint8_t> bytes,
                                                   std::int64_t arrived_ns) {
+    ++counts_.reports;
     const auto packet = decode_gaze_packet(bytes);
     if (!packet) {
         refuse(packet.error(), bytes.size());

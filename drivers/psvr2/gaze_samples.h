@@ -21,7 +21,7 @@ namespace gazeloop::drivers::psvr2 {
 /// closed.
 class GazeSamples {
   public:
-    explicit GazeSamples(const TrackerDelay& delay) : clock_(kWide, kMicrosecond_ns, delay) {}
+    explicit GazeSamples(const TrackerDelay& delay) : clock_({kWide, kMicrosecond_ns}, delay) {}
 
     /// The sample of a transfer that had arrived by `arrived_ns`, without its number; none where it
     /// is no gaze packet.

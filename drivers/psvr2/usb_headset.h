@@ -67,6 +67,9 @@ class UsbHeadset final : public TrackerDevice {
     [[nodiscard]] const std::vector<std::string>& remarks() const override { return remarks_; }
     [[nodiscard]] Expected<void> read(std::chrono::milliseconds longest, DeviceFeed& feed) override;
     [[nodiscard]] TrackerCounts counts() const override { return samples_.counts(); }
+    [[nodiscard]] std::string_view why_silent() const override {
+        return "it may be asleep or not worn, or another program may have stopped its gaze stream";
+    }
     [[nodiscard]] PupilsMm pupils_mm() const override { return samples_.pupils_mm(); }
     [[nodiscard]] const time::ClockFit* clock() const override { return samples_.clock(); }
 

@@ -131,7 +131,8 @@ ExitCode devices(const DevicesCommand& command) {
     const doctor::Findings openxr = listen_to_openxr(settings, command.seconds);
     const std::chrono::milliseconds listen(std::llround(command.seconds * 1e3));
     const auto stop = [] { return run::interrupted(); };
-    std::vector<drivers::TrackerProbe> probes = drivers::hid::probe_trackers(hid, listen, stop);
+    std::vector<drivers::TrackerProbe> probes =
+        drivers::hid::probe_trackers(drivers::hid::find_trackers(), hid, listen, stop);
     std::ranges::move(drivers::psvr2::probe_headsets(psvr2, listen, stop),
                       std::back_inserter(probes));
     if (run::interrupted()) {

@@ -10,6 +10,7 @@
 #include "runtime/doctor/checks.h"
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/report/output_file.h"
+#include "runtime/run/gaze_sources.h"
 #include "runtime/run/interrupt.h"
 #include "runtime/run/run_checks.h"
 #include "runtime/version.h"
@@ -95,6 +96,12 @@ display::DisplayProfile display_or_default(const run::ProgramSettings& settings)
                    : value_or_throw(profiles::load_display(profiles::ProfileSettings().display));
 }
 
+/// What the settings say of HID trackers; nothing where they name no tracker.
+drivers::hid::HidOptions hid_options_in_force(const run::ProgramSettings& settings) {
+    const auto tracker = profiles::tracker_in_force(settings.values().profile, settings);
+    return tracker ? run::hid_options(*tracker, settings.values()) : drivers::hid::HidOptions{};
+}
+
 ExitCode run_doctor(const DoctorCommand& command) {
     run::ProgramSettings settings;
     doctor::Findings findings = check_configuration(command, settings);
@@ -129,7 +136,7 @@ ExitCode run_doctor(const DoctorCommand& command) {
                               .vulkan_works = vulkan_works,
                               .is_target = values.target.name == "openxr"},
                              limits));
-    add(doctor::check_hid());
+    add(doctor::check_hid({.options = hid_options_in_force(settings), .stop = run::interrupted}));
     add(doctor::check_clocks(command.root));
     add(doctor::check_scheduling(command.root));
     add(doctor::check_recording_folder(command.folder));

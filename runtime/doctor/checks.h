@@ -1,9 +1,11 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "drivers/hid/tracker_session.h"
 #include "runtime/display/display_profile.h"
 #include "runtime/doctor/finding.h"
 #include "runtime/doctor/probe.h"
@@ -39,8 +41,15 @@ Findings check_openxr(const OpenXrChecks& asked, const ProbeLimits& limits);
 /// finding, openxr.eye_gaze.samples, has what came as facts.
 Findings check_eye_gaze(const OpenXrChecks& asked, double seconds, const ProbeLimits& limits);
 
-/// Trackers on HID: what their descriptors are good for, and who may open their nodes.
-Findings check_hid();
+struct HidChecks {
+    drivers::hid::HidOptions options;
+    std::chrono::milliseconds listen{2000};  ///< to all trackers at once
+    drivers::StopRequested stop;             ///< asked by several threads
+};
+
+/// Trackers on HID: what their descriptors are good for, who may open their nodes, whether they
+/// answer what they are asked, and whether anything comes from them.
+Findings check_hid(const HidChecks& asked);
 
 /// CLOCK_MONOTONIC and what it is read from.
 Findings check_clocks(const std::filesystem::path& root);

@@ -40,10 +40,8 @@ std::vector<std::string> diagnosis(const TrackerProbe& probe) {
         lines.emplace_back(drivers::kRuleRemedy);
         lines.push_back("  " + probe.device.missing_rule);
     }
-    if (!probe.problem && probe.counts.samples == 0) {
-        lines.emplace_back(
-            "it sends nothing: it may see no eyes (some trackers are then silent), or want its "
-            "maker's calibration");
+    if (probe.silence) {
+        lines.push_back(*probe.silence);
     } else if (!probe.problem && probe.with_gaze == 0) {
         lines.emplace_back("it sends reports, but none with valid gaze");
     }
@@ -174,7 +172,9 @@ std::string devices_json(const std::vector<TrackerProbe>& probes, const Findings
                         {"maximum_distance_m", or_null(facts.maximum_distance_m)},
                         {"maximum_screen_width_m", or_null(facts.maximum_screen_width_m)},
                         {"maximum_screen_height_m", or_null(facts.maximum_screen_height_m)},
+                        {"unanswered_feature_reports", facts.unanswered_reports},
                         {"seconds", probe.seconds},
+                        {"reports", probe.counts.reports},
                         {"samples", probe.counts.samples},
                         {"samples_with_gaze", probe.with_gaze},
                         {"samples_lost", probe.counts.lost},

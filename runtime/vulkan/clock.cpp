@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "runtime/time/tick_counter.h"
+#include "runtime/time/tick_range.h"
 
 namespace gazeloop::vulkan {
 namespace {
@@ -46,8 +46,8 @@ void GpuClock::calibrate() {
 }
 
 double GpuClock::elapsed_ns(std::uint64_t from_ticks, std::uint64_t to_ticks) const {
-    return static_cast<double>(
-               time::tick_difference(from_ticks, to_ticks, context_->timestamp_bits())) *
+    return static_cast<double>(time::tick_difference(
+               from_ticks, to_ticks, time::TickRange::of_bits(context_->timestamp_bits()))) *
            context_->timestamp_period_ns();
 }
 

@@ -1,9 +1,11 @@
 // The program as its users run it, on an emulated device.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stop_token>
 #include <thread>
 
@@ -67,7 +69,9 @@ TEST_F(DevicesProgram, SaysWhyThereIsNoGaze) {
     tracker_->plug_in();
     const ProgramResult silent = run_gazeloop({"devices", "--seconds", "0.2"});
     EXPECT_EQ(silent.exit_code, 4) << silent.err;
-    EXPECT_NE(silent.out.find("it sends nothing"), std::string::npos) << silent.out;
+    for (const char* part : {"opened, no report in 0.2", "not worn", "less than its descriptor"}) {
+        EXPECT_NE(silent.out.find(part), std::string::npos) << part << '\n' << silent.out;
+    }
     EXPECT_NE(silent.out.find("not tried on hardware"), std::string::npos) << silent.out;
 }
 
@@ -86,7 +90,7 @@ TEST_F(DevicesProgram, ThatIsInterruptedSaysSo) {
     program.signal(SIGINT);
     EXPECT_EQ(program.wait(std::chrono::seconds(30)), 130) << program.output();
     EXPECT_NE(program.output().find("interrupted"), std::string::npos) << program.output();
-    for (const char* part : {"sends nothing", "cannot be read"}) {
+    for (const char* part : {"no report in", "cannot be read"}) {
         EXPECT_EQ(program.output().find(part), std::string::npos) << program.output();
     }
 }
@@ -128,6 +132,49 @@ TEST_F(DevicesProgram, ListsWhatATrackerStatesAndDoes) {
     const ProgramResult live = run_gazeloop({"devices", "--watch", "--seconds", "1"});
     EXPECT_EQ(live.exit_code, 0) << live.err;
     EXPECT_NE(live.out.find("\nplugged in: "), std::string::npos) << live.out;
+}
+
+TEST_F(DevicesProgram, ListsWhatATrackerDoesNotAnswer) {
+    tracker_->leave_unanswered(0x12, std::chrono::milliseconds(2000));
+    tracker_->plug_in();
+    const Sending sending(*tracker_);
+    const ProgramResult result = run_gazeloop({"devices", "--seconds", "0.3", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+    const auto tracker = nlohmann::json::parse(result.out).at(0);
+    EXPECT_EQ(tracker["unanswered_feature_reports"], nlohmann::json({0x12}));
+    EXPECT_EQ(tracker["stated_hz"], 200) << "the others are answered";
+    EXPECT_NE(tracker["remarks"].dump().find("feature report 0x12: no answer in 2 s"),
+              std::string::npos)
+        << tracker.dump(2);
+}
+
+// No frame waits for it, and its gaze is used before the kernel has given up.
+TEST_F(DevicesProgram, RunsOnWhileATrackerThatWasPluggedInDoesNotAnswer) {
+    const std::string session = folder_.file("session.gaze");
+    tracker_->leave_unanswered(0x12, std::chrono::milliseconds(3000));
+    ProgramOptions options;
+    options.trigger = "no HID eye tracker is plugged in";
+    std::optional<Sending> sending;
+    options.on_trigger = [&](int) {
+        tracker_->plug_in();
+        sending.emplace(*tracker_);
+    };
+    const ProgramResult result =
+        run_gazeloop({"run", "--gaze", "hid", "--target", "headless", "--seconds", "6", "--record",
+                      session, "--set", "render.scale=0.05"},
+                     options);
+    sending.reset();
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const session::SessionFile file = value_or_throw(session::read_session(session));
+    expect_no_standstill_at(file, "plugged in");
+    expect_no_standstill_at(file, "feature report 0x12: no answer in 3 s");
+    const auto given_up = std::ranges::find_if(file.events, [](const auto& event) {
+        return event.text.starts_with("feature report 0x12: no answer");
+    });
+    ASSERT_NE(given_up, file.events.end());
+    EXPECT_TRUE(std::ranges::any_of(file.samples, [&](const auto& recorded) {
+        return recorded.sample.eyes[0].valid && recorded.sample.arrived.ns < given_up->time.ns;
+    }));
 }
 
 TEST_F(DevicesProgram, RunsOnThroughPluggingInAndPullingOut) {

@@ -46,6 +46,18 @@ bool fill(UMockdevIoctlClient* client, std::size_t bytes, std::vector<std::uint8
     return true;
 }
 
+/// Ends the request with ETIMEDOUT then; reads through another descriptor go on meanwhile.
+void give_up_after(UMockdevIoctlClient* client, std::chrono::milliseconds time) {
+    GSource* const timer = g_timeout_source_new(static_cast<guint>(time.count()));
+    const auto give_up = [](gpointer data) -> gboolean {
+        umockdev_ioctl_client_complete(static_cast<UMockdevIoctlClient*>(data), -1, ETIMEDOUT);
+        return G_SOURCE_REMOVE;
+    };
+    g_source_set_callback(timer, give_up, g_object_ref(client), g_object_unref);
+    g_source_attach(timer, g_source_get_context(g_main_current_source()));
+    g_source_unref(timer);
+}
+
 }  // namespace
 
 EmulatedTracker::EmulatedTracker(std::vector<std::uint8_t> descriptor)
@@ -125,6 +137,11 @@ void EmulatedTracker::unplug() {
 void EmulatedTracker::set_feature(std::uint8_t id, std::vector<std::uint8_t> report) {
     const std::lock_guard lock(mutex_);
     features_[id] = std::move(report);
+}
+
+void EmulatedTracker::leave_unanswered(std::uint8_t id, std::chrono::milliseconds given_up_after) {
+    const std::lock_guard lock(mutex_);
+    unanswered_[id] = given_up_after;
 }
 
 std::optional<std::vector<std::uint8_t>> EmulatedTracker::sent(std::uint8_t id) const {
@@ -231,6 +248,10 @@ bool EmulatedTracker::answer(UMockdevIoctlClient* client) {
     umockdev_ioctl_data_unref(data);
     const std::lock_guard lock(mutex_);
     asked_ += get ? 1 : 0;
+    if (const auto none = unanswered_.find(report.front()); none != unanswered_.end()) {
+        give_up_after(client, none->second);
+        return true;
+    }
     if (set) {
         sent_[report.front()] = report;
         ++taken_;

@@ -3,6 +3,7 @@
 #include <umockdev.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -33,6 +34,9 @@ class EmulatedTracker {
     void unplug();
 
     void set_feature(std::uint8_t id, std::vector<std::uint8_t> report);
+    /// No request for, or of, this feature report is answered any more: the kernel, that is this,
+    /// gives up after so long.
+    void leave_unanswered(std::uint8_t id, std::chrono::milliseconds given_up_after);
     /// The feature report that was last sent to the device.
     [[nodiscard]] std::optional<std::vector<std::uint8_t>> sent(std::uint8_t id) const;
 
@@ -69,6 +73,7 @@ class EmulatedTracker {
     mutable std::mutex mutex_;
     std::map<std::uint8_t, std::vector<std::uint8_t>> features_;
     std::map<std::uint8_t, std::vector<std::uint8_t>> sent_;
+    std::map<std::uint8_t, std::chrono::milliseconds> unanswered_;  ///< and when it is given up
     int asked_ = 0;
     int taken_ = 0;
 };

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "drivers/hid/find_trackers.h"
 #include "runtime/doctor/checks.h"
@@ -14,6 +17,9 @@ namespace {
 using drivers::hid::CollectionType;
 using drivers::hid::DescriptorItems;
 using tests::EmulatedTracker;
+
+const HidChecks kBriefly{
+    .options = {}, .listen = std::chrono::milliseconds(300), .stop = [] { return false; }};
 
 DescriptorItems mouse() {
     constexpr std::uint32_t kGenericDesktop = 1;
@@ -35,7 +41,7 @@ DescriptorItems blind_tracker() {
 TEST(CheckHid, FindsNothingWhereThereIsNothing) {
     const EmulatedTracker unplugged(drivers::hid::first_layout());
     ASSERT_TRUE(unplugged.possible());
-    const Findings findings = check_hid();
+    const Findings findings = check_hid(kBriefly);
     ASSERT_EQ(findings.size(), 1U);
     EXPECT_EQ(findings[0].verdict, Verdict::NotApplicable);
     EXPECT_EQ(findings[0].facts["nodes"], 0);
@@ -44,7 +50,7 @@ TEST(CheckHid, FindsNothingWhereThereIsNothing) {
 TEST(CheckHid, TellsTrackersFromOtherDevices) {
     EmulatedTracker other(mouse().bytes());
     other.plug_in();
-    const Findings findings = check_hid();
+    const Findings findings = check_hid(kBriefly);
     ASSERT_EQ(findings.size(), 1U);
     EXPECT_EQ(findings[0].verdict, Verdict::NotApplicable);
     EXPECT_EQ(findings[0].facts["nodes"], 1);
@@ -54,20 +60,52 @@ TEST(CheckHid, TellsTrackersFromOtherDevices) {
 TEST(CheckHid, NamesTheTracker) {
     EmulatedTracker tracker(drivers::hid::first_layout());
     tracker.plug_in();
-    const Findings findings = check_hid();
+    tracker.send(std::vector<std::uint8_t>(65, 0x10));
+    const Findings findings = check_hid(kBriefly);
     ASSERT_EQ(findings.size(), 2U);
     EXPECT_EQ(findings[0].verdict, Verdict::Ok);
     EXPECT_EQ(findings[0].facts["usable"], 1);
     EXPECT_EQ(findings[1].check, "hid.hidraw0");
-    EXPECT_EQ(findings[1].verdict, Verdict::Ok);
+    EXPECT_EQ(findings[1].verdict, Verdict::Ok) << findings[1].found;
+    EXPECT_NE(findings[1].found.find(": 1 samples in "), std::string::npos) << findings[1].found;
+    EXPECT_EQ(findings[1].facts["samples"], 1);
     EXPECT_EQ(findings[1].facts["id"], "1209:e7e7");
     EXPECT_EQ(findings[1].facts["name"], "Emulated Eye Tracker");
+}
+
+TEST(CheckHid, SaysThatATrackerSendsNothing) {
+    EmulatedTracker tracker(drivers::hid::first_layout());
+    tracker.plug_in();
+    const Findings findings = check_hid(kBriefly);
+    ASSERT_EQ(findings.size(), 2U);
+    EXPECT_EQ(findings[0].facts["usable"], 1) << "it can be opened";
+    EXPECT_EQ(findings[1].verdict, Verdict::Warning);
+    EXPECT_EQ(findings[1].facts["reports"], 0);
+    for (const char* part : {"opened, no report in 0.3", "less than its descriptor declares"}) {
+        EXPECT_NE(findings[1].found.find(part), std::string::npos) << findings[1].found;
+    }
+    EXPECT_NE(findings[1].remedy.find("dmesg"), std::string::npos) << findings[1].remedy;
+    EXPECT_FALSE(findings[1].stops_loop);
+}
+
+TEST(CheckHid, SaysWhatATrackerDoesNotAnswer) {
+    EmulatedTracker tracker(drivers::hid::first_layout());
+    tracker.leave_unanswered(0x12, std::chrono::milliseconds(1200));
+    tracker.plug_in();
+    tracker.send(std::vector<std::uint8_t>(65, 0x10));
+    const Findings findings = check_hid(kBriefly);
+    ASSERT_EQ(findings.size(), 2U);
+    EXPECT_EQ(findings[1].verdict, Verdict::Warning);
+    EXPECT_NE(findings[1].found.find("no answer for feature reports 0x12"), std::string::npos)
+        << findings[1].found;
+    EXPECT_NE(findings[1].remedy.find("hid.screen_width_m"), std::string::npos);
+    EXPECT_EQ(findings[1].facts["unanswered_feature_reports"], nlohmann::json({0x12}));
 }
 
 TEST(CheckHid, SaysWhatATrackersDescriptorLacks) {
     EmulatedTracker tracker(blind_tracker().bytes());
     tracker.plug_in();
-    const Findings findings = check_hid();
+    const Findings findings = check_hid(kBriefly);
     ASSERT_EQ(findings.size(), 2U);
     EXPECT_EQ(findings[0].facts["usable"], 0);
     EXPECT_EQ(findings[1].verdict, Verdict::Failure);
@@ -83,7 +121,7 @@ TEST(CheckHid, NamesTheRuleForATrackerThatMayNotBeOpened) {
     tracker.plug_in();
     tracker.set_mode(kReadOnly);
     EXPECT_TRUE(tests::as_nobody([] {
-        const Findings findings = check_hid();
+        const Findings findings = check_hid(kBriefly);
         EXPECT_EQ(findings.size(), 2U);
         EXPECT_EQ(findings.at(1).verdict, Verdict::Failure);
         EXPECT_FALSE(findings.at(1).stops_loop);

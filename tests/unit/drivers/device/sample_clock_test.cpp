@@ -21,7 +21,7 @@ constexpr double kMicrosecond_ns = 1000.0;
 
 /// What is told in a minute of a tracker that stamps its samples so (microseconds).
 std::vector<std::string> told_of(const std::function<double(int sample, double second)>& stamp_us) {
-    SampleClock clock(64, kMicrosecond_ns, {});
+    SampleClock clock({64, kMicrosecond_ns}, {});
     sim::Random random(3, sim::Stream::Jitter);
     std::vector<std::string> told;
     double arrived_ns = 0.0;
@@ -83,7 +83,7 @@ TEST(SampleClock, TellsAtOnceThatTheAgeIsUnknown) {
     ASSERT_EQ(stands_still_after_2_s.size(), 2U);
     EXPECT_THAT(stands_still_after_2_s[0], HasSubstr("good"));
     EXPECT_THAT(stands_still_after_2_s[1], HasSubstr("unusable (timestamps stand still)"));
-    SampleClock clock(64, kMicrosecond_ns, {});
+    SampleClock clock({64, kMicrosecond_ns}, {});
     int told = 0;
     for (int i = 0; i < static_cast<int>(4.0 * kRate_hz); ++i) {
         gaze::GazeSample sample;
@@ -116,7 +116,7 @@ TEST(SampleClock, TellsStepsButNoFloodOfThem) {
 
 TEST(SampleClock, CountsThePollingInItsUncertainty) {
     gaze::GazeSample sample;
-    SampleClock clock(64, kMicrosecond_ns,
+    SampleClock clock({64, kMicrosecond_ns},
                       {.least_ns = 1'000'000, .uncertainty_ns = 2'000, .polling_ns = 4'000'000});
     for (int i = 0; i < 1000; ++i) {
         clock.stamp(static_cast<std::uint64_t>(i) * 8'333, std::int64_t{i} * 8'333'000, sample);

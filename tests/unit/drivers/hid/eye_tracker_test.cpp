@@ -83,8 +83,8 @@ TEST(EyeTracker, FirstLayoutsBytesAreAsPublished) {
     EXPECT_EQ(layout.tracking[0].eye_position[0][0]->bit_offset, 128U);
     EXPECT_EQ(layout.tracking[0].eye_position[1][0]->bit_offset, 224U);
     EXPECT_EQ(layout.tracking[0].timestamp,
-              (TimestampField{.bit_offset = 0, .bits = 64, .tick_ns = 1000.0}));
-    EXPECT_EQ(layout.feature_ids(), (std::vector<std::uint8_t>{0x11, 0x12, 0x13}));
+              (TimestampField{.bit_offset = 0, .bits = 64, .range = {}, .tick_ns = 1000.0}));
+    EXPECT_EQ(layout.feature_ids(), (std::vector<std::uint8_t>{0x12, 0x13, 0x11}));
 }
 
 TEST(EyeTracker, PositionsFlaggedConstantAreRead) {
@@ -104,7 +104,7 @@ TEST(EyeTracker, SecondLayoutIsFoundBehindItsPaddingAndWithoutUnits) {
     bytes.add<std::int32_t>({600'000, 1, 2, 3});
     const EyeTrackerLayout layout = layout_of(second_layout());
     EXPECT_EQ(layout.tracking[0].timestamp,
-              (TimestampField{.bit_offset = 24, .bits = 64, .tick_ns = 1000.0}));
+              (TimestampField{.bit_offset = 24, .bits = 64, .range = {}, .tick_ns = 1000.0}));
     const TrackingReport report = tracking(layout, bytes.bytes());
     EXPECT_EQ(report.ticks, 1'234'567U);
     ASSERT_TRUE(report.gaze_m && report.eye_m[1]);
@@ -184,6 +184,55 @@ TEST(EyeTracker, SeveralTrackingReportsAreReadEachByItsOwnId) {
     expect_near({*fourth.gaze_m, 0.0}, {1.0, -1.0, 0.0});
 }
 
+// What a counter runs through is what its field states, where that can be.
+TEST(EyeTracker, TimestampsWrapAfterTheRangeThatTheirFieldStates) {
+    const auto range_of = [](std::uint32_t bits, std::uint32_t parts, const Items& range) {
+        Items d;
+        d.page(kPage).open(CollectionType::Application, kEyeTracker);
+        for (const std::uint8_t byte : range.bytes()) {
+            d.raw({byte});
+        }
+        d.usage(kSensorTimestamp).fields(bits, parts).input(Items::kVariable);
+        d.usage(kGazePoint).fields(32, 2).input(Items::kVariable).close();
+        return layout_of(d.bytes()).tracking.at(0).timestamp.value().range;
+    };
+    const auto stated = [&](std::uint32_t bits, std::int32_t least, std::int32_t greatest) {
+        return range_of(bits, 1, Items().logical(least, greatest));
+    };
+    const auto of_bits = time::TickRange::of_bits;
+    EXPECT_EQ(stated(32, 0, 0x7FFFFFFF), of_bits(31));
+    EXPECT_EQ(stated(32, 0, 0xFFFF), of_bits(16));
+    EXPECT_EQ(stated(32, 0, -1), of_bits(32)) << "0xFFFFFFFF beside a minimum that is not negative";
+    EXPECT_EQ(stated(32, 0, 999'999), (time::TickRange{.least = 0, .span = 999'999}));
+    EXPECT_EQ(stated(32, 1, 1000), (time::TickRange{.least = 1, .span = 999}));
+    EXPECT_EQ(stated(32, std::numeric_limits<std::int32_t>::min(), 0x7FFFFFFF),
+              time::TickRange::of_signed_bits(32));
+    EXPECT_EQ(stated(16, -32768, 32767), time::TickRange::of_signed_bits(16));
+    EXPECT_EQ(stated(16, -32767, 32767), time::TickRange::of_signed_bits(16));
+    EXPECT_EQ(stated(16, -500, 500), (time::TickRange{.least = -500, .span = 1000}));
+    EXPECT_EQ(stated(24, 0, 0), of_bits(24)) << "none";
+    EXPECT_EQ(stated(24, 7, 3), of_bits(24)) << "the wrong way round";
+    EXPECT_EQ(stated(16, 0, 0x7FFFFFFF), of_bits(16)) << "more than the field can hold";
+    EXPECT_EQ(stated(16, -32769, 0), of_bits(16)) << "less than the field can hold";
+    EXPECT_EQ(stated(64, 0, 0x7FFFFFFF), of_bits(31));
+    EXPECT_EQ(range_of(32, 1, Items()), of_bits(32));
+    EXPECT_EQ(range_of(8, 4, Items().logical(0, 255)), of_bits(32)) << "the range of its bytes";
+    EXPECT_EQ(range_of(8, 4, Items().logical(0, 127)), of_bits(32));
+}
+
+TEST(EyeTracker, SignedTimestampsAreReadWithTheirSign) {
+    TimestampField field{.bit_offset = 4, .bits = 16, .range = {}, .tick_ns = 1.0};
+    std::vector<std::uint8_t> payload(3);
+    write_bits(payload, 4, 16, 0xFFFE);
+    EXPECT_EQ(field.ticks(payload), 0xFFFEU);
+    field.range = time::TickRange::of_signed_bits(16);
+    EXPECT_EQ(field.ticks(payload), static_cast<std::uint64_t>(-2));
+    EXPECT_EQ(field.held_in(), time::TickRange::of_signed_bits(16));
+    write_bits(payload, 4, 16, 0x7FFF);
+    EXPECT_EQ(field.ticks(payload), 0x7FFFU);
+    EXPECT_FALSE(field.ticks(std::span(payload).first(2)).has_value());
+}
+
 TEST(EyeTracker, DevicesWithoutReportIdsBeginWithTheData) {
     Items d;
     d.page(kPage).open(CollectionType::Application, kEyeTracker);
@@ -191,8 +240,10 @@ TEST(EyeTracker, DevicesWithoutReportIdsBeginWithTheData) {
     d.usage(kGazePoint).fields(32, 2).input(Items::kVariable).close();  // a point in one field
     const EyeTrackerLayout layout = layout_of(d.bytes());
     EXPECT_FALSE(layout.numbered);
-    EXPECT_EQ(layout.tracking[0].timestamp,
-              (TimestampField{.bit_offset = 0, .bits = 32, .tick_ns = 1e6}))
+    EXPECT_EQ(
+        layout.tracking[0].timestamp,
+        (TimestampField{
+            .bit_offset = 0, .bits = 32, .range = time::TickRange::of_bits(32), .tick_ns = 1e6}))
         << "milliseconds, as the unit says";
     // No logical range, and a unit of time left over: signed micrometres.
     Bytes bytes;

@@ -85,6 +85,74 @@ TEST(TrackerSamples, AreOfUnknownAgeWhereTheTimestampsLie) {
     EXPECT_FALSE(samples.take_change().has_value()) << "told once";
 }
 
+/// A counter of microseconds in a field of 32 bits, and what its descriptor says of it.
+struct CounterCase {
+    const char* name;
+    std::int32_t least;  ///< logical range
+    std::int32_t greatest;
+    std::int64_t first;  ///< what the counter runs through in truth
+    std::int64_t span;   ///< greatest less least
+};
+
+class CountersThatWrap : public testing::TestWithParam<CounterCase> {};
+
+// No sample's age is unknown because of a wrap, also where the eyes were closed meanwhile.
+TEST_P(CountersThatWrap, KeepTheAgeOfEverySample) {
+    using namespace eye_tracker;
+    const CounterCase& counter = GetParam();
+    DescriptorItems d;
+    d.page(kPage).open(CollectionType::Application, kEyeTracker);
+    d.logical(counter.least, counter.greatest).unit(0x1001).exponent(0x0A);
+    d.usage(kSensorTimestamp).fields(32, 1).input(DescriptorItems::kVariable);
+    d.logical(-32768, 32767).unit(0x11).exponent(0x0E);
+    d.usage(kGazePoint).fields(16, 2).input(DescriptorItems::kVariable).close();
+    TrackerSamples samples = samples_of(d.bytes());
+    constexpr int kSettled = 100;
+    constexpr std::int64_t kStep_us = 8'333;
+    // The first wrap comes after 300 samples; short ranges wrap again and again.
+    std::int64_t truth_us = counter.first + counter.span + 1 - 300 * kStep_us % counter.span;
+    std::int64_t arrived_ns = 0;
+    std::int64_t last_ns = 0;
+    for (int i = 0; i < 2000; ++i) {
+        // Twice blinks of up to 0.4 s, once 3.2 s without gaze.
+        const std::int64_t periods = i == 280 || i == 800 ? 48 : i == 1200 ? 384 : 1;
+        truth_us += periods * kStep_us;
+        arrived_ns += periods * kStep_us * 1000;
+        const auto shown = static_cast<std::uint32_t>(counter.first + (truth_us - counter.first) %
+                                                                          (counter.span + 1));
+        std::vector<std::uint8_t> report(8, 1);
+        std::memcpy(report.data(), &shown, sizeof(shown));
+        const auto sample = samples.take(report, arrived_ns + 2 * kMs + i % 3 * (kMs / 10));
+        ASSERT_TRUE(sample.has_value());
+        if (i > kSettled) {
+            ASSERT_TRUE(sample->sampled.known()) << i;
+            ASSERT_EQ(sample->device_ns - last_ns, periods * kStep_us * 1000) << i;
+        }
+        last_ns = sample->device_ns;
+    }
+    EXPECT_EQ(samples.clock()->steps(), 0U);
+}
+
+constexpr std::int64_t kBits31 = 0x7FFFFFFF;
+constexpr std::int64_t kBits32 = 0xFFFFFFFF;
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, CountersThatWrap,
+    testing::Values(CounterCase{"31BitsAsStated", 0, 0x7FFFFFFF, 0, kBits31},
+                    CounterCase{"32BitsStatedAs31", 0, 0x7FFFFFFF, 0, kBits32},
+                    CounterCase{"32BitsStatedAsMinusOne", 0, -1, 0, kBits32},
+                    CounterCase{"32BitsNotStated", 0, 0, 0, kBits32},
+                    CounterCase{"32BitsBehindABytesRange", 0, 255, 0, kBits32},
+                    CounterCase{"32BitsBehindAPositionsRange", -2'000'000, 2'000'000, 0, kBits32},
+                    CounterCase{"Signed", std::numeric_limits<std::int32_t>::min(), 0x7FFFFFFF,
+                                std::numeric_limits<std::int32_t>::min(), kBits32},
+                    CounterCase{"SignedWithoutItsLeast", -0x7FFFFFFF, 0x7FFFFFFF,
+                                std::numeric_limits<std::int32_t>::min(), kBits32},
+                    CounterCase{"AMillion", 0, 999'999, 0, 999'999},
+                    CounterCase{"AMinute", 0, 59'999'999, 0, 59'999'999},
+                    CounterCase{"FromOne", 1, 10'000'000, 1, 9'999'999},
+                    CounterCase{"24Bits", 0, 0xFFFFFF, 0, 0xFFFFFF}),
+    [](const auto& instance) { return std::string("Of") + instance.param.name; });
+
 // What is known of the clock does not go with it.
 TEST(TrackerSamples, KeepTheClockWhenAReportIsCutOffBeforeItsTimestamp) {
     TrackerSamples samples = samples_of(first_layout());
