@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <functional>
 
+#include "tests/support/nobody.h"
+
 namespace gazeloop::tests {
 
 /// Runs it, in a process of its own, as somebody who is not root; whether it returned true. An
@@ -14,9 +16,7 @@ inline bool as_nobody(const std::function<bool()>& check) noexcept {
     std::fflush(nullptr);
     const pid_t child = fork();
     if (child == 0) {
-        constexpr uid_t kNobody = 65534;
-        const bool dropped = geteuid() != 0 || (setgid(kNobody) == 0 && setuid(kNobody) == 0);
-        const bool passed = dropped && check();
+        const bool passed = become_nobody() && check();
         std::fflush(nullptr);  // what failed, of which _exit would print nothing
         _exit(passed ? 0 : 1);
     }

@@ -283,6 +283,9 @@ TEST_F(HidDevice, KeepsUpWithAThousandReportsASecond) {
 }
 
 TEST_F(HidDevice, SaysWhenItMayNotBeOpened) {
+    if (const std::string missing = tests::missing_for_nobody(); !missing.empty()) {
+        GTEST_SKIP() << missing;
+    }
     tracker_->plug_in();
     tracker_->set_mode(0);
     EXPECT_TRUE(tests::as_nobody([] {

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "tests/support/comma_locale.h"
+#include "tests/support/nobody.h"
 #include "tests/support/preload.h"
 #include "tests/support/run_program.h"
 
@@ -178,6 +179,9 @@ TEST_F(Configuration, AFileThatMayNotBeReadIsSaid) {
         }
         ProgramOptions options{.environment = {{"XDG_CONFIG_HOME", folder_.file("home")}}};
         if (geteuid() == 0) {
+            if (const std::string missing = missing_for_nobody(); !missing.empty()) {
+                GTEST_SKIP() << missing;
+            }
             options.wrapper = {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
             if (std::system("setpriv --reuid=65534 --regid=65534 --clear-groups "
                             "test -x '" GAZELOOP_BINARY_DIR "/gazeloop'") != 0) {

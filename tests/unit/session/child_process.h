@@ -32,10 +32,4 @@ inline int run_in_child(const std::function<int()>& body) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Gives up root's rights, to which no folder is closed. In a child only.
-inline bool become_nobody() {
-    constexpr uid_t kNobody = 65534;
-    return geteuid() != 0 || setuid(kNobody) == 0;
-}
-
 }  // namespace gazeloop::session

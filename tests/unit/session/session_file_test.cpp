@@ -10,6 +10,7 @@
 #include <string>
 
 #include "runtime/session/session_recorder.h"
+#include "tests/support/nobody.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/latency/example_frame.h"
 #include "tests/unit/session/child_process.h"
@@ -303,12 +304,16 @@ TEST_F(ReadSession, SurvivesAnyFlippedByte) {
 }
 
 TEST_F(ReadSession, LeavesAClosedFileAlone) {
+    if (const std::string missing = tests::missing_for_nobody(); !missing.empty()) {
+        GTEST_SKIP() << missing;
+    }
     record();
     std::filesystem::permissions(file, std::filesystem::perms(0444));
     std::filesystem::permissions(folder.path(), std::filesystem::perms(0555));
     const int frames = run_in_child([this] {
-        return become_nobody() ? static_cast<int>(value_or_throw(read_session(file)).frames.size())
-                               : -1;
+        return tests::become_nobody()
+                   ? static_cast<int>(value_or_throw(read_session(file)).frames.size())
+                   : -1;
     });
     std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
     EXPECT_EQ(frames, 3);

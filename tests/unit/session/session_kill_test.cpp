@@ -16,6 +16,7 @@
 #include "runtime/session/session_file.h"
 #include "runtime/session/session_recorder.h"
 #include "runtime/time/clock.h"
+#include "tests/support/nobody.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/latency/example_frame.h"
 #include "tests/unit/session/child_process.h"
@@ -151,6 +152,9 @@ TEST(KilledSession, IsReadableOrNotThereWhenKilledWhileItIsCreatedOrClosed) {
 }
 
 TEST(KilledSession, CanBeReadInAFolderThatCannotBeWritten) {
+    if (const std::string missing = tests::missing_for_nobody(); !missing.empty()) {
+        GTEST_SKIP() << missing;
+    }
     const tests::TemporaryFolder folder;
     const std::filesystem::path file = folder / "run.session";
     record_and_kill(file, std::chrono::milliseconds(200));
@@ -160,7 +164,7 @@ TEST(KilledSession, CanBeReadInAFolderThatCannotBeWritten) {
     std::filesystem::permissions(folder.path(), std::filesystem::perms(0555));
     const auto read_as_nobody = [&file] {
         return run_in_child([&file] {
-            if (!become_nobody()) {
+            if (!tests::become_nobody()) {
                 return 2;
             }
             const Expected<SessionFile> session = read_session(file);

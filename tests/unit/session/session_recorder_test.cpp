@@ -19,6 +19,7 @@
 
 #include "runtime/session/session_file.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/nobody.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/latency/example_frame.h"
 #include "tests/unit/session/child_process.h"
@@ -241,9 +242,12 @@ TEST_F(Recording, RefusesAMissingFolder) {
 }
 
 TEST_F(Recording, RefusesAFolderThatCannotBeWritten) {
+    if (const std::string missing = tests::missing_for_nobody(); !missing.empty()) {
+        GTEST_SKIP() << missing;
+    }
     std::filesystem::permissions(folder.path(), std::filesystem::perms(0555));
     const int result = run_in_child([this] {
-        const bool prepared = become_nobody();
+        const bool prepared = tests::become_nobody();
         const auto recorder = SessionRecorder::create(file, kHeader);
         return prepared && !recorder &&
                        recorder.error().message.find("writable") != std::string::npos
