@@ -84,12 +84,12 @@ class RecordingFault : public testing::Test {
     void on_small_disk(const std::string& options, const std::function<void()>& body) const {
         const int result = run_in_child([&] {
             if (const std::string reason = own_mounts(); !reason.empty()) {
-                folder_.write("reason", reason);
+                std::ofstream(folder_.file("reason")) << reason;
                 return kMayNotMount;
             }
             if (mount("tmpfs", disk().c_str(), "tmpfs", 0, options.c_str()) != 0) {
                 if (errno == EPERM || errno == EACCES) {
-                    folder_.write("reason", last_error("mount"));
+                    std::ofstream(folder_.file("reason")) << last_error("mount");
                     return kMayNotMount;
                 }
                 ADD_FAILURE() << "mounting a disk: " << std::strerror(errno);
