@@ -164,7 +164,6 @@ class FrameLoop {
             observer->on_frame(record);
         }
         ++result_.frames;
-        result_.period_ns = planned_.period_ns;
     }
 
     /// Another mask, or other fields of view for it. This is rare, so it may take its time.
@@ -184,7 +183,7 @@ class FrameLoop {
             for (frame::FrameObserver* const observer : parts_.observers) {
                 observer->on_hidden(hidden_);
             }
-            report_event(timeline_->now(), "hidden-area",
+            report_event(timeline_->now(), frame::kHiddenAreaEvent,
                          fmt::format("hidden pixels: left {}, right {}", hidden_pixels(0),
                                      hidden_pixels(1)));
         }
@@ -283,7 +282,7 @@ class FrameLoop {
                 gaze::kFoveaStateNames[static_cast<std::size_t>(point.state)], lost ? " (" : "",
                 lost ? gaze::kLossReasonNames[static_cast<std::size_t>(point.reason)] : "",
                 lost ? ")" : "");
-            report_event(fovea.latched, "gaze", {text.data(), end.size});
+            report_event(fovea.latched, frame::kGazeEvent, {text.data(), end.size});
         }
     }
 
@@ -296,26 +295,27 @@ class FrameLoop {
             const auto end = fmt::format_to_n(text.data(), text.size(),
                                               "the machine slept for {:.1f} s before this",
                                               static_cast<double>(slept_ns - slept_ns_) * 1e-9);
-            report_event(now, "clock", {text.data(), end.size});
+            report_event(now, frame::kClockEvent, {text.data(), end.size});
         }
         slept_ns_ = std::max(slept_ns_, slept_ns);
     }
 
     void report_target_events() {
-        for (const std::string& text : parts_.target.take_events()) {
-            report_event(timeline_ != nullptr ? timeline_->now() : time::Stamp{}, "session", text);
+        for (const frame::Event& event : parts_.target.take_events()) {
+            report_event(timeline_ != nullptr ? timeline_->now() : time::Stamp{}, event.kind,
+                         event.text);
         }
     }
 
     void report_source_events() {
         for (const drivers::SourceEvent& event : source_->take_events()) {
-            report_event(event.time, "tracker", event.text);
+            report_event(event.time, frame::kTrackerEvent, event.text);
         }
     }
 
-    void report_event(time::Stamp time, std::string_view kind, std::string_view text) {
+    void report_event(time::Stamp time, const frame::EventKind& kind, std::string_view text) {
         for (frame::FrameObserver* const observer : parts_.observers) {
-            observer->on_event(time, kind, text);
+            observer->on_event(time, kind.name, text);
         }
     }
 

@@ -39,7 +39,6 @@ struct LoopOptions {
 struct LoopResult {
     LoopEnd end = LoopEnd::Limit;
     std::uint64_t frames = 0;
-    std::int64_t period_ns = 0;  ///< of the display, as last announced
     bool fixed_in_head = false;  ///< the gaze was fixed on purpose
 };
 

@@ -37,8 +37,8 @@ void LiveTimeline::plan(const present::TargetFrame& target, const gaze::HeadMoti
     frame.display = target.display;
     frame.period_ns = target.period_ns;
     frame.should_render = target.should_render;
-    frame.scene_time_s = static_cast<double>(target.display.ns - start_ns_) * 1e-9;
-    frame.head = head != nullptr ? head->at(target.display.ns) : target.head;
+    frame.scene_time_s = static_cast<double>(target.aimed_ns - start_ns_) * 1e-9;
+    frame.head = head != nullptr ? head->at(target.aimed_ns) : target.head;
     frame.views = head != nullptr ? on_head(frame.head, target.views, target.head) : target.views;
     frame.hidden = target.hidden;
 }

@@ -14,6 +14,7 @@
 #include "runtime/doctor/probe.h"
 #include "runtime/openxr/required_extensions.h"
 #include "runtime/openxr/runtime_choice.h"
+#include "runtime/openxr/start_errors.h"
 #include "runtime/present/openxr/openxr_target.h"
 #include "runtime/time/clock.h"
 
@@ -61,12 +62,12 @@ class RuntimeProbe {
              .facts = {
                  {"manifest", choice.manifest}, {"reason", choice.reason}, {"library", library}}});
         report_.step("loading the OpenXR runtime");
-        list_extensions();
+        list_extensions(choice);
         report_.step("creating an OpenXR instance",
                      remedy(asked_,
                             "start the runtime's service, if it is one with a service (Monado: "
                             "monado-service); or "));
-        create_instance();
+        create_instance(choice);
         report_.step("asking for the headset",
                      remedy(asked_, "connect the headset and switch it on; or "));
         describe_system();
@@ -81,14 +82,17 @@ class RuntimeProbe {
         return std::ranges::find(extensions_, name) != extensions_.end();
     }
 
-    void list_extensions() {
+    void list_extensions(const openxr::RuntimeChoice& choice) {
         std::uint32_t count = 0;
-        xr_check(xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr),
-                 "the runtime could not be loaded");
+        if (const XrResult listed =
+                xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr);
+            XR_FAILED(listed)) {
+            throw openxr::not_loaded(choice, listed);
+        }
         std::vector<XrExtensionProperties> offered(
             count, typed<XrExtensionProperties>(XR_TYPE_EXTENSION_PROPERTIES));
         xr_check(xrEnumerateInstanceExtensionProperties(nullptr, count, &count, offered.data()),
-                 "the runtime could not be loaded");
+                 "xrEnumerateInstanceExtensionProperties");
         for (const XrExtensionProperties& one : offered) {
             extensions_.emplace_back(one.extensionName);
         }
@@ -109,7 +113,7 @@ class RuntimeProbe {
                      .stops_loop = !missing.empty() && asked_.is_target});
     }
 
-    void create_instance() {
+    void create_instance(const openxr::RuntimeChoice& choice) {
         std::vector<const char*> enabled;
         for (const char* name : openxr::kRequiredXrExtensions) {
             if (offers(name)) {
@@ -124,7 +128,9 @@ class RuntimeProbe {
         info.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
         info.enabledExtensionCount = static_cast<std::uint32_t>(enabled.size());
         info.enabledExtensionNames = enabled.data();
-        xr_check(xrCreateInstance(&info, &instance_), "the runtime did not start");
+        if (const XrResult created = xrCreateInstance(&info, &instance_); XR_FAILED(created)) {
+            throw openxr::not_started(choice, created, nullptr);
+        }
         auto properties = typed<XrInstanceProperties>(XR_TYPE_INSTANCE_PROPERTIES);
         xr_check(xrGetInstanceProperties(instance_, &properties), "xrGetInstanceProperties");
         const std::string version =

@@ -11,6 +11,7 @@
 #include "runtime/doctor/probe.h"
 #include "runtime/vulkan/clock.h"
 #include "runtime/vulkan/context.h"
+#include "runtime/vulkan/driver_environment.h"
 #include "runtime/vulkan/requirements.h"
 
 namespace gazeloop::doctor {
@@ -160,10 +161,11 @@ void probe_vulkan(const VulkanChecks& asked, ProbeReport& report) {
         report.step("looking for Vulkan drivers");
     }
     report.step("opening the Vulkan device that the loop takes",
-                asked.device.empty() || devices == 0
-                    ? ""
-                    : "let vulkan.device be part of the name of one of the devices above that has "
-                      "all that is needed, or leave it out");
+                devices == 0           ? vulkan::no_driver_remedy()
+                : asked.device.empty() ? std::string()
+                                       : "let vulkan.device be part of the name of one of the "
+                                         "devices above that has all that is needed, or leave it "
+                                         "out");
     const vulkan::Context chosen(
         {.validation = false, .device = asked.device, .device_origin = asked.device_origin},
         nullptr);

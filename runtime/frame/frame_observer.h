@@ -33,7 +33,7 @@ class FrameObserver {
     virtual void on_frame(const FrameRecord&) {}
     /// The GPU has finished a frame.
     virtual void on_gpu(const FrameGpuRecord&) {}
-    /// `kind` is one word: session, gaze, tracker, loop.
+    /// `kind` is one of frame/event.h, or what a recording holds.
     virtual void on_event(time::Stamp, std::string_view /*kind*/, std::string_view /*text*/) {}
 };
 

@@ -53,15 +53,12 @@ std::optional<double> SummaryReport::samples_saved_factor() const {
     return static_cast<double>(samples.pixels_output - hidden) / static_cast<double>(shaded);
 }
 
-LatencySummary::LatencySummary(const SummaryConfig& config)
-    : config_(config), profile_period_ns_(config.period_ns) {}
+LatencySummary::LatencySummary(const SummaryConfig& config) : config_(config) {}
 
-void LatencySummary::set_display_period(std::int64_t period_ns) {
-    config_.period_ns = period_ns;
-    if (!may_be_of_period(period_ns, profile_period_ns_)) {
-        config_.switching_ns.reset();
-        config_.rolling_ns.reset();
-        config_.persistence_ns.reset();
+void LatencySummary::add_event(const time::Stamp& time, std::string_view kind,
+                               std::string_view text) {
+    if (frame::weight_of(kind) != frame::EventWeight::Routine) {
+        happenings_.add(time, kind, text);
     }
 }
 
@@ -69,6 +66,7 @@ void LatencySummary::add(const gaze::GazeSample& sample) { gaze_.add(sample); }
 
 void LatencySummary::add(const frame::FrameRecord& record) {
     ++frames_.total;
+    began_ = began_.value_or(record.stamps.wake_up);
     if (before_ && before_->index + 1 == record.index) {
         frame_interval_.add(time::between(before_->wake_up, record.stamps.wake_up));
     }
@@ -106,24 +104,30 @@ void LatencySummary::complete(const frame::FrameRecord& record) {
     ++frames_.rendered;
     samples_ += record.samples;
 
-    const std::int64_t period_ns = record.period_ns > 0 ? record.period_ns : config_.period_ns;
+    const std::int64_t period_ns = record.period_ns > 0 ? record.period_ns : period_in_force_ns();
     const ShownFrame shown = shown_frame(record.stamps, period_ns);
     frames_.in_time_unknown += shown.in_time_known ? 0 : 1;
+    frames_.display_unknown += record.stamps.display.known() ? 0 : 1;
     frames_.missed += shown.periods_missed > 0 ? 1 : 0;
     frames_.periods_missed += shown.periods_missed;
 
     const gaze::FoveaState state = std::max(record.fovea.eyes[0].state, record.fovea.eyes[1].state);
     ++frames_.by_state[static_cast<std::size_t>(state)];
-    const GazeAge age =
+    const GazeAge of_profile =
         frame_gaze_age(record, record.stamps, shown.at, config_.switching_ns, config_.rolling_ns);
+    const GazeAge of_unknown =
+        frame_gaze_age(record, record.stamps, shown.at, std::nullopt, std::nullopt);
     switch (state) {
         case gaze::FoveaState::Tracking:
         case gaze::FoveaState::OtherEye:
-            add_tracking(age);
+            add_tracking(of_unknown);
+            of_profile_.add_tracking(of_profile);
+            of_unknown_.add_tracking(of_unknown);
             break;
         case gaze::FoveaState::Held:
         case gaze::FoveaState::Returning:
-            held_gaze_age_at_display_.add(age.at_display);
+            of_profile_.held_gaze_age.add(of_profile.at_display);
+            of_unknown_.held_gaze_age.add(of_unknown.at_display);
             break;
         case gaze::FoveaState::Ahead:
             break;  // the picture rests on no gaze: there is no age
@@ -132,19 +136,27 @@ void LatencySummary::complete(const frame::FrameRecord& record) {
 
 void LatencySummary::add_tracking(const GazeAge& age) {
     gaze_age_at_latch_.add(age.at_latch);
-    gaze_age_at_display_.add(age.at_display);
     gaze_age_uncertainty_.add(age.uncertainty);
-    unaccounted_.add(age.unaccounted);
     for (std::size_t stage = 0; stage < kStageCount; ++stage) {
         stages_[stage].add(age.stages[stage]);
-        if (age.at_display.known() && age.stages[stage].known()) {
-            length_by_kind_ns_[static_cast<std::size_t>(age.stages[stage].kind)] +=
-                std::abs(static_cast<double>(age.stages[stage].ns));
+    }
+}
+
+void LatencySummary::AtDisplay::add_tracking(const GazeAge& age) {
+    gaze_age.add(age.at_display);
+    row.add(age.stages[static_cast<std::size_t>(Stage::Row)]);
+    switching.add(age.stages[static_cast<std::size_t>(Stage::Switching)]);
+    unaccounted.add(age.unaccounted);
+    const auto add_length = [this](time::StampKind kind, const time::Span& span) {
+        length_by_kind_ns[static_cast<std::size_t>(kind)] += std::abs(static_cast<double>(span.ns));
+    };
+    for (const time::Span& stage : age.stages) {
+        if (age.at_display.known() && stage.known()) {
+            add_length(stage.kind, stage);
         }
     }
     if (age.unaccounted.known()) {
-        length_by_kind_ns_[static_cast<std::size_t>(time::StampKind::Unknown)] +=
-            std::abs(static_cast<double>(age.unaccounted.ns));
+        add_length(time::StampKind::Unknown, age.unaccounted);
     }
 }
 
@@ -161,24 +173,37 @@ SummaryReport LatencySummary::report() const {
 SummaryReport LatencySummary::report_of_complete() const {
     SummaryReport report;
     report.config = config_;
+    report.config.period_ns = period_in_force_ns();
+    const bool profiles_display = may_be_of_period(report.config.period_ns, config_.period_ns);
+    if (!profiles_display) {
+        report.config.switching_ns.reset();
+        report.config.rolling_ns.reset();
+        report.config.persistence_ns.reset();
+    }
+    const AtDisplay& at_display = profiles_display ? of_profile_ : of_unknown_;
     report.gaze_age_at_latch = gaze_age_at_latch_.row();
-    report.gaze_age_at_display = gaze_age_at_display_.row();
+    report.gaze_age_at_display = at_display.gaze_age.row();
     report.gaze_age_uncertainty = gaze_age_uncertainty_.row();
     report.stages = rows(stages_);
-    report.unaccounted = unaccounted_.row();
-    report.held_gaze_age_at_display = held_gaze_age_at_display_.row();
+    report.stages[static_cast<std::size_t>(Stage::Row)] = at_display.row.row();
+    report.stages[static_cast<std::size_t>(Stage::Switching)] = at_display.switching.row();
+    report.unaccounted = at_display.unaccounted.row();
+    report.held_gaze_age_at_display = at_display.held_gaze_age.row();
     report.frame_interval = frame_interval_.row();
     report.loop_time = loop_time_.row();
     report.passes = rows(passes_);
     report.frames = frames_;
     report.gaze = gaze_.counts();
     report.samples = samples_;
+    report.happenings.assign(happenings_.list().begin(), happenings_.list().end());
+    report.other_happenings = happenings_.others();
+    report.began = began_.value_or(time::Stamp{});
 
-    const double length_ns =
-        std::accumulate(length_by_kind_ns_.begin(), length_by_kind_ns_.end(), 0.0);
+    const double length_ns = std::accumulate(at_display.length_by_kind_ns.begin(),
+                                             at_display.length_by_kind_ns.end(), 0.0);
     if (length_ns > 0.0) {
         report.share_by_kind_percent.emplace();
-        std::transform(length_by_kind_ns_.begin(), length_by_kind_ns_.end(),
+        std::transform(at_display.length_by_kind_ns.begin(), at_display.length_by_kind_ns.end(),
                        report.share_by_kind_percent->begin(),
                        [length_ns](double kind_ns) { return 100.0 * kind_ns / length_ns; });
     }

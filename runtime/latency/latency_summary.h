@@ -6,11 +6,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/fovea_point.h"
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/latency/commonest_period.h"
 #include "runtime/latency/gaze_age.h"
+#include "runtime/latency/happenings.h"
 #include "runtime/latency/sample_counter.h"
 #include "runtime/latency/span_series.h"
 
@@ -52,6 +55,8 @@ struct FrameCounts {
     std::uint64_t missed = 0;           ///< shown later than announced, because of the GPU
     std::uint64_t periods_missed = 0;   ///< by them together, at least
     std::uint64_t in_time_unknown = 0;  ///< no time of the GPU's end, or of the display
+    std::uint64_t display_unknown =
+        0;  ///< no time of the display: none, or an absurd one, announced
     /// By the state of the worse eye, in the order of gaze::FoveaState.
     std::array<std::uint64_t, gaze::kFoveaStateNames.size()> by_state{};
 
@@ -88,6 +93,10 @@ struct SummaryReport {
     GazeCounts gaze;
     frame::SampleCounts samples;  ///< sums over the rendered frames
 
+    std::vector<Happening> happenings;   ///< in the order of their first event
+    std::uint64_t other_happenings = 0;  ///< events that are in none of these, which were too many
+    time::Stamp began;                   ///< the first frame woke up
+
     /// Missed frames among those of which it is known; absent if there are none.
     [[nodiscard]] std::optional<double> missed_percent() const;
     /// How many times fewer samples than full resolution were shaded; absent if none were.
@@ -99,10 +108,15 @@ class LatencySummary {
   public:
     explicit LatencySummary(const SummaryConfig& config);
 
-    /// The display's period that the runtime announces; it counts, not a profile's. If the
-    /// profile's display cannot have that period, the profile's other times are another display's,
-    /// and count as unknown.
-    void set_display_period(std::int64_t period_ns);
+    /// A period of the display that the runtime announces, once for each frame. The commonest one
+    /// counts, not the profile's. If the profile's display cannot have it, the profile's other
+    /// times are another display's, and count as unknown for the whole run. Precondition: positive.
+    void add_display_period(std::int64_t period_ns) { periods_.add(period_ns); }
+    /// The commonest one so far; none before the first.
+    [[nodiscard]] std::optional<std::int64_t> display_period_ns() const { return periods_.ns(); }
+
+    /// In the order in which they were told. Routine is left out.
+    void add_event(const time::Stamp& time, std::string_view kind, std::string_view text);
 
     /// In the order of arrival.
     void add(const gaze::GazeSample& sample);
@@ -123,25 +137,41 @@ class LatencySummary {
         time::Stamp wake_up;
     };
 
+    /// What depends on the display's own times.
+    struct AtDisplay {
+        SpanSeries gaze_age;
+        SpanSeries held_gaze_age;
+        SpanSeries row;
+        SpanSeries switching;
+        SpanSeries unaccounted;
+        std::array<double, time::kStampKindCount> length_by_kind_ns{};
+
+        void add_tracking(const GazeAge& age);
+    };
+
     void complete(const frame::FrameRecord& record);
     void add_tracking(const GazeAge& age);
+    [[nodiscard]] std::int64_t period_in_force_ns() const {
+        return periods_.ns().value_or(config_.period_ns);
+    }
     [[nodiscard]] SummaryReport report_of_complete() const;
 
-    SummaryConfig config_;
-    std::int64_t profile_period_ns_;
+    SummaryConfig config_;  ///< as the profile has it
+    CommonestPeriod periods_;
+    Happenings happenings_;
+    std::optional<time::Stamp> began_;
     std::array<std::optional<frame::FrameRecord>, kPendingFrames>
         pending_;  ///< by index modulo size
     std::optional<Neighbour> before_;
     SpanSeries gaze_age_at_latch_;
-    SpanSeries gaze_age_at_display_;
     SpanSeries gaze_age_uncertainty_;
-    std::array<SpanSeries, kStageCount> stages_;
-    SpanSeries unaccounted_;
-    SpanSeries held_gaze_age_at_display_;
+    std::array<SpanSeries, kStageCount> stages_;  ///< without those of AtDisplay
+    // Whose display it is, the commonest period decides in the end.
+    AtDisplay of_profile_;
+    AtDisplay of_unknown_;
     SpanSeries frame_interval_;
     SpanSeries loop_time_;
     std::array<SpanSeries, frame::kMostPasses> passes_;
-    std::array<double, time::kStampKindCount> length_by_kind_ns_{};
     FrameCounts frames_;
     SampleCounter gaze_;
     frame::SampleCounts samples_;

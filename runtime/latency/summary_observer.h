@@ -12,11 +12,14 @@ class SummaryObserver final : public frame::FrameObserver {
     void on_sample(const gaze::GazeSample& sample, std::uint64_t) override { summary_.add(sample); }
     void on_frame(const frame::FrameRecord& record) override {
         if (record.period_ns > 0) {
-            summary_.set_display_period(record.period_ns);
+            summary_.add_display_period(record.period_ns);
         }
         summary_.add(record);
     }
     void on_gpu(const frame::FrameGpuRecord& record) override { summary_.add(record); }
+    void on_event(time::Stamp time, std::string_view kind, std::string_view text) override {
+        summary_.add_event(time, kind, text);
+    }
 
   private:
     LatencySummary& summary_;

@@ -8,6 +8,7 @@
 #include "runtime/error.h"
 #include "runtime/openxr/enumerate.h"
 #include "runtime/openxr/required_extensions.h"
+#include "runtime/openxr/start_errors.h"
 
 namespace gazeloop::openxr {
 namespace {
@@ -17,11 +18,15 @@ constexpr const char* kCoreValidationLayer = "XR_APILAYER_LUNARG_core_validation
 /// The required ones and those of the wanted that the runtime offers.
 std::vector<const char*> extensions_to_enable(const RuntimeChoice& choice,
                                               const std::vector<const char*>& wanted) {
-    const auto offered = enumerate(
-        typed<XrExtensionProperties>(XR_TYPE_EXTENSION_PROPERTIES),
-        "the OpenXR runtime could not be loaded; check XR_RUNTIME_JSON, run ./dev setup to "
-        "build Monado, or use --target headless",
-        [](auto... a) { return xrEnumerateInstanceExtensionProperties(nullptr, a...); });
+    std::uint32_t count = 0;
+    if (const XrResult listed = xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr);
+        XR_FAILED(listed)) {
+        throw not_loaded(choice, listed);
+    }
+    const auto offered = enumerate(typed<XrExtensionProperties>(XR_TYPE_EXTENSION_PROPERTIES),
+                                   "xrEnumerateInstanceExtensionProperties", [](auto... a) {
+                                       return xrEnumerateInstanceExtensionProperties(nullptr, a...);
+                                   });
     const auto offers = [&offered](const char* name) {
         return std::ranges::any_of(offered, [name](const XrExtensionProperties& extension) {
             return std::strcmp(extension.extensionName, name) == 0;
@@ -56,21 +61,33 @@ XrInstance create_instance(const RuntimeChoice& choice, bool validation,
     }
     XrInstance instance = XR_NULL_HANDLE;
     const XrResult created = xrCreateInstance(&info, &instance);
-    if (created == XR_ERROR_API_LAYER_NOT_PRESENT) {
-        throw SetupError(ErrorKind::NoDevice,
-                         "target.validation is on, but its layer is not installed (Debian: "
-                         "openxr-layer-corevalidation)");
-    }
     // Whatever a runtime calls it, before there is an instance nothing can have been lost.
     if (XR_FAILED(created)) {
-        throw SetupError(
-            ErrorKind::NoDevice,
-            fmt::format("OpenXR: the runtime {} did not start ({}): is its service running, "
-                        "and does Vulkan have a driver (vulkaninfo)? ./dev setup builds an "
-                        "in-process Monado; --target headless needs no runtime",
-                        choice.manifest, xr_name(created)));
+        throw not_started(choice, created, validation ? kCoreValidationLayer : nullptr);
     }
     return instance;
+}
+
+/// What xrGetSystem's failure means, and the remedy.
+std::string no_system(std::string_view runtime, XrResult result) {
+    switch (result) {
+        case XR_ERROR_FORM_FACTOR_UNAVAILABLE:
+            return fmt::format(
+                "{} has no head-mounted display now; connect one, or use --target "
+                "headless",
+                runtime);
+        case XR_ERROR_FORM_FACTOR_UNSUPPORTED:
+            return fmt::format(
+                "{} is for no head-mounted displays; use another runtime "
+                "(XR_RUNTIME_JSON), or --target headless",
+                runtime);
+        default:
+            return fmt::format(
+                "{} does not say whether it has a head-mounted display (xrGetSystem; "
+                "its log may say why); use another runtime (XR_RUNTIME_JSON), or "
+                "--target headless",
+                runtime);
+    }
 }
 
 }  // namespace
@@ -85,10 +102,8 @@ Instance::Instance(const RuntimeChoice& choice, const InstanceOptions& options)
         XR_VERSION_MINOR(properties.runtimeVersion), XR_VERSION_PATCH(properties.runtimeVersion));
     auto system = typed<XrSystemGetInfo>(XR_TYPE_SYSTEM_GET_INFO);
     system.formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY;
-    xr_check(xrGetSystem(instance_, &system, &system_),
-             fmt::format("{} has no head-mounted display now; connect one, or use --target "
-                         "headless",
-                         runtime_name_));
+    const XrResult found = xrGetSystem(instance_, &system, &system_);
+    xr_check(found, XR_SUCCEEDED(found) ? "" : no_system(runtime_name_, found));
     auto system_properties = typed<XrSystemProperties>(XR_TYPE_SYSTEM_PROPERTIES);
     xr_check(xrGetSystemProperties(instance_, system_, &system_properties),
              "xrGetSystemProperties");

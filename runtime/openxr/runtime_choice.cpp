@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/environment.h"
 #include "runtime/error.h"
 
 namespace gazeloop::openxr {
@@ -23,11 +24,6 @@ constexpr std::string_view kRemedy =
     "run ./dev setup to build Monado, name a runtime's JSON file in XR_RUNTIME_JSON, or use "
     "--target headless";
 
-std::optional<std::string> environment(const char* name) {
-    const char* const value = std::getenv(name);
-    return value != nullptr && *value != '\0' ? std::optional<std::string>(value) : std::nullopt;
-}
-
 bool is_there(const fs::path& file) {
     std::error_code ignored;
     return fs::exists(file, ignored);
@@ -36,18 +32,14 @@ bool is_there(const fs::path& file) {
 /// Where the loader looks for the system's choice, in its order.
 std::vector<fs::path> active_runtime_folders() {
     std::vector<fs::path> folders;
-    if (const auto config = environment("XDG_CONFIG_HOME")) {
+    if (const auto config = environment_value("XDG_CONFIG_HOME")) {
         folders.emplace_back(*config);
-    } else if (const auto home = environment("HOME")) {
+    } else if (const auto home = environment_value("HOME")) {
         folders.emplace_back(fs::path(*home) / ".config");
     }
-    std::string configured = environment("XDG_CONFIG_DIRS").value_or("/etc/xdg");
-    for (std::size_t begin = 0; begin <= configured.size();) {
-        const std::size_t end = std::min(configured.find(':', begin), configured.size());
-        if (end > begin) {
-            folders.emplace_back(configured.substr(begin, end - begin));
-        }
-        begin = end + 1;
+    for (const std::string& folder :
+         split_list(environment_value("XDG_CONFIG_DIRS").value_or("/etc/xdg"))) {
+        folders.emplace_back(folder);
     }
     folders.emplace_back("/etc");
     folders.emplace_back("/usr/local/etc");
@@ -55,15 +47,15 @@ std::vector<fs::path> active_runtime_folders() {
 }
 
 fs::path cache_folder() {
-    if (const auto cache = environment("GAZELOOP_CACHE")) {
+    if (const auto cache = environment_value("GAZELOOP_CACHE")) {
         return *cache;
     }
-    if (const auto cache = environment("XDG_CACHE_HOME")) {
+    if (const auto cache = environment_value("XDG_CACHE_HOME")) {
         return fs::path(*cache) / "gazeloop";
     }
     const passwd* const user = getpwuid(getuid());
     const std::string home = user != nullptr ? user->pw_dir : "/";
-    return fs::path(environment("HOME").value_or(home)) / ".cache" / "gazeloop";
+    return fs::path(environment_value("HOME").value_or(home)) / ".cache" / "gazeloop";
 }
 
 /// Keeps what the user has set.
@@ -105,7 +97,7 @@ void simulate_display(const display::DisplayProfile& display) {
 
 RuntimeChoice choose_runtime(const display::DisplayProfile& display) {
     const fs::path ours = cache_folder() / "monado/share/openxr/1/openxr_monado.json";
-    if (const auto chosen = environment("XR_RUNTIME_JSON")) {
+    if (const auto chosen = environment_value("XR_RUNTIME_JSON")) {
         if (!is_there(*chosen)) {
             throw SetupError(
                 ErrorKind::NoDevice,

@@ -36,7 +36,10 @@ XrSession create_session(const Instance& instance, const vulkan::Context& contex
     info.next = &binding;
     info.systemId = instance.system();
     XrSession session = XR_NULL_HANDLE;
-    xr_check(xrCreateSession(instance.handle(), &info, &session), "xrCreateSession");
+    xr_check(
+        xrCreateSession(instance.handle(), &info, &session),
+        "the runtime makes no session (another program may have the headset; the runtime's log "
+        "may say more): xrCreateSession");
     return session;
 }
 
@@ -74,9 +77,9 @@ Session::Activity Session::poll() {
         return Activity::Ended;
     }
     if (exit_sent_ && std::chrono::steady_clock::now() > exit_deadline_) {
-        tell("the runtime does not end the session: it was left");
-        spdlog::warn("{} does not end the session, which it was asked to: leaving it",
-                     instance_.runtime_name());
+        tell(frame::kSessionOddEvent,
+             fmt::format("{} does not end the session, which it was asked to: it was left",
+                         instance_.runtime_name()));
         return Activity::Ended;
     }
     if (!running_) {
@@ -103,7 +106,9 @@ void Session::request_exit() {
     }
 }
 
-void Session::tell(std::string_view text) { events_.emplace_back(text); }
+void Session::tell(const frame::EventKind& kind, std::string text) {
+    events_.push_back({kind, std::move(text)});
+}
 
 void Session::handle_event(const XrEventDataBuffer& event) {
     switch (event.type) {
@@ -113,14 +118,16 @@ void Session::handle_event(const XrEventDataBuffer& event) {
                                          "again when it is back",
                                          instance_.runtime_name()));
         case XR_TYPE_EVENT_DATA_EVENTS_LOST:
-            tell("OpenXR events were lost");
+            tell(frame::kEventsLostEvent,
+                 "OpenXR events were lost: nobody knows what the runtime said in them");
             break;
         case XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR:
             ++mask_changes_;
-            tell("visibility mask changed");
+            tell(frame::kMaskEvent, "visibility mask changed");
             break;
         case XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING:
-            tell("the runtime moves its origin: gaze held in world is off by as much");
+            tell(frame::kOriginEvent,
+                 "the runtime moves its origin: gaze held in world is off by as much");
             break;
         case XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED:
             ++profile_changes_;
@@ -138,21 +145,13 @@ void Session::handle_event(const XrEventDataBuffer& event) {
 
 void Session::change_state(const XrEventDataSessionStateChanged& changed) {
     state_ = changed.state;
-    tell(fmt::format("session state: {}", state_name(state_)));
+    tell(frame::kSessionEvent, fmt::format("session state: {}", state_name(state_)));
     switch (state_) {
-        case XR_SESSION_STATE_READY: {
-            if (exit_requested_) {
-                break;
-            }
-            auto begin = typed<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
-            begin.primaryViewConfigurationType = kStereo;
-            xr_check_session(xrBeginSession(session_, &begin), "xrBeginSession");
-            running_ = true;
+        case XR_SESSION_STATE_READY:
+            begin();
             break;
-        }
         case XR_SESSION_STATE_STOPPING:
-            running_ = false;
-            xr_check_session(xrEndSession(session_), "xrEndSession");
+            end();
             break;
         case XR_SESSION_STATE_EXITING:
             ended_ = true;
@@ -166,6 +165,26 @@ void Session::change_state(const XrEventDataSessionStateChanged& changed) {
         default:
             break;
     }
+}
+
+// Runtimes say the same state twice (Monado: STOPPING, once for each request to exit).
+
+void Session::begin() {
+    if (exit_requested_ || running_) {
+        return;
+    }
+    auto info = typed<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
+    info.primaryViewConfigurationType = kStereo;
+    xr_check_session(xrBeginSession(session_, &info), "xrBeginSession");
+    running_ = true;
+}
+
+void Session::end() {
+    if (!running_) {
+        return;
+    }
+    running_ = false;
+    xr_check_session(xrEndSession(session_), "xrEndSession");
 }
 
 std::optional<gaze::Pose> Session::head_at(XrTime time) const {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/frame/event.h"
 #include "runtime/openxr/instance.h"
 #include "runtime/openxr/xr_clock.h"
 #include "runtime/vulkan/context.h"
@@ -58,13 +59,15 @@ class Session {
     [[nodiscard]] std::optional<gaze::Pose> head_at(XrTime time) const;
 
     /// Adds one line for take_events().
-    void tell(std::string_view text);
+    void tell(const frame::EventKind& kind, std::string text);
     /// What happened since the last call.
-    [[nodiscard]] std::vector<std::string> take_events() { return std::exchange(events_, {}); }
+    [[nodiscard]] std::vector<frame::Event> take_events() { return std::exchange(events_, {}); }
 
   private:
     void handle_event(const XrEventDataBuffer& event);
     void change_state(const XrEventDataSessionStateChanged& changed);
+    void begin();
+    void end();
 
     const Instance& instance_;
     const XrClock& clock_;
@@ -74,7 +77,7 @@ class Session {
     XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
     std::uint64_t profile_changes_ = 0;
     std::uint64_t mask_changes_ = 0;
-    std::vector<std::string> events_;
+    std::vector<frame::Event> events_;
     bool running_ = false;
     bool exit_requested_ = false;
     bool exit_sent_ = false;

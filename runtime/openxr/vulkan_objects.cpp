@@ -5,6 +5,7 @@
 #include <vulkan/vulkan_raii.hpp>
 
 #include "runtime/error.h"
+#include "runtime/vulkan/driver_environment.h"
 
 namespace gazeloop::openxr {
 namespace {
@@ -13,10 +14,16 @@ void check_vulkan(VkResult result, const Instance& instance, std::string_view wh
     if (result != VK_SUCCESS) {
         throw SetupError(
             ErrorKind::NoDevice,
-            fmt::format("{} could not create {} ({}): install a Vulkan 1.3 driver "
-                        "(Debian: mesa-vulkan-drivers); VK_ICD_FILENAMES, if set, "
-                        "must name an existing one",
-                        instance.runtime_name(), what, vk::to_string(vk::Result{result})));
+            fmt::format("{} could not create {} ({}): {}", instance.runtime_name(), what,
+                        vk::to_string(vk::Result{result}), vulkan::no_driver_remedy()));
+    }
+}
+
+/// A call by which the runtime looks at Vulkan.
+void check_call(XrResult result, const char* call) {
+    if (XR_FAILED(result)) {
+        const std::string fault = vulkan::driver_environment_fault();
+        xr_check(result, fault.empty() ? call : fmt::format("{}: {}", fault, call));
     }
 }
 
@@ -40,10 +47,10 @@ VkInstance VulkanObjects::create_instance(PFN_vkGetInstanceProcAddr get_proc,
                                           const VkInstanceCreateInfo& info) {
     auto requirements =
         typed<XrGraphicsRequirementsVulkan2KHR>(XR_TYPE_GRAPHICS_REQUIREMENTS_VULKAN2_KHR);
-    xr_check(xr_function<PFN_xrGetVulkanGraphicsRequirements2KHR>(
-                 instance_.handle(), "xrGetVulkanGraphicsRequirements2KHR")(
-                 instance_.handle(), instance_.system(), &requirements),
-             "xrGetVulkanGraphicsRequirements2KHR");
+    check_call(xr_function<PFN_xrGetVulkanGraphicsRequirements2KHR>(
+                   instance_.handle(), "xrGetVulkanGraphicsRequirements2KHR")(
+                   instance_.handle(), instance_.system(), &requirements),
+               "xrGetVulkanGraphicsRequirements2KHR");
     check_version(requirements.minApiVersionSupported, info.pApplicationInfo->apiVersion,
                   instance_);
     auto create = typed<XrVulkanInstanceCreateInfoKHR>(XR_TYPE_VULKAN_INSTANCE_CREATE_INFO_KHR);
@@ -52,7 +59,7 @@ VkInstance VulkanObjects::create_instance(PFN_vkGetInstanceProcAddr get_proc,
     create.vulkanCreateInfo = &info;
     VkInstance instance = VK_NULL_HANDLE;
     VkResult vulkan = VK_SUCCESS;
-    xr_check(
+    check_call(
         xr_function<PFN_xrCreateVulkanInstanceKHR>(instance_.handle(), "xrCreateVulkanInstanceKHR")(
             instance_.handle(), &create, &instance, &vulkan),
         "xrCreateVulkanInstanceKHR");
@@ -65,7 +72,7 @@ VkPhysicalDevice VulkanObjects::choose_physical_device(VkInstance instance) {
     get.systemId = instance_.system();
     get.vulkanInstance = instance;
     VkPhysicalDevice device = VK_NULL_HANDLE;
-    xr_check(
+    check_call(
         xr_function<PFN_xrGetVulkanGraphicsDevice2KHR>(
             instance_.handle(), "xrGetVulkanGraphicsDevice2KHR")(instance_.handle(), &get, &device),
         "xrGetVulkanGraphicsDevice2KHR");
@@ -81,7 +88,7 @@ VkDevice VulkanObjects::create_device(PFN_vkGetInstanceProcAddr get_proc, VkPhys
     create.vulkanCreateInfo = &info;
     VkDevice device = VK_NULL_HANDLE;
     VkResult vulkan = VK_SUCCESS;
-    xr_check(
+    check_call(
         xr_function<PFN_xrCreateVulkanDeviceKHR>(instance_.handle(), "xrCreateVulkanDeviceKHR")(
             instance_.handle(), &create, &device, &vulkan),
         "xrCreateVulkanDeviceKHR");

@@ -6,6 +6,7 @@
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
+#include "runtime/frame/event.h"
 #include "runtime/gaze/hidden_mesh.h"
 #include "runtime/gaze/view.h"
 #include "runtime/render/eye_target.h"
@@ -28,7 +29,11 @@ struct DepthRange {
 
 /// What the target knows of the frame that is about to begin.
 struct TargetFrame {
-    time::Stamp display;         ///< announced middle of the display's emission, host time
+    /// Announced middle of the display's emission, host time; unknown where none was announced, or
+    /// an absurd one.
+    time::Stamp display;
+    /// What head and scene are shown for, host time: `display`, or the likeliest one without it.
+    std::int64_t aimed_ns = 0;
     std::int64_t period_ns = 0;  ///< of the display; 0: not known
     bool should_render = true;   ///< false: begin and end it, but draw nothing
     gaze::Pose head;             ///< in world, at the display time
@@ -91,7 +96,7 @@ class FrameTarget {
     [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> properties() const = 0;
 
     /// What happened since the last call, one line each ("session state: FOCUSED").
-    virtual std::vector<std::string> take_events() = 0;
+    virtual std::vector<frame::Event> take_events() = 0;
 };
 
 }  // namespace gazeloop::present

@@ -36,6 +36,7 @@ void HeadlessTarget::wait_frame(TargetFrame& frame) {
         ++next_emission_;
     }
     frame.display = {first_emission_ns_ + next_emission_ * period, time::StampKind::Predicted};
+    frame.aimed_ns = frame.display.ns;
     frame.should_render = true;
 }
 

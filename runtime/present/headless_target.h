@@ -37,7 +37,7 @@ class HeadlessTarget final : public FrameTarget {
     std::optional<gaze::Pose> head_at(std::int64_t) override { return gaze::Pose{}; }
     void request_exit() override { exit_requested_ = true; }
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> properties() const override;
-    std::vector<std::string> take_events() override { return {}; }
+    std::vector<frame::Event> take_events() override { return {}; }
 
   private:
     Options options_;

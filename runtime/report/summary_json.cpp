@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "runtime/report/happenings_text.h"
 #include "runtime/report/summary_rows.h"
 
 namespace gazeloop::report {
@@ -82,6 +83,7 @@ Json summary_json(const latency::SummaryReport& report) {
               {"missed_percent", or_null(report.missed_percent())},
               {"periods_missed", missed_known ? Json(frames.periods_missed) : Json(nullptr)},
               {"in_time_unknown", frames.in_time_unknown},
+              {"display_unknown", frames.display_unknown},
               {"by_gaze_state", by_name(frames.by_state, gaze::kFoveaStateNames)}}},
             {"gaze",
              {{"received", report.gaze.received},
@@ -92,7 +94,9 @@ Json summary_json(const latency::SummaryReport& report) {
              {{"grids", grids_json(config.grids, samples)},
               {"pixels_output", samples.pixels_output},
               {"pixels_hidden", samples.pixels_hidden},
-              {"times_fewer_than_full", or_null(report.samples_saved_factor())}}}};
+              {"times_fewer_than_full", or_null(report.samples_saved_factor())}}},
+            {"happenings", happenings_json(report)},
+            {"other_happenings", report.other_happenings}};
 }
 
 }  // namespace gazeloop::report

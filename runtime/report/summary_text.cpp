@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "runtime/report/happenings_text.h"
 #include "runtime/report/summary_rows.h"
 #include "runtime/time/milliseconds.h"
 
@@ -161,6 +162,10 @@ void append_counts(std::string& text, const latency::SummaryReport& report) {
     const latency::FrameCounts& frames = report.frames;
     fmt::format_to(out, "frames   {}, rendered {}\nmissed   {}", count(frames.total),
                    count(frames.rendered), missed(report));
+    if (frames.display_unknown > 0) {
+        fmt::format_to(out, "\nshown    at an unknown time in {} of {} rendered frames",
+                       count(frames.display_unknown), count(frames.rendered));
+    }
     text += "\ngaze    ";
     for (std::size_t state = 0; state < frames.by_state.size(); ++state) {
         fmt::format_to(out, "{} {} {}", state == 0 ? "" : ",", gaze::kFoveaStateNames[state],
@@ -206,6 +211,9 @@ std::string summary_text(const latency::SummaryReport& report) {
     append_table(text, report);
     text += "\n";
     append_counts(text, report);
+    if (const std::string happened = happenings_text(report); !happened.empty()) {
+        text += "\n" + happened;
+    }
     return text;
 }
 

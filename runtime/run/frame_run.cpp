@@ -21,9 +21,10 @@
 #include "runtime/report/session_summary.h"
 #include "runtime/report/summary_json.h"
 #include "runtime/report/summary_text.h"
+#include "runtime/run/event_log.h"
 #include "runtime/run/interrupt.h"
+#include "runtime/run/recording_observer.h"
 #include "runtime/run/run_checks.h"
-#include "runtime/run/run_observers.h"
 #include "runtime/run/run_target.h"
 #include "runtime/scene/scenes.h"
 #include "runtime/session/replay_check.h"
@@ -195,27 +196,29 @@ class FrameRun {
     void run_loop(render::FrameRenderer& renderer, latency::LatencySummary& summary) {
         gaze::GazeToFovea gaze(gaze::fovea_policy(values_.gaze));
         latency::SummaryObserver summing(summary);
-        LogObserver logging;
+        EventLog logging;
         if (request_.clock == RunClock::Recorded) {
             check_.emplace(*request_.recording->session, request_.same_gaze,
                            request_.same_rendering);
+            add_recorded_events(summary);
         }
-        LoopParts parts{
-            .target = *target_,
-            .renderer = renderer,
-            .gaze = gaze,
-            .make_timeline = [this] { return make_timeline(); },
-            .make_source =
-                [this](std::int64_t start_ns) {
-                    auto source = openxr_gaze_ != nullptr ? std::move(openxr_gaze_)
-                                                          : request_.make_source(start_ns);
-                    spdlog::info("gaze: {}", source->description());
-                    if (recorder_ != nullptr) {
-                        recorder_->event(time::Stamp{}, "gaze-source", source->description());
-                    }
-                    return source;
-                },
-            .observers = {&summing, &logging}};
+        LoopParts parts{.target = *target_,
+                        .renderer = renderer,
+                        .gaze = gaze,
+                        .make_timeline = [this] { return make_timeline(); },
+                        .make_source =
+                            [this](std::int64_t start_ns) {
+                                auto source = openxr_gaze_ != nullptr
+                                                  ? std::move(openxr_gaze_)
+                                                  : request_.make_source(start_ns);
+                                spdlog::info("gaze: {}", source->description());
+                                if (recorder_ != nullptr) {
+                                    recorder_->event(time::Stamp{}, frame::kGazeSourceEvent.name,
+                                                     source->description());
+                                }
+                                return source;
+                            },
+                        .observers = {&summing, &logging}};
         if (recording_ != nullptr) {
             parts.observers.push_back(recording_.get());
         }
@@ -247,9 +250,9 @@ class FrameRun {
                 spdlog::info("preview: {} frames shown, {} dropped", preview_->frames_shown(),
                              preview_->frames_dropped());
             }
-            compare_with_profile();
+            compare_with_profile(summary);
             if (recorder_ != nullptr) {
-                recorder_->event(time::measured_now(), "gpu-clock",
+                recorder_->event(time::measured_now(), frame::kGpuClockEvent.name,
                                  fmt::format("related to CLOCK_MONOTONIC within {} ns",
                                              renderer.clock_deviation_ns()));
             }
@@ -305,10 +308,11 @@ class FrameRun {
     }
 
     /// The runtime's display counts; the profile then supplies only what the runtime cannot say.
-    void compare_with_profile() {
-        const double announced = static_cast<double>(result_.period_ns);
+    void compare_with_profile(latency::LatencySummary& summary) {
+        const std::int64_t period_ns = summary.display_period_ns().value_or(0);
+        const double announced = static_cast<double>(period_ns);
         const double expected = static_cast<double>(display_.period_ns());
-        if (request_.clock != RunClock::Wall || result_.period_ns <= 0 ||
+        if (request_.clock != RunClock::Wall || period_ns <= 0 ||
             std::abs(announced - expected) <= 0.01 * expected) {
             return;
         }
@@ -316,13 +320,25 @@ class FrameRun {
             "the runtime's display has a period of {:.2f} ms, the profile '{}' {:.2f} ms: the "
             "runtime's is used{}",
             announced * 1e-6, display_.name, expected * 1e-6,
-            latency::may_be_of_period(result_.period_ns, display_.period_ns())
+            latency::may_be_of_period(period_ns, display_.period_ns())
                 ? ""
                 : ", and when its rows light up and its pixels switch is unknown (--display names "
                   "another profile)");
         spdlog::warn("{}", text);
+        const time::Stamp now = time::measured_now();
+        summary.add_event(now, frame::kDisplayEvent.name, text);
         if (recorder_ != nullptr) {
-            recorder_->event(time::measured_now(), "display", text);
+            recorder_->event(now, frame::kDisplayEvent.name, text);
+        }
+    }
+
+    /// What happened while it was recorded belongs to the times of a replay, which are the recorded
+    /// ones.
+    void add_recorded_events(latency::LatencySummary& summary) const {
+        session::EventCursor events(*request_.recording->session);
+        while (value_or_throw(events.next())) {
+            const session::RecordedEvent& event = *events.row();
+            summary.add_event(event.time, event.kind, event.text);
         }
     }
 
@@ -330,7 +346,7 @@ class FrameRun {
     void fail(ErrorKind kind, const std::string& message) {
         spdlog::error("{}", message);
         if (recorder_ != nullptr) {
-            recorder_->event(time::measured_now(), "error", message);
+            recorder_->event(time::measured_now(), frame::kErrorEvent.name, message);
         }
         if (!failure_ || failure_ == ErrorKind::Interrupted) {
             failure_ = kind;

@@ -4,6 +4,7 @@
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_settings.h"
 #include "runtime/methods/method_settings.h"
+#include "runtime/present/openxr/openxr_settings.h"
 #include "runtime/profiles/profile_settings.h"
 #include "runtime/render/render_settings.h"
 #include "runtime/run/target_settings.h"
@@ -19,6 +20,7 @@ struct ProgramValues {
     gaze::GazeSettings gaze;
     drivers::hid::HidSettings hid;
     methods::MethodSettings methods;
+    present::OpenXrSettings openxr;
     profiles::ProfileSettings profile;
     render::RenderSettings render;
     sim::GazeSimulation sim;

@@ -51,7 +51,8 @@ std::unique_ptr<present::OpenXrTarget> make_openxr_target(const FrameRunRequest&
     present::OpenXrOptions options{.display = display,
                                    .scale = values.render.scale,
                                    .validation = values.target.validation,
-                                   .depth = values.render.depth};
+                                   .depth = values.render.depth,
+                                   .patience_s = values.openxr.patience_s};
     if (request.openxr_gaze) {
         options.extensions.push_back(drivers::kEyeGazeExtension);
     }

@@ -30,6 +30,7 @@ Expected<bool> Cursor<Rows, Row>::next() {
     }
 }
 
+template class Cursor<EventRows, RecordedEvent>;
 template class Cursor<SampleRows, RecordedSample>;
 template class Cursor<FrameRows, RecordedFrame>;
 template class Cursor<HiddenRows, gaze::HiddenChange>;

@@ -10,6 +10,7 @@
 
 namespace gazeloop::session {
 
+class EventRows;
 class FrameRows;
 class HiddenRows;
 class SampleRows;
@@ -40,10 +41,12 @@ class Cursor {
     const Row* row_ = nullptr;
 };
 
+using EventCursor = Cursor<EventRows, RecordedEvent>;         ///< in the order of the run
 using SampleCursor = Cursor<SampleRows, RecordedSample>;      ///< by frame, then arrival
 using FrameCursor = Cursor<FrameRows, RecordedFrame>;         ///< by index
 using HiddenCursor = Cursor<HiddenRows, gaze::HiddenChange>;  ///< by frame
 
+extern template class Cursor<EventRows, RecordedEvent>;
 extern template class Cursor<SampleRows, RecordedSample>;
 extern template class Cursor<FrameRows, RecordedFrame>;
 extern template class Cursor<HiddenRows, gaze::HiddenChange>;

@@ -81,7 +81,7 @@ class Player {
     }
 
     void tell_event(const RecordedEvent& event) {
-        if (event.kind == "error") {
+        if (event.kind == frame::kErrorEvent.name) {
             end_.last_error = event.text;
         }
         tell([&](frame::FrameObserver& observer) {

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <variant>
 
+#include "runtime/fixed_text.h"
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/hidden_mesh.h"
-#include "runtime/session/fixed_text.h"
 
 namespace gazeloop::session {
 

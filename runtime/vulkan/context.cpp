@@ -8,16 +8,13 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/environment.h"
 #include "runtime/error.h"
+#include "runtime/vulkan/driver_environment.h"
 #include "runtime/vulkan/requirements.h"
 
 namespace gazeloop::vulkan {
 namespace {
-
-constexpr const char* kNoDeviceRemedy =
-    "install a Vulkan 1.3 driver (on Debian without a GPU: apt-get install mesa-vulkan-drivers) "
-    "and "
-    "check it with vulkaninfo; VK_ICD_FILENAMES, if set, must name an existing driver";
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                           VkDebugUtilsMessageTypeFlagsEXT,
@@ -44,7 +41,7 @@ int rank(vk::PhysicalDeviceType type) {
 }
 
 SetupError no_device(std::string_view what) {
-    return {ErrorKind::NoDevice, fmt::format("{}: {}", what, kNoDeviceRemedy)};
+    return {ErrorKind::NoDevice, fmt::format("{}: {}", what, no_driver_remedy())};
 }
 
 /// Creates the objects without any runtime's help.
@@ -109,10 +106,17 @@ void Context::create_instance(const ContextOptions& options, Factory* factory) {
         on_message, &validation_messages_);
     if (options.validation) {
         if (!has_layer(context_, kValidationLayer)) {
-            throw SetupError(ErrorKind::NoDevice,
-                             fmt::format("vulkan.validation is on, but the layer {} is not "
-                                         "installed (Debian: vulkan-validationlayers)",
-                                         kValidationLayer));
+            const auto path = environment_value("VK_LAYER_PATH");
+            throw SetupError(
+                ErrorKind::NoDevice,
+                fmt::format("vulkan.validation is on, but {} has the layer {}: {}",
+                            path ? fmt::format("nothing in VK_LAYER_PATH='{}', which stands for "
+                                               "all the usual folders,",
+                                               *path)
+                                 : "no manifest in the usual folders",
+                            kValidationLayer,
+                            path ? "unset VK_LAYER_PATH, or name the layer's folder in it"
+                                 : "install it (Debian: vulkan-validationlayers)"));
         }
         layers.push_back(kValidationLayer);
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -15,6 +18,7 @@ namespace gazeloop::tests {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Fault {
     const char* name;
@@ -96,37 +100,158 @@ INSTANTIATE_TEST_SUITE_P(
               "xrLocateSpace", 8},
         Fault{"fails_to_tell", "xrPollEvent@2=XR_ERROR_RUNTIME_FAILURE", 5, "xrPollEvent",
               "xrPollEvent", 0},
-        Fault{"announces_no_time", "xrWaitFrame@9=display=-5", 5, "display time",
-              "announced display time is none", 8},
         // What it may do, and the loop goes on.
         Fault{"asks_for_the_end", "xrWaitFrame@9=exit", 0, "ended by the runtime",
               "session state: EXITING", 9},
+        // Monado says STOPPING for each request.
+        Fault{"is_asked_for_the_end_twice", "xrWaitFrame@30=exit", 0, "30 frames",
+              "session state: EXITING", kFrames},
+        Fault{"stops_the_session_twice", "xrWaitFrame@9=exit;xrEndSession@1=again", 0,
+              "ended by the runtime", "session state: EXITING", 9},
+        Fault{"announces_no_time", "xrWaitFrame@9=display=-5", 0,
+              "display-time-odd: the announced display time is none (-5)",
+              "display times are good again, 1 were not", kFrames},
+        Fault{"announces_no_time_at_first", "xrWaitFrame@1+5=display=0", 0, "time is none (0)",
+              "good again, 5 were not", kFrames},
+        Fault{"announces_the_end_of_time", "xrWaitFrame@9+5=display=9223372036854775807", 0,
+              "the announced display time", "good again, 5 were not", kFrames},
+        Fault{"announces_the_beginning_of_time", "xrWaitFrame@9+5=display=1", 0, "s back",
+              "good again, 5 were not", kFrames},
         Fault{"pauses", "xrWaitFrame@9=pause", 0, "30 frames", "session state: IDLE", kFrames},
         Fault{"never_ends_the_session", "xrRequestExitSession@1=XR_SUCCESS", 0,
               "does not end the session", "it was left", kFrames},
         Fault{"wants_no_pictures", "xrWaitFrame@9+5=hidden", 0, "", "session state: FOCUSED",
               kFrames},
-        Fault{"jumps_ahead", "xrWaitFrame@9+5=display+1000000", 0, "", "s ahead", kFrames},
-        Fault{"goes_back_in_time", "xrWaitFrame@19+5=display-100", 0, "", "display time went back",
-              kFrames},
+        Fault{"jumps_ahead", "xrWaitFrame@9+5=display+1000000", 0, "s ahead", "s ahead", kFrames},
+        Fault{"goes_back_in_time", "xrWaitFrame@19+5=display-100", 0, "display time went back",
+              "display time went back", kFrames},
         Fault{"knows_no_period", "xrWaitFrame@1+10=period=0", 0, "", "session state: FOCUSED",
               kFrames},
-        Fault{"has_an_absurd_period", "xrWaitFrame@9+5=period=9223372036854775807", 0, "",
-              "session state: FOCUSED", kFrames},
-        Fault{"loses_the_head", "xrLocateViews@9+5=untracked;xrLocateSpace@9+5=untracked", 0, "",
-              "the head is not tracked", kFrames},
+        Fault{"has_an_absurd_period", "xrWaitFrame@9+5=period=9223372036854775807", 0,
+              "period-odd: the announced display period", "which no display has", kFrames},
+        Fault{"loses_the_head", "xrLocateViews@9+5=untracked;xrLocateSpace@9+5=untracked", 0,
+              "head-lost: the head is not tracked", "the head is not tracked", kFrames},
         Fault{"has_no_number_for_the_head", "xrLocateViews@9+5=nan-pose;xrLocateSpace@9+5=nan-pose",
               0, "", "the head is not tracked", kFrames},
         Fault{"turns_the_head_by_nothing", "xrLocateViews@9+5=zero-pose", 0, "",
               "the head is not tracked", kFrames},
         Fault{"never_sees_the_head", "xrLocateViews@1+99=untracked;xrLocateSpace@1+99=untracked", 0,
               "", "the head is not tracked", kFrames},
-        Fault{"has_no_number_for_the_view", "xrLocateViews@9+5=nan-fov", 0, "",
+        Fault{"has_no_number_for_the_view", "xrLocateViews@9+5=nan-fov", 0, "view-odd: a field",
               "the last one stands", kFrames},
         Fault{"shows_nothing", "xrLocateViews@9+5=flat-fov", 0, "", "the last one stands", kFrames},
         Fault{"shows_everything", "xrLocateViews@9+5=wide-fov", 0, "", "the last one stands",
               kFrames}),
     [](const auto& instance) { return instance.param.name; });
+
+/// Runs of 60 frames on a runtime whose announced times are absurd for a while.
+class OpenXrTimes : public testing::Test {
+  protected:
+    ProgramResult run(const std::string& plan, const std::vector<std::string>& more = {}) {
+        std::vector<std::string> words{
+            "run",      "--gaze", "fixed:1,1", "--frames",          "60",
+            "--target", "openxr", "--set",     "render.scale=0.05", "--record",
+            session(),  "--json", json()};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_gazeloop(words, {.environment = openxr_faults(plan)});
+    }
+    [[nodiscard]] std::string session() const { return folder_.file("session.gaze"); }
+    [[nodiscard]] std::string json() const { return folder_.file("run.json"); }
+    [[nodiscard]] static nlohmann::json read(const std::string& file) {
+        std::ifstream stream(file);
+        return nlohmann::json::parse(stream);
+    }
+    static std::size_t times(const std::string& text, const std::string& part) {
+        std::size_t count = 0;
+        for (std::size_t at = text.find(part); at != std::string::npos;
+             at = text.find(part, at + 1)) {
+            ++count;
+        }
+        return count;
+    }
+
+    ScratchFolder folder_;
+};
+
+TEST_F(OpenXrTimes, DaysAheadAreUnknownSaidOnceAndCounted) {
+    const ProgramResult result = run("xrWaitFrame@10+30=display+2384640000");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(times(result.err, "the announced display time lies 23846"), 1U) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("at an unknown time in 30 of "));
+    EXPECT_THAT(result.out, HasSubstr("what happened, from the first frame on\n"
+                                      "- display-time-odd at "));
+    const nlohmann::json summary = read(json());
+    EXPECT_EQ(summary["frames"]["display_unknown"], 30);
+    EXPECT_EQ(summary["durations"]["gaze_age_at_display"]["frames"],
+              summary["frames"]["rendered"].get<int>() - 30);
+    EXPECT_LT(summary["durations"]["gaze_age_at_display"]["max_ms"], 10'000.0);
+    EXPECT_EQ(summary["happenings"][0]["kind"], "display-time-odd");
+    EXPECT_EQ(summary["happenings"][0]["times"], 1);
+
+    // The recording says the same, played or run again.
+    const std::string report_json = folder_.file("report.json");
+    const ProgramResult report = run_gazeloop({"report", session(), "--json", report_json});
+    EXPECT_EQ(report.exit_code, 0) << report.err;
+    EXPECT_EQ(read(report_json), summary);
+    EXPECT_EQ(report.out, result.out);
+    const ProgramResult replay = run_gazeloop({"replay", session()});
+    EXPECT_EQ(replay.exit_code, 0) << replay.err;
+    EXPECT_THAT(replay.out, HasSubstr("- display-time-odd at "));
+}
+
+TEST_F(OpenXrTimes, NoneForAWhileIsSurvived) {
+    const ProgramResult result = run("xrWaitFrame@15+5=display=0");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(times(result.err, "the announced display time is none (0)"), 1U) << result.err;
+    EXPECT_EQ(read(json())["frames"]["display_unknown"], 5);
+    EXPECT_EQ(read(json())["frames"]["total"], 60);
+}
+
+TEST_F(OpenXrTimes, NoneForLongEndsTheSessionAndKeepsTheRecording) {
+    const ProgramResult result =
+        run("xrWaitFrame@15+100000=display=0", {"--set", "openxr.patience_s=0.3"});
+    EXPECT_EQ(result.exit_code, 5) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("openxr.patience_s = 0.3"));
+    const auto recorded = value_or_throw(session::read_session(session()));
+    EXPECT_TRUE(recorded.closed_cleanly);
+    EXPECT_GE(recorded.frames.size(), 15U) << "some were survived";
+    EXPECT_FALSE(recorded.frames.back().frame.stamps.display.known());
+}
+
+TEST_F(OpenXrTimes, WithoutPatienceTheFirstEndsTheSession) {
+    const ProgramResult result = run("xrWaitFrame@15=display=0", {"--set", "openxr.patience_s=0"});
+    EXPECT_EQ(result.exit_code, 5) << result.err;
+    EXPECT_EQ(value_or_throw(session::read_session(session())).frames.size(), 14U);
+}
+
+TEST_F(OpenXrTimes, PatienceHasARange) {
+    const ProgramResult result = run("", {"--set", "openxr.patience_s=-1"});
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("must lie in [0, 3600]"));
+}
+
+TEST_F(OpenXrTimes, FlappingOnesAreCountedAndDoNotFlood) {
+    std::string plan;
+    for (int call = 10; call < 50; call += 2) {
+        plan += (plan.empty() ? "" : ";") + ("xrWaitFrame@" + std::to_string(call)) + "=display=0";
+    }
+    const ProgramResult result = run(plan);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_LE(times(result.err, "display-time-odd"), 6U) << result.err;
+    EXPECT_EQ(read(json())["happenings"][0]["times"], 20);
+}
+
+// The profile's display has switching times, and goes on having them.
+TEST_F(OpenXrTimes, OddPeriodsDecideNothing) {
+    ASSERT_EQ(run("").exit_code, 0);
+    const nlohmann::json without = read(json());
+    std::filesystem::remove(session());
+    ASSERT_EQ(run("xrWaitFrame@9+3=period=3000000;xrWaitFrame@60=period=3000000").exit_code, 0);
+    const nlohmann::json with = read(json());
+    for (const char* figure : {"display_period_ns", "switching_ns", "rolling_ns"}) {
+        EXPECT_EQ(with[figure], without[figure]) << figure;
+    }
+}
 
 struct Refusal {
     const char* name;
@@ -158,6 +283,72 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"makes_one_swapchain_only",
                             "xrCreateSwapchain@2=XR_ERROR_OUT_OF_MEMORY", "use a smaller picture"}),
     [](const auto& instance) { return instance.param.name; });
+
+struct Named {
+    const char* name;
+    Environment environment;
+    const char* says;
+    std::vector<std::string> more{};
+};
+
+void PrintTo(const Named& named, std::ostream* out) { *out << named.name; }
+
+class OpenXrEnvironment : public testing::TestWithParam<Named> {};
+
+// What has two possible causes names the one that holds.
+TEST_P(OpenXrEnvironment, IsNamedWhereItIsToBlame) {
+    std::vector<std::string> words{"run", "--frames", "1", "--set", "render.scale=0.05"};
+    words.insert(words.end(), GetParam().more.begin(), GetParam().more.end());
+    const ProgramResult result = run_gazeloop(words, {.environment = GetParam().environment});
+    EXPECT_EQ(result.exit_code, 4) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(GetParam().says));
+    if (GetParam().more.empty()) {
+        EXPECT_THAT(result.err, Not(HasSubstr("validation"))) << "which is off";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    TheRuntime, OpenXrEnvironment,
+    testing::Values(
+        Named{"absent_layer",
+              {{"XR_ENABLE_API_LAYERS", "XR_APILAYER_nobody"}},
+              "XR_ENABLE_API_LAYERS='XR_APILAYER_nobody' names the layer XR_APILAYER_nobody, which "
+              "no manifest in the usual folders has"},
+        Named{"absent_layer_folder",
+              {{"XR_ENABLE_API_LAYERS", "XR_APILAYER_nobody"}, {"XR_API_LAYER_PATH", "/nowhere"}},
+              "XR_API_LAYER_PATH='/nowhere', which stands for all the usual folders ('/nowhere' is "
+              "no folder)"},
+        Named{"validation_layer_elsewhere",
+              {{"XR_API_LAYER_PATH", "/nowhere"}},
+              "target.validation is on, but no manifest in XR_API_LAYER_PATH='/nowhere'",
+              {"--set", "target.validation=true"}},
+        Named{"no_vulkan_driver",
+              {{"VK_ICD_FILENAMES", "/nowhere/icd.json"}, {"VK_DRIVER_FILES", ""}},
+              "VK_ICD_FILENAMES names '/nowhere/icd.json', which does not exist: correct or unset "
+              "VK_ICD_FILENAMES"},
+        Named{"no_vulkan_driver_by_the_newer_name",
+              {{"VK_ICD_FILENAMES", ""}, {"VK_DRIVER_FILES", "/nowhere/icd.json"}},
+              "VK_DRIVER_FILES names '/nowhere/icd.json', which does not exist"},
+        Named{"all_vulkan_drivers_left_out",
+              {{"VK_LOADER_DRIVERS_DISABLE", "*"}},
+              "VK_LOADER_DRIVERS_DISABLE='*' leaves drivers out"}),
+    [](const auto& instance) { return instance.param.name; });
+
+TEST(OpenXrManifest, SaysWhatIsWrongWithIt) {
+    const ScratchFolder folder;
+    for (const auto& [text, says] :
+         {std::pair{"", "is no JSON"},
+          {"{\"runtime\": 3}", "has no runtime.library_path"},
+          {R"({"file_format_version": "1.0.0", "runtime": {"library_path": "./no.so"}})",
+           "./no.so', which cannot be loaded"}}) {
+        const std::string manifest = folder.write("runtime.json", text);
+        const ProgramResult result = run_gazeloop({"run", "--frames", "1"},
+                                                  {.environment = {{"XR_RUNTIME_JSON", manifest}}});
+        EXPECT_EQ(result.exit_code, 4) << result.err;
+        EXPECT_THAT(result.err, HasSubstr("XR_RUNTIME_JSON='" + manifest + "'"));
+        EXPECT_THAT(result.err, HasSubstr(says));
+    }
+}
 
 }  // namespace
 }  // namespace gazeloop::tests

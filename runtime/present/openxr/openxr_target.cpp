@@ -1,10 +1,12 @@
 #include "runtime/present/openxr/openxr_target.h"
 
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "runtime/error.h"
 #include "runtime/openxr/enumerate.h"
 #include "runtime/openxr/instance.h"
 #include "runtime/openxr/runtime_choice.h"
@@ -21,8 +23,6 @@ namespace {
 
 using openxr::typed;
 using openxr::xr_check_session;
-
-constexpr XrDuration kLongestPeriodNs = 1'000'000'000;
 
 openxr::InstanceOptions instance_options(const OpenXrOptions& options) {
     openxr::InstanceOptions instance{.validation = options.validation,
@@ -52,6 +52,7 @@ class SessionTarget final : public OpenXrTarget {
   public:
     explicit SessionTarget(const OpenXrOptions& options)
         : display_(options.display.name),
+          patience_ns_(static_cast<std::int64_t>(options.patience_s * 1e9)),
           choice_(openxr::choose_runtime(options.display)),
           instance_(choice_, instance_options(options)),
           vulkan_(instance_),
@@ -105,30 +106,23 @@ class SessionTarget final : public OpenXrTarget {
         const auto wait = typed<XrFrameWaitInfo>(XR_TYPE_FRAME_WAIT_INFO);
         auto state = typed<XrFrameState>(XR_TYPE_FRAME_STATE);
         xr_check_session(xrWaitFrame(session_->handle(), &wait, &state), "xrWaitFrame");
-        display_time_ = state.predictedDisplayTime;
-        const auto display_ns = clock_.host_ns(display_time_);
-        xr_check_session(display_ns ? XR_SUCCESS : XR_ERROR_TIME_INVALID,
-                         "the announced display time is none: xrConvertTimeToTimespecTimeKHR");
-        frame.display = {*display_ns, time::StampKind::Predicted};
-        // Some runtimes know no period at first; 0 says so.
-        const XrDuration period = state.predictedDisplayPeriod;
-        frame.period_ns = period > 0 && period <= kLongestPeriodNs ? period : 0;
+        take_display_time(state.predictedDisplayTime, frame);
+        const AnnouncedPeriod::Judgement period = period_.next(state.predictedDisplayPeriod);
+        tell(period.change);
+        frame.period_ns = period.period_ns;
         frame.should_render = state.shouldRender == XR_TRUE;
-        if (const auto odd = announced_.next(*display_ns, time::monotonic_ns())) {
-            session_->tell(*odd);
-        }
     }
 
     void begin_frame() override {
         const auto begin = typed<XrFrameBeginInfo>(XR_TYPE_FRAME_BEGIN_INFO);
         if (xr_check_session(xrBeginFrame(session_->handle(), &begin), "xrBeginFrame") ==
             XR_FRAME_DISCARDED) {
-            session_->tell("frame discarded by the runtime");
+            session_->tell(frame::kFrameDiscardedEvent, "frame discarded by the runtime");
         }
     }
 
     void locate(TargetFrame& frame) override {
-        views_->locate(display_time_);
+        views_->locate(display_time_, display_time_is_good_);
         frame.views = views_->views();
         frame.hidden = hidden_;
         frame.head = views_->head();
@@ -147,7 +141,17 @@ class SessionTarget final : public OpenXrTarget {
         end.environmentBlendMode = blend_mode_;
         end.layerCount = rendered ? 1 : 0;
         end.layers = rendered ? &layer : nullptr;
-        xr_check_session(xrEndFrame(session_->handle(), &end), "xrEndFrame");
+        const XrResult ended = xrEndFrame(session_->handle(), &end);
+        if (ended == XR_ERROR_TIME_INVALID && !display_time_is_good_) {
+            session_->tell(frame::kFrameRefusedEvent,
+                           "the runtime refused a frame for its own odd display time: not shown");
+            be_patient(time::monotonic_ns());
+            return;
+        }
+        xr_check_session(ended, "xrEndFrame");
+        if (announced_a_time_) {
+            no_time_since_ns_.reset();
+        }
     }
 
     std::optional<gaze::Pose> head_at(std::int64_t time_ns) override {
@@ -168,10 +172,53 @@ class SessionTarget final : public OpenXrTarget {
                 {"depth layer", depth_format() ? vk::to_string(*depth_format()) : "none"}};
     }
 
-    std::vector<std::string> take_events() override { return session_->take_events(); }
+    std::vector<frame::Event> take_events() override { return session_->take_events(); }
 
   private:
+    /// What the runtime announced goes back to it, odd or not: it knows what it meant. In place of
+    /// what is no time at all it gets the likeliest.
+    void take_display_time(XrTime announced, TargetFrame& frame) {
+        const auto display_ns = announced > 0 ? clock_.host_ns(announced) : std::nullopt;
+        const std::int64_t now_ns = time::monotonic_ns();
+        const AnnouncedTime::Judgement judged = announced_.next(announced, display_ns, now_ns);
+        tell(judged.change);
+        announced_a_time_ = display_ns.has_value();
+        if (!announced_a_time_) {
+            be_patient(now_ns);
+        }
+        display_time_is_good_ = judged.good;
+        display_time_ = announced_a_time_
+                            ? announced
+                            : clock_.xr_time(judged.likely_ns).value_or(display_time_ + 1);
+        frame.display =
+            judged.good ? time::Stamp{*display_ns, time::StampKind::Predicted} : time::Stamp{};
+        frame.aimed_ns = judged.likely_ns;
+    }
+
+    /// Counts from the first of the frames in a row that have no display time that the runtime and
+    /// we agree on. Far times may go on: their frames are shown, only when is unknown.
+    void be_patient(std::int64_t now_ns) {
+        no_time_since_ns_ = no_time_since_ns_.value_or(now_ns);
+        const std::int64_t without_ns = now_ns - *no_time_since_ns_;
+        if (without_ns >= patience_ns_) {
+            throw SetupError(
+                ErrorKind::SessionLost,
+                fmt::format("OpenXR: {} has announced no display time that is one for {:.1f} s "
+                            "(openxr.patience_s = {:g}): see that the headset is connected, then "
+                            "start again",
+                            instance_.runtime_name(), static_cast<double>(without_ns) * 1e-9,
+                            static_cast<double>(patience_ns_) * 1e-9));
+        }
+    }
+
+    void tell(const std::optional<frame::Event>& event) {
+        if (event) {
+            session_->tell(event->kind, event->text);
+        }
+    }
+
     std::string display_;
+    std::int64_t patience_ns_;
     openxr::RuntimeChoice choice_;
     openxr::Instance instance_;
     openxr::VulkanObjects vulkan_;
@@ -184,8 +231,12 @@ class SessionTarget final : public OpenXrTarget {
     std::optional<VisibilityMask> visibility_mask_;
     std::uint64_t mask_changes_ = 0;
     gaze::HiddenMeshes hidden_;
-    XrTime display_time_ = 0;
+    XrTime display_time_ = 0;  ///< what the frame that is under way is for, to the runtime
+    bool display_time_is_good_ = true;
+    bool announced_a_time_ = true;
+    std::optional<std::int64_t> no_time_since_ns_;
     AnnouncedTime announced_;
+    AnnouncedPeriod period_;
 };
 
 }  // namespace

@@ -16,6 +16,9 @@ struct OpenXrOptions {
     bool validation = false;  ///< the core validation layer; its findings go to the log
     /// Give depth images along, where the runtime takes them (XR_KHR_composition_layer_depth).
     bool depth = false;
+    /// How long the runtime may announce no display time that is one, s, before the session counts
+    /// as lost.
+    double patience_s = 2.0;
     /// Extensions for whatever shares the session, enabled where the runtime offers them.
     std::vector<const char*> extensions{};
 };

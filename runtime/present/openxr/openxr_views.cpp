@@ -10,7 +10,7 @@ namespace gazeloop::present {
 
 using openxr::typed;
 
-void OpenXrViews::locate(XrTime display_time) {
+void OpenXrViews::locate(XrTime display_time, bool is_good) {
     auto info = typed<XrViewLocateInfo>(XR_TYPE_VIEW_LOCATE_INFO);
     info.viewConfigurationType = openxr::kStereo;
     info.displayTime = display_time;
@@ -19,9 +19,12 @@ void OpenXrViews::locate(XrTime display_time) {
     std::array<XrView, gaze::kEyeCount> views{typed<XrView>(XR_TYPE_VIEW),
                                               typed<XrView>(XR_TYPE_VIEW)};
     std::uint32_t count = 0;
-    openxr::xr_check_session(
-        xrLocateViews(session_.handle(), &info, &state, views.size(), &count, views.data()),
-        "xrLocateViews");
+    const XrResult located =
+        xrLocateViews(session_.handle(), &info, &state, views.size(), &count, views.data());
+    if (located == XR_ERROR_TIME_INVALID && !is_good) {
+        return;  // as absurd to the runtime as to us
+    }
+    openxr::xr_check_session(located, "xrLocateViews");
     bool tracked = true;
     bool rendered_for = true;
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
@@ -38,10 +41,12 @@ void OpenXrViews::locate(XrTime display_time) {
         }
         rendered_for = take_field_of_view(e, views[e].fov) && rendered_for;
     }
-    say_change(tracked, tracked_, "the head is tracked",
-               "the head is not tracked: its last known pose stands");
-    say_change(rendered_for, rendered_for_, "the fields of view can be rendered for",
-               "a field of view that nothing can be rendered for: the last one stands");
+    say_change(tracked, tracked_, {frame::kHeadFoundEvent, "the head is tracked"},
+               {frame::kHeadLostEvent, "the head is not tracked: its last known pose stands"});
+    say_change(rendered_for, rendered_for_,
+               {frame::kViewGoodEvent, "the fields of view can be rendered for"},
+               {frame::kViewOddEvent,
+                "a field of view that nothing can be rendered for: the last one stands"});
     if (const auto head = session_.head_at(display_time)) {
         head_ = *head;
     }
@@ -65,9 +70,10 @@ bool OpenXrViews::take_field_of_view(std::size_t eye, const XrFovf& fov) {
     return false;
 }
 
-void OpenXrViews::say_change(bool now, bool& before, const char* good, const char* bad) {
+void OpenXrViews::say_change(bool now, bool& before, const Said& good, const Said& bad) {
     if (now != before) {
-        session_.tell(now ? good : bad);
+        const Said& said = now ? good : bad;
+        session_.tell(said.kind, said.text);
     }
     before = now;
 }

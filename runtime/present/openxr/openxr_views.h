@@ -14,9 +14,10 @@ class OpenXrViews {
     OpenXrViews(openxr::Session& session, const gaze::PerEye<vk::Extent2D>& extents)
         : session_(session), extents_(extents) {}
 
-    /// At a display time, in LOCAL space. Throws SetupError: SessionLost when the runtime refuses,
-    /// NoDevice when it never gave a field of view that can be rendered for.
-    void locate(XrTime display_time);
+    /// At a display time, in LOCAL space. One that is not good may be refused: then all stands as
+    /// it was. Throws SetupError: SessionLost when the runtime refuses, NoDevice when it never gave
+    /// a field of view that can be rendered for.
+    void locate(XrTime display_time, bool is_good);
 
     [[nodiscard]] const gaze::StereoView& views() const { return views_; }
     [[nodiscard]] const gaze::Pose& head() const { return head_; }
@@ -24,7 +25,11 @@ class OpenXrViews {
   private:
     /// False if it cannot be rendered for.
     [[nodiscard]] bool take_field_of_view(std::size_t eye, const XrFovf& fov);
-    void say_change(bool now, bool& before, const char* good, const char* bad);
+    struct Said {
+        const frame::EventKind& kind;
+        const char* text;
+    };
+    void say_change(bool now, bool& before, const Said& good, const Said& bad);
 
     openxr::Session& session_;
     gaze::PerEye<vk::Extent2D> extents_;

@@ -4,7 +4,8 @@
 //                  stops the session and lets it begin again 20 polls later), event:STATE (a
 //                  session state), event:INSTANCE_LOSS_PENDING, event:VISIBILITY_MASK_CHANGED
 //   xrGetVulkanGraphicsRequirements2KHR: newer (wants a Vulkan that does not exist yet)
-//   xrEndSession:  silence (from then on the runtime has no events)
+//   xrEndSession:  silence (from then on the runtime has no events), again (it says once more that
+//                  the session is stopping)
 //   xrLocateViews: untracked (no valid pose), nan-pose, zero-pose (a quaternion of zeros), nan-fov,
 //                  flat-fov (all angles 0), wide-fov (a right angle to each side)
 //   xrLocateSpace: untracked, nan-pose; the gaze's space is not counted (eye_gaze.cpp)
@@ -24,7 +25,8 @@ constexpr int kPollsOfAPause = 20;
 bool g_paused = false;
 bool g_silent = false;
 int g_polls_until_ready = 0;
-XrDuration g_display_moved_by = 0;  // of the frame that is under way
+XrTime g_announced = 0;  // by the runtime, for the frame that is under way
+XrTime g_passed_on = 0;  // what the program was told in its place
 
 XrSessionState state_named(std::string_view text) {
 #define GAZELOOP_STATE(name, value)                                                 \
@@ -106,10 +108,13 @@ XRAPI_ATTR XrResult XRAPI_CALL poll_event(XrInstance instance, XrEventDataBuffer
 /// The runtime knows nothing of a pause that the layer makes.
 XRAPI_ATTR XrResult XRAPI_CALL end_session(XrSession session) {
     if (const auto effect = layer().plan.call("xrEndSession")) {
-        if (*effect != "silence") {
+        if (*effect == "again") {
+            send_state(XR_SESSION_STATE_STOPPING);
+        } else if (*effect == "silence") {
+            g_silent = true;
+        } else {
             refuse_fault("xrEndSession", *effect);
         }
-        g_silent = true;
     }
     if (g_paused) {
         send_state(XR_SESSION_STATE_IDLE);
@@ -153,9 +158,8 @@ void after_wait(std::string_view effect, XrFrameState& state) {
     } else if (effect.starts_with("display=")) {
         state.predictedDisplayTime = whole_number("xrWaitFrame", effect.substr(8));
     } else if (effect.starts_with(kDisplay)) {
-        g_display_moved_by =
+        state.predictedDisplayTime +=
             whole_number("xrWaitFrame", effect.substr(kDisplay.size())) * 1'000'000;
-        state.predictedDisplayTime += g_display_moved_by;
     } else if (effect.starts_with(kPeriod)) {
         state.predictedDisplayPeriod = whole_number("xrWaitFrame", effect.substr(kPeriod.size()));
     } else {
@@ -168,9 +172,12 @@ XRAPI_ATTR XrResult XRAPI_CALL end_frame(XrSession session, const XrFrameEndInfo
     if (const auto failure = failure_of("xrEndFrame")) {
         return *failure;
     }
-    XrFrameEndInfo moved_back = *info;
-    moved_back.displayTime -= g_display_moved_by;
-    return next<PFN_xrEndFrame>("xrEndFrame")(session, &moved_back);
+    if (info->displayTime <= 0 || (g_passed_on > 0 && info->displayTime != g_passed_on)) {
+        return XR_ERROR_TIME_INVALID;  // a runtime wants its own time back, if it gave one
+    }
+    XrFrameEndInfo as_announced = *info;
+    as_announced.displayTime = g_announced;
+    return next<PFN_xrEndFrame>("xrEndFrame")(session, &as_announced);
 }
 
 XRAPI_ATTR XrResult XRAPI_CALL wait_frame(XrSession session, const XrFrameWaitInfo* info,
@@ -180,11 +187,12 @@ XRAPI_ATTR XrResult XRAPI_CALL wait_frame(XrSession session, const XrFrameWaitIn
     if (const auto result = effect ? result_named(*effect) : std::nullopt) {
         return *result;
     }
-    g_display_moved_by = 0;
     const XrResult result = next<PFN_xrWaitFrame>("xrWaitFrame")(session, info, state);
+    g_announced = state->predictedDisplayTime;
     if (effect && XR_SUCCEEDED(result)) {
         after_wait(*effect, *state);
     }
+    g_passed_on = state->predictedDisplayTime;
     return result;
 }
 

@@ -19,8 +19,9 @@
 #include "runtime/present/headless_target.h"
 #include "runtime/present/openxr/openxr_target.h"
 #include "runtime/profiles/profiles.h"
+#include "runtime/run/event_log.h"
 #include "runtime/run/program_settings.h"
-#include "runtime/run/run_observers.h"
+#include "runtime/run/recording_observer.h"
 #include "runtime/scene/scenes.h"
 #include "runtime/time/clock.h"
 #include "sim/gaze_generator.h"
@@ -146,7 +147,7 @@ std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
     latency::LatencySummary summary(
         {.clock = latency::LoopClock::Wall, .period_ns = display.period_ns()});
     latency::SummaryObserver summing(summary);
-    run::LogObserver logging;
+    run::EventLog logging;
     FrameWatch watch(options);
     std::unique_ptr<session::SessionRecorder> recorder;
     std::optional<run::RecordingObserver> recording;

@@ -316,5 +316,63 @@ TEST(LatencySummary, CountsSamples) {
     EXPECT_EQ(summary.report().gaze, (GazeCounts{.received = 3, .invalid = 3, .lost = 2}));
 }
 
+// The profile's times are those of its display, whatever a few announcements say.
+TEST(LatencySummary, LetsTheCommonestPeriodDecideWhoseDisplayItIs) {
+    const auto report = [](std::uint64_t odd_frames) {
+        LatencySummary summary(kWallConfig);
+        for (std::uint64_t index = 0; index < 100; ++index) {
+            summary.add_display_period(index < odd_frames ? 16 * kMs : kExamplePeriodNs);
+            summary.add(example_frame(index));
+            summary.add(example_gpu(index));
+        }
+        return summary.report();
+    };
+    for (const std::uint64_t odd_frames : {0U, 1U, 20U}) {
+        const SummaryReport ours = report(odd_frames);
+        EXPECT_EQ(ours.config.period_ns, kExamplePeriodNs);
+        EXPECT_EQ(ours.config.switching_ns, 2 * kMs);
+        EXPECT_EQ(row(ours, Stage::Switching).count, 100U) << "of all frames alike";
+        EXPECT_EQ(ours.gaze_age_at_display.min_ms, 18.0);
+        EXPECT_EQ(ours.gaze_age_at_display.max_ms, 18.0);
+    }
+    const SummaryReport another = report(80);
+    EXPECT_EQ(another.config.period_ns, 16 * kMs);
+    EXPECT_EQ(another.config.switching_ns, std::nullopt);
+    EXPECT_EQ(row(another, Stage::Switching).count, 0U);
+    EXPECT_EQ(another.gaze_age_at_display.min_ms, 16.0);
+    EXPECT_EQ(another.gaze_age_at_display.max_ms, 16.0);
+    EXPECT_EQ(another.unaccounted.max_ms, 0.0);
+    EXPECT_NEAR(share(another, time::StampKind::Profile), 100.0 * 3 / 16, 1e-9);
+}
+
+TEST(LatencySummary, KeepsUnknownDisplayTimesOutAndCountsThem) {
+    LatencySummary summary(kWallConfig);
+    for (std::uint64_t index = 0; index < 100; ++index) {
+        frame::FrameRecord frame = example_frame(index);
+        if (index < 30) {
+            frame.stamps.display = {};
+        }
+        summary.add(frame);
+        summary.add(example_gpu(index));
+    }
+    const SummaryReport report = summary.report();
+    EXPECT_EQ(report.frames.display_unknown, 30U);
+    EXPECT_EQ(report.frames.in_time_unknown, 30U);
+    EXPECT_EQ(report.gaze_age_at_display.count, 70U);
+    EXPECT_EQ(report.gaze_age_at_display.max_ms, 18.0);
+    EXPECT_EQ(report.gaze_age_at_latch.count, 100U);
+}
+
+TEST(LatencySummary, GathersWhatAUserShouldKnow) {
+    LatencySummary summary(kWallConfig);
+    summary.add_event({}, frame::kSessionEvent.name, "session state: FOCUSED");
+    summary.add(example_frame(3));
+    summary.add_event({35 * kMs, time::StampKind::Measured}, frame::kHeadLostEvent.name, "lost");
+    const SummaryReport report = summary.report();
+    ASSERT_EQ(report.happenings.size(), 1U);
+    EXPECT_EQ(report.happenings[0].text.view(), "lost");
+    EXPECT_EQ(report.began, example_frame(3).stamps.wake_up);
+}
+
 }  // namespace
 }  // namespace gazeloop::latency

@@ -17,6 +17,7 @@ constexpr std::int64_t kStart = 10 * kHour;
 present::TargetFrame announced(std::int64_t display_ns) {
     present::TargetFrame frame;
     frame.display = {display_ns, time::StampKind::Predicted};
+    frame.aimed_ns = display_ns;
     frame.period_ns = 10 * kMs;
     return frame;
 }

@@ -35,7 +35,7 @@ TEST(StageBars, AreWhatTheSummarySays) {
         latency::LatencySummary summary({.period_ns = kDisplay.period_ns,
                                          .switching_ns = kDisplay.switching_ns,
                                          .rolling_ns = kDisplay.rolling_ns});
-        summary.set_display_period(period_ns);
+        summary.add_display_period(period_ns);
         summary.add(frame);
         const frame::FrameGpuRecord gpu = latency::example_gpu(0);
         summary.add(gpu);

@@ -230,5 +230,55 @@ TEST(SummaryJson, UnknownIsNull) {
     EXPECT_TRUE(json["durations"]["gaze_age_at_latch"]["min_ms"].is_null());
 }
 
+TEST(SummaryText, SaysWhatHappenedOnlyWhereSomethingDid) {
+    EXPECT_THAT(summary_text(example_report(2)), Not(HasSubstr("what happened")));
+    EXPECT_EQ(summary_json(example_report(2))["happenings"], nlohmann::ordered_json::array());
+
+    latency::LatencySummary summary({.period_ns = kExamplePeriodNs});
+    summary.add(example_frame(10));
+    const auto at = [](std::int64_t ms) {
+        return time::Stamp{ms * kMs, time::StampKind::Measured};
+    };
+    summary.add_event(at(150), "display-time-odd", "the announced display time lies 7 s ahead");
+    summary.add_event(at(1350), "display-time-odd", "the announced display time lies 9 s ahead");
+    summary.add_event(at(350), "head-found", "the head is tracked");
+    summary.add_event({}, "display", std::string(150, 'x') + " " + std::string(80, 'y'));
+    const latency::SummaryReport report = summary.report();
+    const std::string text = summary_text(report);
+    EXPECT_THAT(text,
+                HasSubstr("what happened, from the first frame on\n"
+                          "- display-time-odd, 2 times from 0.050 s to 1.250 s: the announced "
+                          "display time lies 9 s\n    ahead\n"
+                          "- head-found at 0.250 s: the head is tracked\n"
+                          "- display, at an unknown time:"));
+    for (const std::string& line : lines(text)) {
+        EXPECT_LE(line.size(), 100U) << line;
+    }
+    const nlohmann::ordered_json json = summary_json(report);
+    ASSERT_EQ(json["happenings"].size(), 3U);
+    EXPECT_EQ(json["happenings"][0]["kind"], "display-time-odd");
+    EXPECT_EQ(json["happenings"][0]["warning"], true);
+    EXPECT_EQ(json["happenings"][0]["times"], 2);
+    EXPECT_EQ(json["happenings"][0]["last_s"], 1.25);
+    EXPECT_EQ(json["happenings"][1]["warning"], false);
+    EXPECT_EQ(json["happenings"][2]["first_s"], nullptr);
+    EXPECT_EQ(json["other_happenings"], 0);
+}
+
+TEST(SummaryText, CountsFramesThatAreShownAtAnUnknownTime) {
+    latency::LatencySummary summary({.period_ns = kExamplePeriodNs});
+    for (std::uint64_t index = 0; index < 4; ++index) {
+        frame::FrameRecord frame = example_frame(index);
+        if (index == 1) {
+            frame.stamps.display = {};
+        }
+        summary.add(frame);
+    }
+    EXPECT_EQ(line_with(summary_text(summary.report()), "shown "),
+              "shown    at an unknown time in 1 of 4 rendered frames");
+    EXPECT_EQ(summary_json(summary.report())["frames"]["display_unknown"], 1);
+    EXPECT_THAT(summary_text(example_report(4)), Not(HasSubstr("at an unknown time")));
+}
+
 }  // namespace
 }  // namespace gazeloop::report

@@ -32,14 +32,4 @@ class RecordingObserver final : public frame::FrameObserver {
     bool trouble_reported_ = false;
 };
 
-/// Logs events as they happen.
-class LogObserver final : public frame::FrameObserver {
-  public:
-    void on_event(time::Stamp, std::string_view kind, std::string_view text) override {
-        // Users of a device want to know what it does.
-        spdlog::log(kind == "tracker" ? spdlog::level::info : spdlog::level::debug, "{}: {}", kind,
-                    text);
-    }
-};
-
 }  // namespace gazeloop::run

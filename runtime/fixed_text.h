@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace gazeloop::session {
+namespace gazeloop {
 
 /// Text of at most `Capacity` bytes in place. Longer text is cut where a UTF-8 character begins.
 template <std::size_t Capacity>
@@ -38,4 +38,4 @@ class FixedText {
     std::size_t size_ = 0;
 };
 
-}  // namespace gazeloop::session
+}  // namespace gazeloop

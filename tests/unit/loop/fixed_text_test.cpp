@@ -1,10 +1,10 @@
-#include "runtime/session/fixed_text.h"
+#include "runtime/fixed_text.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace gazeloop::session {
+namespace gazeloop {
 namespace {
 
 TEST(FixedText, KeepsWhatFits) {
@@ -26,4 +26,4 @@ TEST(FixedText, CutsWhatIsNoUtf8AtItsSize) {
 }
 
 }  // namespace
-}  // namespace gazeloop::session
+}  // namespace gazeloop
