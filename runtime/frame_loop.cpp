@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <limits>
 
+#include "runtime/gaze/head_limits.h"
 #include "runtime/render/depth.h"
 
 namespace gazeloop {
@@ -139,6 +142,7 @@ class FrameLoop {
         record.head = planned_.head;
         record.views = planned_.views;
         follow_hidden_area(record.index);
+        follow_origin(record.index);
 
         // A frame that is not drawn still takes the gaze, so that the next one gets no old gaze.
         if (planned_.should_render) {
@@ -189,6 +193,34 @@ class FrameLoop {
         }
     }
 
+    /// Held gaze goes along with the world; what was seen in the one before is forgotten.
+    void follow_origin(std::uint64_t frame) {
+        if (const std::uint64_t given_up = timeline_->origins_given_up(); given_up > 0) {
+            report_event(timeline_->now(), "origin",
+                         fmt::format("{} announced new origin{} never showed in the head's poses: "
+                                     "not followed; the runtime is at fault",
+                                     given_up, given_up == 1 ? "" : "s"));
+        }
+        if (!planned_.origin) {
+            return;
+        }
+        gaze::OriginChange change = *planned_.origin;
+        change.frame = frame;
+        parts_.gaze.move_origin(change.new_in_old);
+        first_in_this_world_ = frame;
+        source_->take_seen_depth({});
+        for (frame::FrameObserver* const observer : parts_.observers) {
+            observer->on_origin(change);
+        }
+        report_event(
+            timeline_->now(), "origin",
+            fmt::format("new origin, turned by {:.1f} deg and moved by {:.3f} m, {}",
+                        glm::degrees(gaze::turned_rad({}, change.new_in_old)),
+                        glm::length(change.new_in_old.position_m),
+                        change.announced ? "as the runtime said: held gaze goes along"
+                                         : "by how the head stands: held gaze stays in the head"));
+    }
+
     [[nodiscard]] std::uint64_t hidden_pixels(std::size_t eye) const {
         return hidden_areas_[eye] != nullptr ? hidden_areas_[eye]->hidden_pixels() : 0;
     }
@@ -199,6 +231,10 @@ class FrameLoop {
         for (gaze::GazeSample& sample : samples_) {
             if (!sample.head && !head_fixed_ && sample.sampled.known()) {
                 sample.head = head_at(sample.sampled.ns);
+            }
+            if (sample.head) {
+                const time::Stamp& seen = sample.sampled.known() ? sample.sampled : sample.arrived;
+                sample.head = timeline_->in_this_world(*sample.head, seen.ns);
             }
             parts_.gaze.add(sample);
             for (frame::FrameObserver* const observer : parts_.observers) {
@@ -263,7 +299,9 @@ class FrameLoop {
             for (frame::FrameObserver* const observer : parts_.observers) {
                 observer->on_gpu(*finished);
             }
-            source_->take_seen_depth(parts_.renderer.seen_depth());
+            if (finished->index >= first_in_this_world_) {
+                source_->take_seen_depth(parts_.renderer.seen_depth());
+            }
         }
     }
 
@@ -338,6 +376,7 @@ class FrameLoop {
     render::FrameView view_;     ///< of the frame that is rendered
     gaze::HiddenChange hidden_;  ///< in force, and of these views
     gaze::StereoView hidden_views_;
+    std::uint64_t first_in_this_world_ = 0;  ///< frame
     foveation::HiddenAreas hidden_areas_;
     std::vector<gaze::GazeSample> samples_;
     gaze::PerEye<Seen> seen_;

@@ -41,6 +41,13 @@ void LiveTimeline::plan(const present::TargetFrame& target, const gaze::HeadMoti
     frame.head = head != nullptr ? head->at(target.aimed_ns) : target.head;
     frame.views = head != nullptr ? on_head(frame.head, target.views, target.head) : target.views;
     frame.hidden = target.hidden;
+    frame.origin.reset();
+    if (head == nullptr) {
+        for (const gaze::AnnouncedOrigin& announced : target.new_origins) {
+            origin_.announce(announced);
+        }
+        frame.origin = origin_.next(target.display.ns, target.period_ns, target.head);
+    }
 }
 
 time::Stamp VirtualTimeline::now() {
@@ -72,8 +79,13 @@ void VirtualTimeline::settle(frame::FrameGpuRecord& record) {
 }
 
 RecordedTimeline::RecordedTimeline(const session::OpenSession& session, std::uint64_t frames)
-    : frame_count_(frames), begun_(session), finished_(session), hidden_(session) {
+    : frame_count_(frames),
+      begun_(session),
+      finished_(session),
+      hidden_(session),
+      origin_(session) {
     value_or_throw(hidden_.next());
+    value_or_throw(origin_.next());
     begin(0);
 }
 
@@ -84,6 +96,11 @@ void RecordedTimeline::begin(std::uint64_t frame) {
     while (hidden_.row() != nullptr && hidden_.row()->frame <= frame) {
         hidden_now_ = hidden_.row()->meshes;
         value_or_throw(hidden_.next());
+    }
+    origin_now_.reset();
+    while (origin_.row() != nullptr && origin_.row()->frame <= frame) {
+        origin_now_ = *origin_.row();
+        value_or_throw(origin_.next());
     }
 }
 
@@ -96,6 +113,7 @@ void RecordedTimeline::plan(const present::TargetFrame&, const gaze::HeadMotion*
     frame.head = frame_.head;
     frame.views = frame_.views;
     frame.hidden = hidden_now_;
+    frame.origin = origin_now_;
 }
 
 time::Stamp RecordedTimeline::latch() { return frame_.stamps.latch; }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/head_motion.h"
+#include "runtime/gaze/origin_watch.h"
 #include "runtime/present/frame_target.h"
 #include "runtime/session/cursor.h"
 
@@ -18,6 +20,7 @@ struct PlannedFrame {
     gaze::Pose head;         ///< in world
     gaze::StereoView views;  ///< in world
     gaze::HiddenMeshes hidden;
+    std::optional<gaze::OriginChange> origin;  ///< the world is another than the frame before's
 };
 
 /// Where times come from: the wall clock, a model of it, or a recording. The loop asks here for
@@ -40,6 +43,15 @@ class FrameTimeline {
     virtual void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
                       PlannedFrame& frame) = 0;
 
+    /// A sample's head, as target or source gave it, in the world of the frame planned last.
+    [[nodiscard]] virtual gaze::Pose in_this_world(const gaze::Pose& head,
+                                                   std::int64_t /*time_ns*/) const {
+        return head;
+    }
+
+    /// Announcements of another world that came to nothing, since the last call.
+    [[nodiscard]] virtual std::uint64_t origins_given_up() { return 0; }
+
     /// When the gaze is read: the time now, unless it was decided before.
     virtual time::Stamp latch() { return now(); }
 
@@ -60,7 +72,8 @@ class FrameTimeline {
 };
 
 /// Wall clock; display times and periods are as the target announces them. Where the gaze source
-/// recorded the head, the views are that head's: the world is moved around the target's head.
+/// recorded the head, the views are that head's: the world is moved around the target's head, and
+/// where the target's origin is does not matter.
 class LiveTimeline final : public FrameTimeline {
   public:
     explicit LiveTimeline(std::int64_t start_ns) : start_ns_(start_ns) {}
@@ -68,11 +81,17 @@ class LiveTimeline final : public FrameTimeline {
     time::Stamp now() override;
     void plan(const present::TargetFrame& target, const gaze::HeadMotion* head,
               PlannedFrame& frame) override;
+    [[nodiscard]] gaze::Pose in_this_world(const gaze::Pose& head,
+                                           std::int64_t time_ns) const override {
+        return origin_.in_this_world(head, time_ns);
+    }
+    [[nodiscard]] std::uint64_t origins_given_up() override { return origin_.take_given_up(); }
     [[nodiscard]] bool is_live() const override { return true; }
     [[nodiscard]] std::int64_t slept_ns() const override;
 
   private:
     std::int64_t start_ns_;
+    gaze::OriginWatch origin_;
 };
 
 /// Virtual time: frame k wakes, latches and submits at k periods, is on the GPU for the modelled
@@ -121,8 +140,10 @@ class RecordedTimeline final : public FrameTimeline {
     session::FrameCursor begun_;     ///< at the frame that was begun
     session::FrameCursor finished_;  ///< at the last one that the GPU has finished
     session::HiddenCursor hidden_;   ///< at the first change after that frame
+    session::OriginCursor origin_;   ///< at the first change after that frame
     frame::FrameRecord frame_;       ///< the frame that was begun
     gaze::HiddenMeshes hidden_now_;  ///< in it
+    std::optional<gaze::OriginChange> origin_now_;
 };
 
 }  // namespace gazeloop

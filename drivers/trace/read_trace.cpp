@@ -15,6 +15,7 @@
 #include "drivers/trace/htc_vive_pro.h"
 #include "drivers/trace/native_trace.h"
 #include "drivers/trace/trace_format.h"
+#include "runtime/gaze/new_origins.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -86,7 +87,11 @@ Expected<gaze::GazeTrace> read_trace(std::istream& in, const std::string& name,
     if (fitting == candidates.end()) {
         return std::unexpected(unknown_header(*table, candidates));
     }
-    return (*fitting)->read(*table);
+    Expected<gaze::GazeTrace> trace = (*fitting)->read(*table);
+    if (trace) {
+        gaze::report_new_origins(trace->samples, trace->report);
+    }
+    return trace;
 }
 
 Expected<gaze::GazeTrace> read_trace(const std::string& file, std::string_view format) {

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "runtime/gaze/new_origins.h"
+
 namespace gazeloop::drivers {
 namespace {
 
@@ -24,10 +26,48 @@ gaze::Pose recentring(const gaze::Pose& first) {
     return {back, back * -first.position_m};
 }
 
+/// Moves all poses into the world of the first one. Times are as recorded.
+void take_out_new_origins(std::vector<gaze::GazeSample>& samples) {
+    const std::vector<gaze::NewOrigin> origins = gaze::new_origins(samples);
+    auto next = origins.begin();
+    gaze::Pose origin;  // of the world in force, in the first one
+    bool first_world = true;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (next != origins.end() && next->sample == i) {
+            origin = gaze::compose(origin, next->new_in_old);
+            origin.orientation = glm::normalize(origin.orientation);
+            first_world = false;
+            ++next;
+        }
+        if (samples[i].head && !first_world) {
+            samples[i].head = gaze::compose(origin, *samples[i].head);
+        }
+    }
+}
+
+void play_faster(std::vector<gaze::GazeSample>& samples, double speed) {
+    const auto quicker = [speed](std::int64_t ns) {
+        return std::llround(static_cast<double>(ns) / speed);
+    };
+    for (gaze::GazeSample& sample : samples) {
+        for (time::Stamp* const stamp : {&sample.sampled, &sample.ready, &sample.arrived}) {
+            stamp->ns = quicker(stamp->ns);
+        }
+        if (sample.uncertainty_ns) {
+            sample.uncertainty_ns = quicker(*sample.uncertainty_ns);
+        }
+    }
+}
+
 }  // namespace
 
-TraceSource::TraceSource(gaze::GazeTrace trace, std::int64_t start_ns, std::int64_t delay_ns)
+TraceSource::TraceSource(gaze::GazeTrace trace, std::int64_t start_ns, std::int64_t delay_ns,
+                         double speed)
     : trace_(std::move(trace)) {
+    take_out_new_origins(trace_.samples);
+    if (speed != 1.0) {
+        play_faster(trace_.samples, speed);
+    }
     const auto first_head =
         std::find_if(trace_.samples.begin(), trace_.samples.end(),
                      [](const gaze::GazeSample& sample) { return sample.head.has_value(); });

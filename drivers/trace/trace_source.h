@@ -15,12 +15,19 @@ namespace gazeloop::drivers {
 ///
 /// The world is turned about +Y and moved. The first known head pose then stands at the origin and
 /// looks along -Z as seen from above; its pitch and roll stay.
+///
+/// Where the recorded origin moves later (gaze/new_origins.h), it is taken out in the same way:
+/// head and views of a replay do not turn, because the head that was recorded did not, and the
+/// foveae stay where the gaze is. The pose after the jump is where the one before it was, and what
+/// follows is relative to that.
 class TraceSource final : public GazeSource {
   public:
     /// The trace's time 0 is `start_ns` (host time). Each sample arrives `delay_ns` (>= 0, the
     /// tracker's modelled delay) after it was taken, plus the delay that the trace recorded, and
     /// not before its predecessor. Head poses whose time goes back are left out of the track.
-    TraceSource(gaze::GazeTrace trace, std::int64_t start_ns, std::int64_t delay_ns);
+    /// `speed` (> 0): how many times faster than recorded it is played, the modelled delay apart.
+    TraceSource(gaze::GazeTrace trace, std::int64_t start_ns, std::int64_t delay_ns,
+                double speed = 1.0);
 
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;
     /// The head poses at the samples' times; null if the trace has none.

@@ -54,8 +54,15 @@ class TraceOfSession final : public frame::FrameObserver {
         trace_.device = "recorded session";
     }
 
+    void on_origin(const gaze::OriginChange& change) override {
+        origin_ = gaze::compose(origin_.value_or(gaze::Pose{}), change.new_in_old);
+    }
+
     void on_sample(const gaze::GazeSample& recorded, std::uint64_t) override {
         gaze::GazeSample& sample = trace_.samples.emplace_back(recorded);
+        if (sample.head && origin_) {
+            sample.head = gaze::compose(*origin_, *sample.head);
+        }
         if (!start_) {
             start_ = recorded.arrived.known() ? recorded.arrived : recorded.sampled;
         }
@@ -82,6 +89,7 @@ class TraceOfSession final : public frame::FrameObserver {
   private:
     gaze::GazeTrace trace_;
     std::optional<time::Stamp> start_;
+    std::optional<gaze::Pose> origin_;  ///< of the world in force, in the first one
 };
 
 void play_to(frame::FrameObserver& observer, const session::OpenSession& session) {
@@ -158,7 +166,8 @@ ExitCode replay_session(const ReplayCommand& command, run::ProgramSettings& sett
     const auto session = value_or_throw(session::OpenSession::open(command.file));
     const session::SessionInfo& info = session.info();
     if (!info.closed_cleanly) {
-        spdlog::warn("{}: the recording was not closed; what it holds is replayed", command.file);
+        spdlog::warn("{}: the recording was not closed; what it holds is replayed{}{}",
+                     command.file, info.missing_log.empty() ? "" : "; ", info.missing_log);
     }
     if (const auto taken = settings::take_recorded(info.header.config, command.file, settings);
         !taken) {

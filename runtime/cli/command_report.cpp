@@ -24,7 +24,9 @@ struct ReportCommand {
 std::string end_of(const session::SessionInfo& info, const session::PlaybackEnd& end) {
     std::string text = "The recording was not closed: it ";
     text += end.last_frame ? fmt::format("ends at frame {}.", *end.last_frame) : "has no frames.";
-    if (info.writing_failed) {
+    if (!info.missing_log.empty()) {
+        text += fmt::format(" But {}.", info.missing_log);
+    } else if (info.writing_failed) {
         text += " Writing it failed there.";
     } else if (info.had_write_ahead_log) {
         text += " It lacks at most its last 100 ms.";

@@ -5,6 +5,7 @@
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/hidden_mesh.h"
+#include "runtime/gaze/origin_change.h"
 
 namespace gazeloop::render {
 struct FrameView;
@@ -25,6 +26,8 @@ class FrameObserver {
     virtual void on_sample(const gaze::GazeSample&, std::uint64_t /*frame*/) {}
     /// From the frame on, its pictures leave out these parts.
     virtual void on_hidden(const gaze::HiddenChange&) {}
+    /// From the frame on, poses are in another world; told before the frame's samples.
+    virtual void on_origin(const gaze::OriginChange&) {}
     /// A frame whose passes have been submitted. Its pictures still belong to the loop and lie in
     /// COLOR_ATTACHMENT_OPTIMAL. An observer that reads them submits the reading to the context's
     /// queue, in this call, and leaves them as they are.

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "runtime/gaze/direction.h"
+#include "runtime/gaze/origin_change.h"
+#include "runtime/gaze/usable_pose.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::gaze {
@@ -18,17 +20,6 @@ std::optional<glm::dvec3> usable_direction(const EyeRay& ray, double minimum_con
         return std::nullopt;
     }
     return unit(ray.direction);
-}
-
-std::optional<Pose> usable_pose(const std::optional<Pose>& pose) {
-    if (!pose || !is_finite(pose->position_m)) {
-        return std::nullopt;
-    }
-    const double length = glm::length(pose->orientation);
-    if (!std::isfinite(length) || length == 0.0) {
-        return std::nullopt;
-    }
-    return Pose{pose->orientation / length, pose->position_m};
 }
 
 std::int64_t elapsed_ns(std::int64_t from, std::int64_t to) {
@@ -107,6 +98,12 @@ void GazeToFovea::add(const GazeSample& sample) {
         valid.direction_in_head[i] = seen[i] ? *seen[i] : *seen[index(other(eye))];
     }
     last_valid_ = valid;
+}
+
+void GazeToFovea::move_origin(const Pose& new_in_old) {
+    if (last_valid_ && last_valid_->head) {
+        last_valid_->head = carried(new_in_old, *last_valid_->head);
+    }
 }
 
 GazeToFovea::Condition GazeToFovea::condition_at(std::int64_t latched_ns) const {

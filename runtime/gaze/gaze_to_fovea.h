@@ -35,7 +35,8 @@ struct FoveaPolicy {
 /// point is seen from the view that the frame submits. The eye is taken to sit at its view's
 /// origin, because that is where the display's optics want it; the tracker's own ray origin is not
 /// used. A sample without a (finite) head pose is held in the head instead: head motion since then
-/// goes unseen.
+/// goes unseen. Head poses of samples and latches must be given in one world; where its origin
+/// moves, whoever notices says so (move_origin; gaze/origin_watch.h).
 ///
 /// A sample is as old as its time says, and at least as old as its arrival. If neither is known, it
 /// counts as stale.
@@ -47,6 +48,10 @@ class GazeToFovea {
     /// added last is ignored. Unknown times are not compared, nor is the tracker's own clock, which
     /// may be wrong: then the order of arrival counts.
     void add(const GazeSample& sample);
+
+    /// From here on, heads and views are given in another world: the pose of its origin in the one
+    /// before. What is held goes along, so that it stays where it is seen.
+    void move_origin(const Pose& new_in_old);
 
     /// The foveae of a frame whose gaze is read at `latched` (known), for views at their display
     /// time. `head` is the head pose that those views belong to. Precondition: is_valid(view) of

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstring>
+#include <limits>
 #include <thread>
 
 #include "runtime/error.h"
@@ -125,10 +126,12 @@ void Session::handle_event(const XrEventDataBuffer& event) {
             ++mask_changes_;
             tell(frame::kMaskEvent, "visibility mask changed");
             break;
-        case XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING:
-            tell(frame::kOriginEvent,
-                 "the runtime moves its origin: gaze held in world is off by as much");
+        case XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING: {
+            XrEventDataReferenceSpaceChangePending pending{};
+            std::memcpy(&pending, &event, sizeof pending);
+            move_origin(pending);
             break;
+        }
         case XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED:
             ++profile_changes_;
             break;
@@ -141,6 +144,21 @@ void Session::handle_event(const XrEventDataBuffer& event) {
         default:
             break;
     }
+}
+
+void Session::move_origin(const XrEventDataReferenceSpaceChangePending& pending) {
+    if (pending.referenceSpaceType != XR_REFERENCE_SPACE_TYPE_LOCAL) {
+        return;  // nothing is placed in the others; each has an event of its own
+    }
+    const auto new_in_old = pending.poseValid == XR_TRUE ? from_xr(pending.poseInPreviousSpace)
+                                                         : std::optional<gaze::Pose>{};
+    // Where the time is none, frames have to show when it was.
+    constexpr std::int64_t kFromNowOn = std::numeric_limits<std::int64_t>::min();
+    new_origins_.push_back({clock_.host_ns(pending.changeTime).value_or(kFromNowOn), new_in_old});
+    tell(frame::kOriginEvent,
+         new_in_old ? "the runtime moves its origin: held gaze goes along"
+                    : "the runtime moves its origin without saying where to: held gaze stays where "
+                      "it is in the head");
 }
 
 void Session::change_state(const XrEventDataSessionStateChanged& changed) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/frame/event.h"
+#include "runtime/gaze/origin_change.h"
 #include "runtime/openxr/instance.h"
 #include "runtime/openxr/xr_clock.h"
 #include "runtime/vulkan/context.h"
@@ -54,6 +55,11 @@ class Session {
     /// How often the runtime said that the visibility mask is another.
     [[nodiscard]] std::uint64_t mask_changes() const { return mask_changes_; }
 
+    /// What the runtime has said since the last call of LOCAL space's origin, which it moves.
+    [[nodiscard]] std::vector<gaze::AnnouncedOrigin> take_new_origins() {
+        return std::exchange(new_origins_, {});
+    }
+
     /// The head in LOCAL space. None where the runtime does not know it (too long ago, not tracked)
     /// or gives what is no pose. Throws SetupError (SessionLost).
     [[nodiscard]] std::optional<gaze::Pose> head_at(XrTime time) const;
@@ -68,6 +74,7 @@ class Session {
     void change_state(const XrEventDataSessionStateChanged& changed);
     void begin();
     void end();
+    void move_origin(const XrEventDataReferenceSpaceChangePending& pending);
 
     const Instance& instance_;
     const XrClock& clock_;
@@ -77,6 +84,7 @@ class Session {
     XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
     std::uint64_t profile_changes_ = 0;
     std::uint64_t mask_changes_ = 0;
+    std::vector<gaze::AnnouncedOrigin> new_origins_;
     std::vector<frame::Event> events_;
     bool running_ = false;
     bool exit_requested_ = false;

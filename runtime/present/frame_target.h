@@ -8,6 +8,7 @@
 
 #include "runtime/frame/event.h"
 #include "runtime/gaze/hidden_mesh.h"
+#include "runtime/gaze/origin_change.h"
 #include "runtime/gaze/view.h"
 #include "runtime/render/eye_target.h"
 #include "runtime/time/stamp.h"
@@ -39,6 +40,8 @@ struct TargetFrame {
     gaze::Pose head;             ///< in world, at the display time
     gaze::StereoView views;      ///< in world, at the display time
     gaze::HiddenMeshes hidden;   ///< what of the views no eye sees
+    /// What was said of the world's origin since the frame before.
+    std::vector<gaze::AnnouncedOrigin> new_origins;
     /// Set by whoever filled the depth images; unset: they are not handed over.
     std::optional<DepthRange> depth;
 };

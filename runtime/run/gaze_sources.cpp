@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,19 +91,8 @@ Expected<MakeSource> gaze_source_named(std::string_view text,
 }
 
 MakeSource trace_player(gaze::GazeTrace trace, std::int64_t delay_ns, double speed) {
-    for (gaze::GazeSample& sample : trace.samples) {
-        const auto quicker = [speed](std::int64_t ns) {
-            return std::llround(static_cast<double>(ns) / speed);
-        };
-        for (time::Stamp* const stamp : {&sample.sampled, &sample.ready, &sample.arrived}) {
-            stamp->ns = quicker(stamp->ns);
-        }
-        if (sample.uncertainty_ns) {
-            sample.uncertainty_ns = quicker(*sample.uncertainty_ns);
-        }
-    }
-    return [trace = std::move(trace), delay_ns](std::int64_t start_ns) {
-        return std::make_unique<drivers::TraceSource>(trace, start_ns, delay_ns);
+    return [trace = std::move(trace), delay_ns, speed](std::int64_t start_ns) {
+        return std::make_unique<drivers::TraceSource>(trace, start_ns, delay_ns, speed);
     };
 }
 

@@ -15,6 +15,7 @@ class RecordingObserver final : public frame::FrameObserver {
         recorder_.add(sample, frame);
     }
     void on_hidden(const gaze::HiddenChange& change) override { recorder_.add(change); }
+    void on_origin(const gaze::OriginChange& change) override { recorder_.add(change); }
     void on_frame(const frame::FrameRecord& record) override {
         recorder_.add(record);
         if (!trouble_reported_ && recorder_.in_trouble()) {

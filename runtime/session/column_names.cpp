@@ -80,6 +80,13 @@ ColumnNames hidden_columns() {
     return names;
 }
 
+ColumnNames origin_columns() {
+    ColumnNames names;
+    const gaze::OriginChange change;
+    visit_origin(names, change);
+    return names;
+}
+
 ColumnNames event_columns() {
     ColumnNames names;
     const time::Stamp time;

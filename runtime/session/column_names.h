@@ -33,5 +33,6 @@ ColumnNames view_columns();
 ColumnNames fovea_columns();
 ColumnNames event_columns();
 ColumnNames hidden_columns();  ///< of hidden_area
+ColumnNames origin_columns();
 
 }  // namespace gazeloop::session

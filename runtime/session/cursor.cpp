@@ -34,6 +34,7 @@ template class Cursor<EventRows, RecordedEvent>;
 template class Cursor<SampleRows, RecordedSample>;
 template class Cursor<FrameRows, RecordedFrame>;
 template class Cursor<HiddenRows, gaze::HiddenChange>;
+template class Cursor<OriginRows, gaze::OriginChange>;
 
 Expected<bool> move_to(FrameCursor& cursor, std::uint64_t index) {
     bool more = true;

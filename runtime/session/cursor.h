@@ -5,6 +5,7 @@
 
 #include "runtime/error.h"
 #include "runtime/gaze/hidden_mesh.h"
+#include "runtime/gaze/origin_change.h"
 #include "runtime/session/open_session.h"
 #include "runtime/session/recorded_rows.h"
 
@@ -13,6 +14,7 @@ namespace gazeloop::session {
 class EventRows;
 class FrameRows;
 class HiddenRows;
+class OriginRows;
 class SampleRows;
 
 /// Goes through the rows of one kind in a session, one at a time, for readers that follow a
@@ -45,11 +47,13 @@ using EventCursor = Cursor<EventRows, RecordedEvent>;         ///< in the order 
 using SampleCursor = Cursor<SampleRows, RecordedSample>;      ///< by frame, then arrival
 using FrameCursor = Cursor<FrameRows, RecordedFrame>;         ///< by index
 using HiddenCursor = Cursor<HiddenRows, gaze::HiddenChange>;  ///< by frame
+using OriginCursor = Cursor<OriginRows, gaze::OriginChange>;  ///< by frame
 
 extern template class Cursor<EventRows, RecordedEvent>;
 extern template class Cursor<SampleRows, RecordedSample>;
 extern template class Cursor<FrameRows, RecordedFrame>;
 extern template class Cursor<HiddenRows, gaze::HiddenChange>;
+extern template class Cursor<OriginRows, gaze::OriginChange>;
 
 /// Moves on to the frame of this index; false if the session has none. Precondition: indices do not
 /// decrease from call to call.

@@ -11,16 +11,10 @@
 #include "runtime/session/reading_error.h"
 #include "runtime/session/statement.h"
 #include "runtime/session/table_reader.h"
+#include "runtime/session/write_ahead_log.h"
 
 namespace gazeloop::session {
 namespace {
-
-/// An empty log may be one that SQLite made to read the file.
-bool has_write_ahead_log(const std::filesystem::path& file) {
-    std::error_code error;
-    const std::uintmax_t bytes = std::filesystem::file_size(file.string() + "-wal", error);
-    return !error && bytes > 0;
-}
 
 /// SQLite fills up a last page that is cut off with zeros, which would pass for data.
 void require_whole_pages(const Database& database, const std::filesystem::path& file) {
@@ -71,6 +65,9 @@ Expected<OpenSession> OpenSession::open(const std::filesystem::path& file) {
         }
         SessionInfo info = read_info(*database);
         info.had_write_ahead_log = log;
+        if (!info.closed_cleanly && !info.writing_failed) {
+            info.missing_log = missing_log(file);
+        }
         return OpenSession(file, std::move(database), std::move(info));
     } catch (...) {
         return std::unexpected(reading_error(file));

@@ -21,6 +21,8 @@ class OpenSession {
     ///  - not a session;
     ///  - of a newer or too old schema (both versions named);
     ///  - damaged (table and row named).
+    /// What a recording that was not closed lacks, because its log was not copied with it, is no
+    /// error: info().missing_log says so.
     static Expected<OpenSession> open(const std::filesystem::path& file);
     OpenSession(const OpenSession&) = delete;
     OpenSession& operator=(const OpenSession&) = delete;

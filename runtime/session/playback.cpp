@@ -36,6 +36,7 @@ class Player {
         : observers_(observers),
           frames_(session.database(), session.info().schema_version),
           hidden_(session),
+          origins_(session),
           samples_(session),
           events_(session) {}
 
@@ -69,6 +70,9 @@ class Player {
         hidden_.tell_while(due, [this](const gaze::HiddenChange& change) {
             tell([&](frame::FrameObserver& observer) { observer.on_hidden(change); });
         });
+        origins_.tell_while(due, [this](const gaze::OriginChange& change) {
+            tell([&](frame::FrameObserver& observer) { observer.on_origin(change); });
+        });
         samples_.tell_while(due, [this](const RecordedSample& one) {
             tell(
                 [&](frame::FrameObserver& observer) { observer.on_sample(one.sample, one.frame); });
@@ -92,6 +96,7 @@ class Player {
     std::span<frame::FrameObserver* const> observers_;
     FrameRows frames_;
     Ahead<HiddenRows> hidden_;
+    Ahead<OriginRows> origins_;
     Ahead<SampleRows> samples_;
     Ahead<EventRows> events_;
     PlaybackEnd end_;

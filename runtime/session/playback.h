@@ -22,8 +22,10 @@ struct PlaybackEnd {
 /// their indices. The memory that this takes does not depend on the session's length. For each
 /// frame it calls, in this order:
 ///
-///     on_hidden   for changes from this frame on
-///     on_sample   for what the frame consumed, in the order of arrival
+///     on_hidden   for changes from this frame on, or from an earlier one that the file lacks
+///     on_origin   likewise
+///     on_sample   for what the frame consumed, and what frames that the file lacks consumed, in the
+///                 order of arrival
 ///     on_event    in the order of the run; see below
 ///     on_frame
 ///     on_gpu      if the file has the frame's GPU part

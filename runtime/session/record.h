@@ -7,6 +7,7 @@
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/hidden_mesh.h"
+#include "runtime/gaze/origin_change.h"
 
 namespace gazeloop::session {
 
@@ -30,6 +31,6 @@ struct HiddenRecord {
 
 /// What the loop hands to the recorder's thread.
 using Record = std::variant<SampleRecord, frame::FrameRecord, frame::FrameGpuRecord, EventRecord,
-                            HiddenRecord>;
+                            HiddenRecord, gaze::OriginChange>;
 
 }  // namespace gazeloop::session

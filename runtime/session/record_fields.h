@@ -26,6 +26,7 @@ static_assert(sizeof(frame::FrameStamps) == 128, "a new member: see above");
 static_assert(sizeof(frame::GridCounts) == 40, "a new member: see above");
 static_assert(sizeof(frame::FrameRecord) == 1040, "a new member: see above");
 static_assert(sizeof(frame::FrameGpuRecord) == 152, "a new member: see above");
+static_assert(sizeof(gaze::OriginChange) == 72, "a new member: see above");
 
 /// By place in the run's lists of grids and passes, which meta keeps.
 inline constexpr std::array<std::string_view, 8> kGridColumns{
@@ -217,6 +218,13 @@ inline gaze::HiddenTriangle no_triangle() {
     gaze::HiddenTriangle triangle;
     triangle.corners.fill(glm::dvec2{std::numeric_limits<double>::quiet_NaN()});
     return triangle;
+}
+
+template <typename Visitor, typename Change>
+void visit_origin(Visitor& visit, Change& change) {
+    visit("frame", "", change.frame);
+    visit("announced", "", change.announced);
+    visit_pose(visit, "new", change.new_in_old);
 }
 
 /// `kind` and `text` are of the type in which the reader or the writer holds text.

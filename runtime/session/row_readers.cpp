@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
+#include "runtime/gaze/direction.h"
 #include "runtime/session/record_fields.h"
 #include "runtime/session/schema.h"
 
@@ -109,6 +111,29 @@ bool HiddenRows::next() {
             (*meshes)[gaze::index(ahead_->eye)].push_back(ahead_->triangle);
         }
         look_ahead();
+    }
+    return true;
+}
+
+OriginRows::OriginRows(const Database& database, int version) {
+    if (has_table(database, kOriginTable)) {
+        changes_.emplace(database, kOriginTable, kByPosition, origin_columns(), version);
+    }
+}
+
+bool OriginRows::next() {
+    if (!changes_ || !changes_->next()) {
+        return false;
+    }
+    const std::uint64_t frame_before = row_.frame;
+    visit_origin(*changes_, row_);
+    if (std::exchange(any_, true) && row_.frame <= frame_before) {
+        changes_->fail("is not of a later frame than the row before it");
+    }
+    constexpr double kRounding = 1e-3;
+    if (!gaze::is_finite(row_.new_in_old.position_m) ||
+        !(std::abs(glm::length(row_.new_in_old.orientation) - 1.0) < kRounding)) {
+        changes_->fail("is no pose");
     }
     return true;
 }

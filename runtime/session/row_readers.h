@@ -54,6 +54,19 @@ class HiddenRows {
     gaze::HiddenChange row_;
 };
 
+/// By frame, one for a frame at most.
+class OriginRows {
+  public:
+    OriginRows(const Database& database, int version);
+    bool next();
+    [[nodiscard]] const gaze::OriginChange& row() const { return row_; }
+
+  private:
+    std::optional<TableReader> changes_;  ///< none in files from before there were any
+    bool any_ = false;
+    gaze::OriginChange row_;
+};
+
 /// In the order in which they were recorded.
 class EventRows {
   public:

@@ -217,6 +217,19 @@ CREATE TABLE hidden_area (
     c_y      ANY
 ) STRICT;
 
+CREATE TABLE origin (
+    position  INTEGER PRIMARY KEY,
+    frame     INTEGER NOT NULL,
+    announced INTEGER NOT NULL,
+    new_qw    ANY,
+    new_qx    ANY,
+    new_qy    ANY,
+    new_qz    ANY,
+    new_x_m   ANY,
+    new_y_m   ANY,
+    new_z_m   ANY
+) STRICT;
+
 CREATE TABLE event (
     position  INTEGER PRIMARY KEY,
     time_ns   INTEGER NOT NULL,

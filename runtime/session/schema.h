@@ -18,6 +18,8 @@ extern const char* const kCreateTables;
 inline constexpr std::array<std::string_view, 5> kLaterColumns{
     "texels_hidden", "pixels_hidden", "ready_ns", "uncertainty_ns", "parallax_rad"};
 inline constexpr std::string_view kHiddenTable = "hidden_area";
+inline constexpr std::string_view kOriginTable =
+    "origin";  ///< the first files of version 2 lack it
 
 /// Version 1 named the columns of `frame` after the two methods that it knew. This says from which
 /// of them a column of today is read. Other columns of grids and passes are NULL in such a file.

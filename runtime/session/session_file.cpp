@@ -12,6 +12,9 @@ class Collector final : public frame::FrameObserver {
   public:
     explicit Collector(SessionFile& session) : session_(session) {}
     void on_hidden(const gaze::HiddenChange& change) override { session_.hidden.push_back(change); }
+    void on_origin(const gaze::OriginChange& change) override {
+        session_.origins.push_back(change);
+    }
     void on_sample(const gaze::GazeSample& sample, std::uint64_t frame) override {
         session_.samples.push_back({frame, sample});
     }

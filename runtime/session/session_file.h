@@ -5,6 +5,7 @@
 
 #include "runtime/error.h"
 #include "runtime/gaze/hidden_mesh.h"
+#include "runtime/gaze/origin_change.h"
 #include "runtime/session/open_session.h"
 #include "runtime/session/recorded_rows.h"
 
@@ -15,7 +16,8 @@ struct SessionFile : SessionInfo {
     std::vector<RecordedSample> samples;  ///< by frame, then arrival
     std::vector<RecordedFrame> frames;    ///< by index
     std::vector<RecordedEvent> events;
-    std::vector<gaze::HiddenChange> hidden;  ///< by frame
+    std::vector<gaze::HiddenChange> hidden;   ///< by frame
+    std::vector<gaze::OriginChange> origins;  ///< by frame
 };
 
 /// Reads a whole session into memory; meant for short ones. Every not-a-number comes back as the

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "runtime/session/session_header.h"
@@ -16,6 +17,7 @@ struct SessionInfo {
     bool closed_cleanly = false;
     bool writing_failed = false;       ///< and this could still be noted on disk
     bool had_write_ahead_log = false;  ///< a log with content lay beside the file
+    std::string missing_log{};  ///< of a recording that was not closed: see write_ahead_log.h
 
     /// The value of a setting in that run; nothing if the session does not have it.
     [[nodiscard]] std::optional<std::string_view> config(std::string_view key) const;

@@ -222,6 +222,8 @@ void SessionRecorder::add(const gaze::HiddenChange& change) {
     }
 }
 
+void SessionRecorder::add(const gaze::OriginChange& change) { impl_->add(change); }
+
 void SessionRecorder::event(time::Stamp time, std::string_view kind, std::string_view text) {
     impl_->add(EventRecord{time, FixedText<32>(kind), FixedText<240>(text)});
 }

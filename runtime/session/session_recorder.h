@@ -10,6 +10,7 @@
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/hidden_mesh.h"
+#include "runtime/gaze/origin_change.h"
 #include "runtime/session/session_header.h"
 
 namespace gazeloop::session {
@@ -51,6 +52,8 @@ class SessionRecorder {
     void add(const frame::FrameGpuRecord& record);
     /// Frame numbers of changes do not decrease.
     void add(const gaze::HiddenChange& change);
+    /// One for a frame at most.
+    void add(const gaze::OriginChange& change);
     /// `kind` is one word of at most 32 bytes, e.g. "session-state", "gaze-lost", "interrupted";
     /// `text` is cut after 240 bytes, between characters.
     void event(time::Stamp time, std::string_view kind, std::string_view text);

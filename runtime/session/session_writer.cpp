@@ -30,6 +30,7 @@ SessionWriter::SessionWriter(const std::filesystem::path& file)
       insert_fovea_(database_, fovea_columns().insert_into("fovea")),
       insert_event_(database_, event_columns().insert_into("event")),
       insert_hidden_(database_, hidden_columns().insert_into(kHiddenTable)),
+      insert_origin_(database_, origin_columns().insert_into(kOriginTable)),
       set_meta_(database_, kSetMeta) {}
 
 void SessionWriter::begin() { database_.execute("BEGIN IMMEDIATE"); }
@@ -86,6 +87,12 @@ void SessionWriter::write_one(const HiddenRecord& record) {
     FieldBinder binder(insert_hidden_);
     visit_hidden(binder, record.frame, record.eye, record.triangle);
     insert_hidden_.run();
+}
+
+void SessionWriter::write_one(const gaze::OriginChange& record) {
+    FieldBinder binder(insert_origin_);
+    visit_origin(binder, record);
+    insert_origin_.run();
 }
 
 void SessionWriter::set_meta(std::string_view name, std::string_view value) {

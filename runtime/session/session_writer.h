@@ -38,6 +38,7 @@ class SessionWriter {
     void write_one(const frame::FrameGpuRecord& record);
     void write_one(const EventRecord& record);
     void write_one(const HiddenRecord& record);
+    void write_one(const gaze::OriginChange& record);
     void set_meta(std::string_view name, std::string_view value);
 
     Database database_;
@@ -48,6 +49,7 @@ class SessionWriter {
     Statement insert_fovea_;
     Statement insert_event_;
     Statement insert_hidden_;
+    Statement insert_origin_;
     Statement set_meta_;
     std::uint64_t dropped_written_ = 0;
 };

@@ -110,6 +110,16 @@ class AnyRecord {
         return meshes;
     }
 
+    /// Of a pose that is one.
+    gaze::OriginChange origin(std::uint64_t frame) {
+        return {
+            .frame = frame,
+            .new_in_old = {coin() ? glm::dquat{0.6, -0.0, 0.8, 0.0}
+                                  : glm::dquat{0.0, 0.6, -0.0, -0.8},
+                           {static_cast<double>(signed_integer()), coin() ? -0.0 : 1e-300, 0.1}},
+            .announced = coin()};
+    }
+
     bool coin() { return below(2) == 1; }
 
   private:
@@ -220,6 +230,14 @@ Bits bits_of(const gaze::GazeSample& sample) {
     return bits;
 }
 
+Bits bits_of(const gaze::OriginChange& change) {
+    Bits bits;
+    append(bits, change.frame);
+    append(bits, std::uint64_t{change.announced});
+    append(bits, change.new_in_old);
+    return bits;
+}
+
 Bits bits_of(const frame::FrameRecord& frame) {
     Bits bits;
     append(bits, frame.index);
@@ -289,6 +307,7 @@ RC_GTEST_PROP(Session, ComesBackBitForBit,
     std::vector<RecordedSample> samples;
     std::vector<RecordedFrame> frames;
     std::vector<gaze::HiddenChange> hidden;
+    std::vector<gaze::OriginChange> origins;
 
     const tests::TemporaryFolder folder;
     const std::filesystem::path file = folder / "run.session";
@@ -306,6 +325,8 @@ RC_GTEST_PROP(Session, ComesBackBitForBit,
         recorder->add(samples.back().sample, number);
         hidden.push_back({number, any.hidden()});
         recorder->add(hidden.back());
+        origins.push_back(any.origin(number));
+        recorder->add(origins.back());
         recorder->add(frame.frame);
         if (any.coin()) {
             frame.gpu = any.gpu(number);
@@ -331,6 +352,10 @@ RC_GTEST_PROP(Session, ComesBackBitForBit,
         RC_ASSERT(session.hidden[i].frame == hidden[i].frame);
         RC_ASSERT(*session.hidden[i].meshes == *hidden[i].meshes);
     }
+    RC_ASSERT(session.origins.size() == origins.size());
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        RC_ASSERT(bits_of(session.origins[i]) == bits_of(origins[i]));
+    }
     RC_ASSERT(session.frames.size() == frames.size());
     for (std::size_t i = 0; i < frames.size(); ++i) {
         RC_ASSERT(bits_of(session.frames[i].frame) == bits_of(frames[i].frame));
@@ -352,6 +377,9 @@ class Told final : public frame::FrameObserver {
                 }
             }
         }
+    }
+    void on_origin(const gaze::OriginChange& change) override {
+        add(4, change.frame, bits_of(change));
     }
     void on_sample(const gaze::GazeSample& sample, std::uint64_t frame) override {
         add(1, frame, bits_of(sample));
@@ -380,6 +408,11 @@ RC_GTEST_PROP(Session, IsPlayedAsItWasTold, (std::uint64_t seed, std::set<std::u
             const gaze::HiddenChange change{number, any.hidden()};
             recorder->add(change);
             live.on_hidden(change);
+        }
+        if (any.coin()) {
+            const gaze::OriginChange change = any.origin(number);
+            recorder->add(change);
+            live.on_origin(change);
         }
         while (any.coin()) {
             const gaze::GazeSample sample = any.sample();

@@ -336,6 +336,15 @@ TEST_F(Replay, KeepsTheRecordingWhenKilled) {
     const ProgramResult replayed = run_gazeloop({"replay", session});
     EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
     EXPECT_NE(replayed.err.find("was not closed"), std::string::npos);
+    EXPECT_EQ(replayed.err.find("-wal"), std::string::npos) << replayed.err;
+
+    // Copied without its log, it says what is missing, whatever is in the one file.
+    const std::string copy = folder_.file("copy.gaze");
+    std::filesystem::copy_file(session, copy);
+    EXPECT_NE(run_gazeloop({"replay", copy}).err.find("copy copy.gaze-wal from where"),
+              std::string::npos);
+    const ProgramResult report = run_gazeloop({"report", copy});
+    EXPECT_NE(report.out.find("copy copy.gaze-wal from where"), std::string::npos) << report.out;
 }
 
 TEST_F(Replay, WritesPicturesOfBothEyes) {

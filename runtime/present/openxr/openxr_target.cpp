@@ -126,6 +126,7 @@ class SessionTarget final : public OpenXrTarget {
         frame.views = views_->views();
         frame.hidden = hidden_;
         frame.head = views_->head();
+        frame.new_origins = session_->take_new_origins();
     }
 
     gaze::PerEye<render::EyeTarget> acquire() override { return pictures_->acquire(); }

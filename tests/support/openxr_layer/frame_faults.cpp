@@ -2,7 +2,8 @@
 //   xrWaitFrame:   hidden (shouldRender = 0), display+MS, display-MS (moves the announced time),
 //                  display=NS, period=NS, exit (the runtime is asked to end the session), pause (it
 //                  stops the session and lets it begin again 20 polls later), event:STATE (a
-//                  session state), event:INSTANCE_LOSS_PENDING, event:VISIBILITY_MASK_CHANGED
+//                  session state), event:INSTANCE_LOSS_PENDING, event:VISIBILITY_MASK_CHANGED,
+//                  recentre=DEG and the like (moved_origin.cpp)
 //   xrGetVulkanGraphicsRequirements2KHR: newer (wants a Vulkan that does not exist yet)
 //   xrEndSession:  silence (from then on the runtime has no events), again (it says once more that
 //                  the session is stopping)
@@ -153,6 +154,8 @@ void after_wait(std::string_view effect, XrFrameState& state) {
         event.session = layer().session;
         event.viewConfigurationType = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
         send(event);
+    } else if (move_origin(effect, state)) {
+        return;
     } else if (effect.starts_with(kEvent)) {
         send_state(state_named(effect.substr(kEvent.size())));
     } else if (effect.starts_with("display=")) {
@@ -205,6 +208,11 @@ XRAPI_ATTR XrResult XRAPI_CALL locate_views(XrSession session, const XrViewLocat
     }
     const XrResult result =
         next<PFN_xrLocateViews>("xrLocateViews")(session, info, state, capacity, count, views);
+    if (XR_SUCCEEDED(result)) {
+        for (std::uint32_t i = 0; i < *count && i < capacity; ++i) {
+            views[i].pose = in_moved_space(views[i].pose, info->space, info->displayTime);
+        }
+    }
     if (!effect || XR_FAILED(result)) {
         return result;
     }
@@ -241,6 +249,9 @@ XRAPI_ATTR XrResult XRAPI_CALL locate_space(XrSpace space, XrSpace base, XrTime 
         return *result;
     }
     const XrResult result = next<PFN_xrLocateSpace>("xrLocateSpace")(space, base, time, location);
+    if (XR_SUCCEEDED(result)) {
+        location->pose = in_moved_space(location->pose, base, time);
+    }
     if (effect && XR_SUCCEEDED(result)) {
         if (*effect == "untracked") {
             location->locationFlags = 0;

@@ -59,10 +59,18 @@ void send(const Event& event) {
     layer().events.push_back(buffer);
 }
 
+/// Moves the origin of LOCAL space if that is what an effect of xrWaitFrame says
+/// (moved_origin.cpp); `state` is the frame's.
+bool move_origin(std::string_view effect, const XrFrameState& state);
+/// A pose that the runtime gave in a space for a time, where the origin has been moved.
+XrPosef in_moved_space(const XrPosef& pose, XrSpace space, XrTime time);
+
 // What stands in for a function of that name; null: nothing does.
 
 /// frame_faults.cpp: session, frames, views.
 PFN_xrVoidFunction frame_hook(std::string_view name);
+/// moved_origin.cpp: spaces.
+PFN_xrVoidFunction space_hook(std::string_view name);
 /// mask_faults.cpp: what the headset hides.
 PFN_xrVoidFunction mask_hook(std::string_view name);
 /// eye_gaze.cpp: XR_EXT_eye_gaze_interaction, from a file.

@@ -437,6 +437,45 @@ TEST(GazeToFovea, HoldsTheWorldPointThroughABlink) {
     EXPECT_NEAR(angle_deg(half.direction, towards(-5.0)), 0.0, 1e-9);
 }
 
+TEST(GazeToFovea, KeepsItsPlaceWhereTheOriginMoves) {
+    const Pose head{yaw(20.0), {0.5, 1.6, 0.0}};
+    const Pose new_in_old{yaw(90.0), {3.0, 0.0, -1.0}};
+    const Pose same_head = compose(inverse(new_in_old), head);
+    // Tracking, held in a blink, on the way back, and held in the head.
+    for (const std::int64_t ms : {20, 200, 400}) {
+        for (const bool posed : {true, false}) {
+            GazeToFovea gaze(policy());
+            GazeSample sample = sample_of(0, towards(15.0, -4.0));
+            sample.head = posed ? std::optional(head) : std::nullopt;
+            gaze.add(sample);
+            gaze.add(invalid_sample(ms));
+            const FoveaPoint before = left_at(gaze, ms, head);
+            gaze.move_origin(new_in_old);
+            const FoveaPoint after = left_at(gaze, ms, same_head);
+            EXPECT_NEAR(angle_deg(after.direction, before.direction), 0.0, 1e-9) << ms;
+            EXPECT_EQ(after.state, before.state);
+            // And it is held in the new world: the head turns 5 deg, what is held the other way.
+            const Pose turned{same_head.orientation * yaw(-5.0), same_head.position_m};
+            GazeToFovea unmoved(policy());
+            unmoved.add(sample);
+            unmoved.add(invalid_sample(ms));
+            EXPECT_NEAR(angle_deg(left_at(gaze, ms, turned).direction,
+                                  left_at(unmoved, ms, compose(new_in_old, turned)).direction),
+                        0.0, 1e-9);
+        }
+    }
+}
+
+TEST(GazeToFovea, HasNothingToMoveBeforeTheFirstGaze) {
+    GazeToFovea gaze(policy());
+    gaze.move_origin({yaw(90.0), {}});
+    expect_state(left_at(gaze, 1), FoveaState::Ahead, LossReason::Never);
+    GazeSample sample = sample_of(2, towards(15.0));
+    sample.head = Pose{};
+    gaze.add(sample);
+    EXPECT_NEAR(angle_deg(left_at(gaze, 3).direction, towards(15.0)), 0.0, 1e-9);
+}
+
 TEST(GazeToFovea, HoldsInTheHeadWhereTheSampleHasNoUsablePose) {
     const Pose head{yaw(35.0), {3.0, 1.6, -2.0}};
     const std::array<std::optional<Pose>, 4> unusable{

@@ -30,6 +30,9 @@ class Told final : public frame::FrameObserver {
     void on_hidden(const gaze::HiddenChange& change) override {
         calls.push_back(fmt::format("hidden {}", change.frame));
     }
+    void on_origin(const gaze::OriginChange& change) override {
+        calls.push_back(fmt::format("origin {}", change.frame));
+    }
     void on_sample(const gaze::GazeSample& sample, std::uint64_t frame) override {
         calls.push_back(fmt::format("sample {} of {}", sample.sequence, frame));
     }
@@ -80,14 +83,15 @@ TEST_F(Playback, TellsEachFrameAfterWhatItConsumed) {
     recorder_->add(gaze::HiddenChange{0, nullptr});
     add_sample(1, 0);
     add_frame(0);
+    recorder_->add(gaze::OriginChange{.frame = 1});
     add_sample(2, 1);
     add_sample(3, 1);
     recorder_->add(latency::example_frame(1));
     recorder_->add(gaze::HiddenChange{2, nullptr});
     add_frame(2);
-    EXPECT_THAT(played(),
-                ElementsAre("hidden 0", "sample 1 of 0", "frame 0", "gpu 0", "sample 2 of 1",
-                            "sample 3 of 1", "frame 1", "hidden 2", "frame 2", "gpu 2"));
+    EXPECT_THAT(played(), ElementsAre("hidden 0", "sample 1 of 0", "frame 0", "gpu 0", "origin 1",
+                                      "sample 2 of 1", "sample 3 of 1", "frame 1", "hidden 2",
+                                      "frame 2", "gpu 2"));
     EXPECT_EQ(end.last_frame, 2U);
     EXPECT_EQ(end.last_error, std::nullopt);
 }

@@ -202,6 +202,37 @@ TEST_F(ReadSession, KnowsWhatWasHiddenFromWhichFrameOn) {
     EXPECT_THAT(error(), HasSubstr("table hidden_area, row 3: is of an earlier frame"));
 }
 
+TEST_F(ReadSession, KnowsHowTheOriginMovedAtWhichFrame) {
+    const gaze::OriginChange first{
+        .frame = 3, .new_in_old = {{0.6, 0.0, 0.8, 0.0}, {1.0, -0.0, 3.0}}, .announced = true};
+    const gaze::OriginChange second{.frame = 4, .new_in_old = {}, .announced = false};
+    {
+        const auto recorder = value_or_throw(SessionRecorder::create(file, {}));
+        recorder->add(first);
+        recorder->add(second);
+        EXPECT_TRUE(recorder->close().complete());
+    }
+    const Expected<SessionFile> session = read_session(file);
+    ASSERT_TRUE(session.has_value()) << session.error().message;
+    ASSERT_EQ(session->origins.size(), 2U);
+    EXPECT_EQ(session->origins[0].frame, 3U);
+    EXPECT_EQ(session->origins[0].new_in_old.orientation, first.new_in_old.orientation);
+    EXPECT_EQ(session->origins[0].new_in_old.position_m, first.new_in_old.position_m);
+    EXPECT_TRUE(session->origins[0].announced);
+    EXPECT_EQ(session->origins[1].frame, 4U);
+    EXPECT_FALSE(session->origins[1].announced);
+    change("UPDATE origin SET frame = 3 WHERE frame = 4");
+    EXPECT_THAT(error(),
+                HasSubstr("table origin, row 2: is not of a later frame than the row before it"));
+    change("UPDATE origin SET frame = 4, new_qw = 0.5 WHERE announced = 0");
+    EXPECT_THAT(error(), HasSubstr("table origin, row 2: is no pose"));
+    change("UPDATE origin SET new_x_m = NULL");
+    EXPECT_THAT(error(), HasSubstr("table origin, row 1: is no pose"));
+    // As the first of version 2 were written.
+    change("DROP TABLE origin");
+    EXPECT_TRUE(value_or_throw(read_session(file)).origins.empty());
+}
+
 TEST_F(ReadSession, ReadsFilesFromBeforeTheseColumns) {
     record();
     for (const char* const table : {"gaze", "fovea"}) {

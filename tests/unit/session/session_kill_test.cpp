@@ -118,6 +118,16 @@ TEST(KilledSession, WithoutItsLogHasNone) {
     EXPECT_FALSE(session.closed_cleanly);
     EXPECT_FALSE(session.had_write_ahead_log);
     EXPECT_TRUE(session.frames.empty());
+    EXPECT_THAT(session.missing_log, testing::HasSubstr("its log copy.session-wal"));
+    EXPECT_THAT(session.missing_log, testing::HasSubstr("copy copy.session-wal from where"));
+    EXPECT_EQ(value_or_throw(read_session(file)).missing_log, "");
+    std::filesystem::copy_file(file.string() + "-wal", copy.string() + "-wal",
+                               std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::remove(copy.string() + "-shm");
+    EXPECT_EQ(value_or_throw(read_session(copy)).missing_log, "");
+    EXPECT_FALSE(value_or_throw(read_session(copy)).frames.empty());
+    std::filesystem::remove(copy.string() + "-wal");
+    std::filesystem::remove(copy.string() + "-shm");
     // Nor does what SQLite made in order to read it count as one.
     EXPECT_FALSE(value_or_throw(read_session(copy)).had_write_ahead_log);
 }

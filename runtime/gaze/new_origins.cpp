@@ -1,0 +1,107 @@
+#include "runtime/gaze/new_origins.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/trigonometric.hpp>
+#include <optional>
+
+#include "runtime/gaze/head_limits.h"
+#include "runtime/gaze/origin_change.h"
+#include "runtime/gaze/usable_pose.h"
+#include "runtime/time/span.h"
+
+namespace gazeloop::gaze {
+namespace {
+
+struct Known {
+    std::size_t sample;
+    std::int64_t time_ns;
+    Pose pose;
+};
+
+std::int64_t elapsed_ns(const Known& from, const Known& to) {
+    return time::saturated(static_cast<__int128>(to.time_ns) - from.time_ns);
+}
+
+std::vector<Known> known_heads(std::span<const GazeSample> samples) {
+    std::vector<Known> heads;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const GazeSample& sample = samples[i];
+        const std::int64_t time_ns = sample.sampled.known() ? sample.sampled.ns : sample.arrived.ns;
+        const auto pose = usable_pose(sample.head);
+        if (pose && (heads.empty() || time_ns >= heads.back().time_ns)) {
+            heads.push_back({i, time_ns, *pose});
+        }
+    }
+    return heads;
+}
+
+/// The value below which this share of them lies; 0 for none.
+std::int64_t quantile(std::vector<std::int64_t>& values, std::size_t of, std::size_t parts) {
+    if (values.empty()) {
+        return 0;
+    }
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * of / parts);
+    std::ranges::nth_element(values, at);
+    return *at;
+}
+
+std::int64_t least_interval_ns(const std::vector<Known>& heads) {
+    constexpr std::int64_t kHeadRests_ns = 50'000'000;
+    std::vector<std::int64_t> between_samples;
+    std::vector<std::int64_t> between_changes;
+    std::optional<Known> changed;
+    for (std::size_t i = 1; i < heads.size(); ++i) {
+        if (const std::int64_t ns = elapsed_ns(heads[i - 1], heads[i]); ns > 0) {
+            between_samples.push_back(ns);
+        }
+        if (heads[i].pose.orientation == heads[i - 1].pose.orientation &&
+            heads[i].pose.position_m == heads[i - 1].pose.position_m) {
+            continue;
+        }
+        if (changed) {
+            const std::int64_t ns = elapsed_ns(*changed, heads[i]);
+            if (ns > 0 && ns < kHeadRests_ns) {
+                between_changes.push_back(ns);
+            }
+        }
+        changed = heads[i];
+    }
+    return std::max(quantile(between_samples, 1, 2), quantile(between_changes, 1, 4));
+}
+
+}  // namespace
+
+std::vector<NewOrigin> new_origins(std::span<const GazeSample> samples) {
+    const std::vector<Known> heads = known_heads(samples);
+    const std::int64_t least_ns = least_interval_ns(heads);
+    std::vector<NewOrigin> found;
+    for (std::size_t i = 1; i < heads.size(); ++i) {
+        const Known& before = heads[i - 1];
+        const Known& head = heads[i];
+        const std::int64_t interval_ns = elapsed_ns(before, head);
+        const auto had_s = static_cast<double>(std::max(interval_ns, least_ns)) * 1e-9;
+        if (least_time_s(before.pose, head.pose) > had_s) {
+            found.push_back({head.sample, head.time_ns, interval_ns,
+                             turned_rad(before.pose, head.pose), moved_m(before.pose, head.pose),
+                             new_origin_of_still_head(before.pose, head.pose)});
+        }
+    }
+    return found;
+}
+
+void report_new_origins(std::span<const GazeSample> samples, TraceReport& report) {
+    for (const NewOrigin& origin : new_origins(samples)) {
+        report.add(
+            {.kind = TraceFindingKind::NewOrigin,
+             .rows = 1,
+             .text = fmt::format(
+                 "at {:.3f} s the head turns by {:.1f} deg and moves by {:.3f} m in {:.1f} ms, as "
+                 "no head does: its poses go on from where it was",
+                 static_cast<double>(origin.time_ns) * 1e-9, glm::degrees(origin.turned_rad),
+                 origin.moved_m, static_cast<double>(origin.interval_ns) * 1e-6)});
+    }
+}
+
+}  // namespace gazeloop::gaze

@@ -1,0 +1,140 @@
+#include "runtime/gaze/origin_watch.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <utility>
+
+#include "runtime/gaze/head_limits.h"
+#include "runtime/time/span.h"
+
+namespace gazeloop::gaze {
+namespace {
+
+constexpr std::size_t kMostAnnounced = 16;
+constexpr std::int64_t kPatience_ns = 1'000'000'000;
+
+/// Where a runtime knows no period: that of the fastest displays.
+constexpr std::int64_t kShortestPeriod_ns = 5'000'000;
+
+std::int64_t elapsed_ns(std::int64_t from, std::int64_t to) {
+    return time::saturated(static_cast<__int128>(to) - from);
+}
+
+}  // namespace
+
+void OriginWatch::announce(const AnnouncedOrigin& announced) {
+    if (announced_.size() == kMostAnnounced) {
+        announced_.erase(announced_.begin());
+        ++given_up_;
+    }
+    announced_.push_back(announced);
+}
+
+std::optional<OriginChange> OriginWatch::next(std::int64_t display_ns, std::int64_t period_ns,
+                                              const Pose& head) {
+    if (count_ == 0) {
+        // Nothing is held yet that could be in a world before this one.
+        std::erase_if(announced_,
+                      [&](const AnnouncedOrigin& a) { return a.time_ns <= display_ns; });
+        seen_[count_++] = {display_ns, head};
+        return std::nullopt;
+    }
+    const std::int64_t since_ns = elapsed_ns(newest().display_ns, display_ns);
+    const double had_s =
+        static_cast<double>(std::max(since_ns, period_ns > 0 ? period_ns : kShortestPeriod_ns)) *
+        1e-9;
+    const auto reaches = [&](const Pose& before) { return least_time_s(before, head) <= had_s; };
+
+    OriginChange change;
+    bool moved = false;
+    bool unsaid = false;
+    Pose before = newest().head;
+    const auto follow = [&](const Pose& new_in_old, bool announced) {
+        change.new_in_old = compose(change.new_in_old, new_in_old);
+        change.announced = announced;
+        before = carried(new_in_old, before);
+        moved = true;
+    };
+    for (auto a = announced_.begin(); a != announced_.end();) {
+        const bool due = a->time_ns <= display_ns;
+        bool done = false;
+        if (!a->new_in_old) {
+            done = due;
+            unsaid = unsaid || due;
+        } else {
+            const bool explains = reaches(carried(*a->new_in_old, before));
+            const bool stayed = reaches(before);
+            if (due ? explains || !stayed : explains && !stayed) {
+                follow(*a->new_in_old, true);
+                done = true;
+            } else if (elapsed_ns(a->time_ns, display_ns) > kPatience_ns) {
+                ++given_up_;
+                done = true;
+            }
+        }
+        a = done ? announced_.erase(a) : a + 1;
+    }
+    if (unsaid || !reaches(before)) {
+        follow(new_origin_of_still_head(before, head), false);
+    }
+
+    if (moved) {
+        carry_all(change.new_in_old);
+        changes_.push_back({display_ns, change.new_in_old});
+    }
+    seen_[count_++ % kFrames] = {display_ns, head};
+    std::erase_if(changes_, [this](const Change& c) {
+        return elapsed_ns(oldest().display_ns, c.display_ns) < 0;
+    });
+    return moved ? std::optional(change) : std::nullopt;
+}
+
+void OriginWatch::carry_all(const Pose& new_in_old) {
+    for (Seen& seen : seen_) {
+        seen.head = carried(new_in_old, seen.head);
+    }
+}
+
+Pose OriginWatch::head_at(std::int64_t time_ns) const {
+    const std::size_t first = count_ < kFrames ? 0 : count_ - kFrames;
+    const Seen* after = nullptr;
+    for (std::size_t i = count_; i-- > first;) {
+        const Seen& seen = seen_[i % kFrames];
+        if (seen.display_ns <= time_ns) {
+            if (after == nullptr || after->display_ns <= seen.display_ns) {
+                return seen.head;
+            }
+            const double fraction =
+                static_cast<double>(elapsed_ns(seen.display_ns, time_ns)) /
+                static_cast<double>(elapsed_ns(seen.display_ns, after->display_ns));
+            return {glm::normalize(
+                        glm::slerp(seen.head.orientation, after->head.orientation, fraction)),
+                    glm::mix(seen.head.position_m, after->head.position_m, fraction)};
+        }
+        after = &seen;
+    }
+    return oldest().head;
+}
+
+Pose OriginWatch::in_this_world(const Pose& head, std::int64_t time_ns) const {
+    if (changes_.empty() || time_ns >= changes_.back().display_ns) {
+        return head;
+    }
+    const Pose then = head_at(time_ns);
+    Pose nearest = head;
+    double least_s = least_time_s(head, then);
+    Pose origin;  // of this world, in the one that `head` is tried in
+    for (std::size_t i = changes_.size(); i-- > 0 && time_ns < changes_[i].display_ns;) {
+        origin = compose(changes_[i].new_in_old, origin);
+        const Pose candidate = carried(origin, head);
+        if (const double needed_s = least_time_s(candidate, then); needed_s < least_s) {
+            least_s = needed_s;
+            nearest = candidate;
+        }
+    }
+    return nearest;
+}
+
+std::uint64_t OriginWatch::take_given_up() { return std::exchange(given_up_, 0); }
+
+}  // namespace gazeloop::gaze
