@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <ranges>
 #include <utility>
 
 #include "runtime/gaze/head_limits.h"
@@ -13,8 +14,18 @@ namespace {
 constexpr std::size_t kMostAnnounced = 16;
 constexpr std::int64_t kPatience_ns = 1'000'000'000;
 
-/// Where a runtime knows no period: that of the fastest displays.
+// Of displays: what stands where a runtime knows no period, or says one that is none.
 constexpr std::int64_t kShortestPeriod_ns = 5'000'000;
+constexpr std::int64_t kLongestPeriod_ns = 42'000'000;
+
+/// The time that a head had between two frames. Announced times may stand, or step forth and back
+/// by any amount: a head for another time may be anywhere that it can reach in between.
+double had_s(std::int64_t before_ns, std::int64_t now_ns, std::int64_t period_ns) {
+    const __int128 since_ns = static_cast<__int128>(now_ns) - before_ns;
+    const std::int64_t apart_ns = time::saturated(since_ns < 0 ? -since_ns : since_ns);
+    return 1e-9 * static_cast<double>(std::max(
+                      apart_ns, std::clamp(period_ns, kShortestPeriod_ns, kLongestPeriod_ns)));
+}
 
 std::int64_t elapsed_ns(std::int64_t from, std::int64_t to) {
     return time::saturated(static_cast<__int128>(to) - from);
@@ -39,11 +50,8 @@ std::optional<OriginChange> OriginWatch::next(std::int64_t display_ns, std::int6
         seen_[count_++] = {display_ns, head};
         return std::nullopt;
     }
-    const std::int64_t since_ns = elapsed_ns(newest().display_ns, display_ns);
-    const double had_s =
-        static_cast<double>(std::max(since_ns, period_ns > 0 ? period_ns : kShortestPeriod_ns)) *
-        1e-9;
-    const auto reaches = [&](const Pose& before) { return least_time_s(before, head) <= had_s; };
+    const double time_s = had_s(newest().display_ns, display_ns, period_ns);
+    const auto reaches = [&](const Pose& before) { return least_time_s(before, head) <= time_s; };
 
     OriginChange change;
     bool moved = false;
@@ -124,8 +132,11 @@ Pose OriginWatch::in_this_world(const Pose& head, std::int64_t time_ns) const {
     Pose nearest = head;
     double least_s = least_time_s(head, then);
     Pose origin;  // of this world, in the one that `head` is tried in
-    for (std::size_t i = changes_.size(); i-- > 0 && time_ns < changes_[i].display_ns;) {
-        origin = compose(changes_[i].new_in_old, origin);
+    for (const Change& change : std::views::reverse(changes_)) {
+        if (time_ns >= change.display_ns) {
+            break;
+        }
+        origin = compose(change.new_in_old, origin);
         const Pose candidate = carried(origin, head);
         if (const double needed_s = least_time_s(candidate, then); needed_s < least_s) {
             least_s = needed_s;

@@ -141,10 +141,12 @@ TEST(NewOrigins, AreNotWhereARepeatedPoseIsRenewed) {
 }
 
 TEST(NewOrigins, OfAHeadThatRestsAreAllFound) {
-    EXPECT_THAT(places(samples_of(
-                    1000, k120Hz_ns,
-                    [](std::size_t i) { return yawed(40.0 * static_cast<double>(i / 240)); })),
-                ElementsAre(240U, 480U, 720U, 960U));
+    EXPECT_THAT(
+        places(samples_of(1000, k120Hz_ns,
+                          [](std::size_t i) {
+                              return yawed(40.0 * std::floor(static_cast<double>(i) / 240.0));
+                          })),
+        ElementsAre(240U, 480U, 720U, 960U));
 }
 
 TEST(NewOrigins, TakeTheTimeThatAPoseWasUnknownForTimeToTurn) {

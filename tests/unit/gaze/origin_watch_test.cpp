@@ -152,6 +152,17 @@ TEST_F(Origin, IsJudgedByThePeriodWhereAnnouncedTimesStandOrGoBack) {
     EXPECT_TRUE(watch.next(now_ns - 100 * kMs, 0, yawed(59.0)));
 }
 
+TEST_F(Origin, StaysWhereAnnouncedTimesStepForthAndBack) {
+    frames(10);
+    EXPECT_FALSE(watch.next(now_ns + 1000 * kMs, kPeriod_ns, yawed(120.0)));
+    EXPECT_FALSE(frame(yawed(0.0)));
+    EXPECT_FALSE(watch.next(now_ns - 1000 * kMs, kPeriod_ns, yawed(-120.0)));
+    EXPECT_FALSE(frame(yawed(0.0)));
+    // Nor does a period that is none hide what no head does.
+    now_ns += kPeriod_ns;
+    EXPECT_TRUE(watch.next(now_ns, 1000 * kMs, yawed(90.0)));
+}
+
 TEST_F(Origin, TakesSamplesHeadsFromEitherWorld) {
     frames(10, 1.0);
     const std::int64_t before_ns = now_ns - 5 * kMs;

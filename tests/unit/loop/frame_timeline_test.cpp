@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 
 #include "runtime/time/clock.h"
 
@@ -50,6 +51,31 @@ TEST(LiveTimeline, KeepsTheHeadFiniteWhereAnnouncedTimesStep) {
         EXPECT_LE(frame.head.position_m.x, 1.0);
         EXPECT_TRUE(std::isfinite(frame.views[0].pose.position_m.x));
     }
+}
+
+TEST(LiveTimeline, FollowsTheTargetsOriginUnlessTheSourceKnowsTheHead) {
+    const gaze::Pose turned{glm::dquat{std::sqrt(0.5), 0.0, std::sqrt(0.5), 0.0}, {}};
+    const auto planned = [&](const gaze::HeadMotion* head) {
+        LiveTimeline timeline(kStart);
+        PlannedFrame frame;
+        timeline.plan(announced(kStart), head, frame);
+        EXPECT_FALSE(frame.origin);
+        present::TargetFrame target = announced(kStart + 10 * kMs);
+        target.head = gaze::inverse(turned);
+        target.new_origins = {{kStart + 5 * kMs, turned}};
+        timeline.plan(target, head, frame);
+        const bool moved = frame.origin.has_value();
+        EXPECT_EQ(moved && frame.origin->announced, moved);
+        const gaze::Pose before = timeline.in_this_world({}, kStart);
+        EXPECT_NEAR(std::abs(glm::dot(before.orientation,
+                                      moved ? target.head.orientation : gaze::Pose{}.orientation)),
+                    1.0, 1e-12);
+        return moved;
+    };
+    EXPECT_TRUE(planned(nullptr));
+    gaze::HeadTrack track;
+    track.add(kStart, gaze::Pose{});
+    EXPECT_FALSE(planned(&track));
 }
 
 TEST(Timeline, KnowsOfSleepOnlyWhereTimePasses) {
