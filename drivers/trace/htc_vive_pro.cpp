@@ -7,17 +7,19 @@
 #include <optional>
 #include <string>
 
-#include "drivers/trace/row_clock.h"
-#include "drivers/trace/trace_builder.h"
-#include "runtime/gaze/direction.h"
+#include "drivers/trace/eye_cells.h"
+#include "drivers/trace/trace_rows.h"
 
 namespace gazeloop::drivers {
 namespace {
 
 constexpr std::string_view kName = "htc-vive-pro";
 constexpr std::string_view kTime = "time(100ns)";
-constexpr std::array<std::string_view, 17> kColumns{
+constexpr std::string_view kTimeStamp = "time_stamp(ms)";
+
+constexpr std::array<std::string_view, 24> kColumns{
     kTime,
+    kTimeStamp,
     "eye_valid_L",
     "openness_L",
     "gaze_origin_L.x(mm)",
@@ -34,106 +36,96 @@ constexpr std::array<std::string_view, 17> kColumns{
     "gaze_direct_R.x",
     "gaze_direct_R.y",
     "gaze_direct_R.z",
+    "helmet_pos_x",
+    "helmet_pos_y",
+    "helmet_pos_z",
+    "helmet_rot_x",
+    "helmet_rot_y",
+    "helmet_rot_z",
 };
 constexpr std::array<std::string_view, 6> kHelmetColumns{
     "helmet_pos_x", "helmet_pos_y", "helmet_pos_z", "helmet_rot_x", "helmet_rot_y", "helmet_rot_z",
 };
 
-struct EyeColumns {
-    std::size_t valid;
-    std::size_t openness;
-    std::array<std::size_t, 3> origin;
-    std::array<std::size_t, 3> direction;
-};
+constexpr std::array<std::string_view, 1> kNeededTime{kTime};
+constexpr std::array<std::string_view, 1> kNeededTimeStamp{kTimeStamp};
+constexpr std::array<std::string_view, 4> kNeededLeft{"eye_valid_L", "gaze_direct_L.x",
+                                                      "gaze_direct_L.y", "gaze_direct_L.z"};
+constexpr std::array<std::string_view, 4> kNeededRight{"eye_valid_R", "gaze_direct_R.x",
+                                                       "gaze_direct_R.y", "gaze_direct_R.z"};
+constexpr std::array<ColumnNames, 2> kTimes{kNeededTime, kNeededTimeStamp};
+constexpr std::array<ColumnNames, 2> kEyes{kNeededLeft, kNeededRight};
+constexpr std::array<std::span<const ColumnNames>, 2> kNeeded{kTimes, kEyes};
 
-EyeColumns eye_columns(const CsvTable& table, std::string_view side) {
-    const std::string eye{side};
-    EyeColumns columns{.valid = table.column("eye_valid_" + eye),
-                       .openness = table.column("openness_" + eye),
-                       .origin = {},
-                       .direction = {}};
-    for (const std::size_t i : {0U, 1U, 2U}) {
-        const char axis = "xyz"[i];
-        columns.origin[i] = table.column("gaze_origin_" + eye + "." + axis + "(mm)");
-        columns.direction[i] = table.column("gaze_direct_" + eye + "." + axis);
+/// SRanipal's bits of an eye's validity. The others, 2 and 4, are the pupil's diameter and place.
+constexpr int kOriginBit = 0;
+constexpr int kDirectionBit = 1;
+constexpr int kOpennessBit = 3;
+
+std::optional<EyeTrust> trust(std::int64_t valid) {
+    constexpr std::int64_t kAllBits = 31;
+    if (valid < 0 || valid > kAllBits) {
+        return std::nullopt;
     }
-    return columns;
+    const auto has = [&](int bit) { return (valid >> bit & 1) != 0; };
+    return EyeTrust{
+        .direction = has(kDirectionBit), .origin = has(kOriginBit), .openness = has(kOpennessBit)};
 }
 
-/// +X left, +Z forward to +X right, -Z forward: half a turn about +Y.
-glm::dvec3 from_sranipal(CsvTable& table, const std::array<std::size_t, 3>& columns) {
-    return {-table.number(columns[0]), table.number(columns[1]), -table.number(columns[2])};
-}
-
-gaze::EyeRay read_eye(CsvTable& table, const EyeColumns& columns) {
-    constexpr std::int64_t kAllValid = 31;
-    constexpr double kMetresPerMillimetre = 1e-3;
-    gaze::EyeRay ray;
-    ray.origin_m = from_sranipal(table, columns.origin) * kMetresPerMillimetre;
-    const double openness = table.number(columns.openness);
-    if (openness >= 0.0 && openness <= 1.0) {
-        ray.openness = openness;
-    }
-    const bool vouched = table.integer(columns.valid) == kAllValid;
-    const auto direction = gaze::unit(from_sranipal(table, columns.direction));
-    ray.valid = vouched && direction.has_value();
-    ray.direction = direction.value_or(gaze::kStraightAhead);
-    return ray;
+EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
+    const std::string side{eye == gaze::Eye::Left ? "L" : "R"};
+    const std::string origin = "gaze_origin_" + side;
+    const std::string direction = "gaze_direct_" + side;
+    return {table,
+            eye,
+            {.valid = "eye_valid_" + side,
+             .direction = {direction + ".x", direction + ".y", direction + ".z"},
+             .origin = {origin + ".x(mm)", origin + ".y(mm)", origin + ".z(mm)"},
+             .openness = "openness_" + side,
+             .confidence = {}},
+            // +X left, +Z forward to +X right, -Z forward: half a turn about +Y.
+            {.trust = trust,
+             .to_our_axes = {-1.0, 1.0, -1.0},
+             .metre = 1e-3,
+             .bits = {{kDirectionBit, kOriginBit, kOpennessBit}}}};
 }
 
 /// Unity's left-handed frame mirrored in z: positions change sign in z, and a mirror in z turns
 /// rotations about x and y around, but not those about z.
-gaze::Pose read_helmet(CsvTable& table, const std::array<std::size_t, 6>& columns) {
-    const auto turn = [&](std::size_t column, const glm::dvec3& axis) {
-        return glm::angleAxis(glm::radians(table.number(columns[column])), axis);
+gaze::Pose helmet_pose(const std::array<double, 6>& helmet) {
+    const auto turn = [](double angle_deg, const glm::dvec3& axis) {
+        return glm::angleAxis(glm::radians(angle_deg), axis);
     };
-    const glm::dquat unity =
-        turn(4, {0.0, 1.0, 0.0}) * turn(3, {1.0, 0.0, 0.0}) * turn(5, {0.0, 0.0, 1.0});
+    const glm::dquat unity = turn(helmet[4], {0.0, 1.0, 0.0}) * turn(helmet[3], {1.0, 0.0, 0.0}) *
+                             turn(helmet[5], {0.0, 0.0, 1.0});
     return {glm::normalize(glm::dquat{unity.w, -unity.x, -unity.y, unity.z}),
-            {table.number(columns[0]), table.number(columns[1]), -table.number(columns[2])}};
+            {helmet[0], helmet[1], -helmet[2]}};
 }
 
-std::optional<std::array<std::size_t, 6>> helmet_columns(const CsvTable& table) {
-    if (!table.missing(kHelmetColumns).empty()) {
-        return std::nullopt;
-    }
-    std::array<std::size_t, 6> columns{};
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        columns[i] = table.column(kHelmetColumns[i]);
-    }
-    return columns;
-}
-
-Expected<gaze::GazeTrace> read(CsvTable& table) {
-    const gaze::PerEye<EyeColumns> eyes{eye_columns(table, "L"), eye_columns(table, "R")};
-    const auto helmet = helmet_columns(table);
-    RowClock clock(table.column(kTime), 100);
-    TraceBuilder builder(table.name(), kName, "HTC Vive Pro");
-
-    std::uint64_t row = 0;
-    while (true) {
-        const Expected<bool> more = table.next();
-        if (!more) {
-            return std::unexpected(more.error());
-        }
-        if (!*more) {
-            return builder.finish();
-        }
-        gaze::GazeSample sample;
-        sample.sequence = row++;
-        sample.device_ns = clock.since_first_ns(table);
-        sample.sampled = {sample.device_ns, time::StampKind::Modelled};
-        for (const gaze::Eye eye : gaze::kEyes) {
-            sample.eyes[gaze::index(eye)] = read_eye(table, eyes[gaze::index(eye)]);
-        }
+Expected<gaze::GazeTrace> read(CsvTable& table, const ReadOptions& options) {
+    constexpr double kTime_ns = 100.0;
+    constexpr double kTimeStamp_ns = 1e6;
+    gaze::PerEye<EyeCells> eyes{eye_cells(table, gaze::Eye::Left),
+                                eye_cells(table, gaze::Eye::Right)};
+    const auto helmet = table.columns(kHelmetColumns, "the helmet's pose");
+    const auto time = table.column(kTime);
+    const std::size_t clock = time ? *time : *table.column(kTimeStamp);
+    TraceRows rows(table, eyes,
+                   {.file = table.name(),
+                    .format = kName,
+                    .device = "HTC Vive Pro",
+                    .device_tick_ns = time ? kTime_ns : kTimeStamp_ns});
+    return rows.read(options, [&](TraceRow& row) {
+        row.device_ticks = rows.ticks(clock);
         if (helmet) {
-            sample.head = read_helmet(table, *helmet);
+            if (const auto pose = rows.head(*helmet)) {
+                row.head = helmet_pose(*pose);
+            }
         }
-        builder.add(sample);
-    }
+    });
 }
 
-constexpr TraceFormat kFormat{kName, kColumns, read};
+constexpr TraceFormat kFormat{kName, kColumns, kNeeded, read};
 
 }  // namespace
 

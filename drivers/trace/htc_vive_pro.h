@@ -9,10 +9,14 @@ namespace gazeloop::drivers {
 ///
 /// In the file the gaze's axes are +X left, +Y up, +Z forward. The helmet's are Unity's: +X right,
 /// +Y up, +Z forward, left-handed, rotations in degrees about z, then x, then y of the world. Both
-/// are turned into ours. Origins are millimetres. An eye is valid if its flags are 31 (all five
-/// bits) and its direction is not zero. Time is time(100ns), which becomes device_ns relative to
-/// the first row; time_stamp(ms) wraps and is not used. The rows are numbered from 0: the column
-/// `frame` repeats numbers for rows that differ, so it cannot count losses.
+/// are turned into ours. Origins are millimetres.
+///
+/// An eye's validity has five bits: the direction is valid by bit 1, the origin known by bit 0, the
+/// openness by bit 3; what they refuse is counted. Only a time and, of one eye, direction and
+/// validity are needed.
+///
+/// Time is time(100ns), without that time_stamp(ms), which wraps. The rows have no number: the
+/// column `frame` repeats numbers for rows that differ, so it cannot count losses.
 [[nodiscard]] const TraceFormat& htc_vive_pro();
 
 }  // namespace gazeloop::drivers

@@ -11,14 +11,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "drivers/trace/row_clock.h"
-#include "drivers/trace/trace_builder.h"
-#include "runtime/gaze/direction.h"
+#include "drivers/trace/eye_cells.h"
+#include "drivers/trace/trace_rows.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -38,127 +35,71 @@ constexpr std::array<std::string_view, 28> kColumns{
     "right_confidence", "head_x_m",         "head_y_m",         "head_z_m",
     "head_qx",          "head_qy",          "head_qz",          "head_qw",
 };
-constexpr std::size_t kLeftColumns = 3;
-constexpr std::size_t kColumnsPerEye = 9;
-constexpr std::size_t kHeadColumns = kLeftColumns + 2 * kColumnsPerEye;
+constexpr std::size_t kHeadColumns = 7;
 
-/// Where each of kColumns stands in the file.
-using Columns = std::array<std::size_t, kColumns.size()>;
+constexpr std::array<std::string_view, 1> kNeededTime{"t_device_ns"};
+constexpr std::array<std::string_view, 4> kNeededLeft{"left_valid", "left_x", "left_y", "left_z"};
+constexpr std::array<std::string_view, 4> kNeededRight{"right_valid", "right_x", "right_y",
+                                                       "right_z"};
+constexpr std::array<ColumnNames, 1> kTimes{kNeededTime};
+constexpr std::array<ColumnNames, 2> kEyes{kNeededLeft, kNeededRight};
+constexpr std::array<std::span<const ColumnNames>, 2> kNeeded{kTimes, kEyes};
 
-/// Directions and orientations this close to unit length are taken as they are, so that what was
-/// written is read back exactly.
+/// Orientations this close to unit length are taken as they are, so that what was written is read
+/// back exactly.
 constexpr double kUnitTolerance = 1e-9;
 
-bool is_unit(double length) { return std::abs(length - 1.0) <= kUnitTolerance; }
-
-double read_fraction(CsvTable& table, std::size_t column) {
-    constexpr double kUnknown = -1.0;
-    const double value = table.number_or(column, kUnknown);
-    if (value != kUnknown && (value < 0.0 || value > 1.0)) {
-        table.refuse(column, "is neither 0 to 1 nor -1 (unknown)");
-    }
-    return value;
-}
-
-gaze::EyeRay read_eye(CsvTable& table, const Columns& columns, std::size_t first) {
-    const auto blank_is = [&](std::size_t i, double unknown) {
-        return table.number_or(columns[first + i], unknown);
-    };
-    const std::size_t valid_column = columns[first];
-    const std::int64_t valid = table.integer(valid_column);
+std::optional<EyeTrust> trust(std::int64_t valid) {
     if (valid != 0 && valid != 1) {
-        table.refuse(valid_column, "is neither 0 nor 1");
-    }
-    gaze::EyeRay ray;
-    ray.origin_m = {blank_is(4, 0.0), blank_is(5, 0.0), blank_is(6, 0.0)};
-    ray.openness = read_fraction(table, columns[first + 7]);
-    ray.confidence = read_fraction(table, columns[first + 8]);
-    if (valid == 0) {
-        ray.direction = {blank_is(1, ray.direction.x), blank_is(2, ray.direction.y),
-                         blank_is(3, ray.direction.z)};
-        return ray;
-    }
-    const glm::dvec3 written{table.number(columns[first + 1]), table.number(columns[first + 2]),
-                             table.number(columns[first + 3])};
-    const std::optional<glm::dvec3> direction =
-        is_unit(glm::length(written)) ? written : gaze::unit(written);
-    ray.valid = direction.has_value();
-    ray.direction = direction.value_or(written);
-    return ray;
-}
-
-std::optional<gaze::Pose> read_head(CsvTable& table, const Columns& columns) {
-    const std::span<const std::size_t> head{columns.begin() + kHeadColumns, columns.end()};
-    if (std::all_of(head.begin(), head.end(), [&](std::size_t c) { return table.blank(c); })) {
         return std::nullopt;
     }
-    gaze::Pose pose;
-    pose.position_m = {table.number(head[0]), table.number(head[1]), table.number(head[2])};
-    const glm::dquat written{table.number(head[6]), table.number(head[3]), table.number(head[4]),
-                             table.number(head[5])};
-    const double length = glm::length(written);
-    if (!std::isnormal(length)) {
-        table.refuse(head[6], "ends an orientation that cannot be made a unit quaternion");
-        return std::nullopt;
-    }
-    pose.orientation = is_unit(length) ? written : written / length;
-    return pose;
+    return EyeTrust{.direction = valid == 1, .origin = true, .openness = true};
 }
 
-/// Arrivals were read on the host's clock since its first row, sample times on the device's. The
-/// least difference of the two becomes zero: what the report took at least is unknown, what it took
-/// more than that is in the file.
-void align_arrivals(std::vector<gaze::GazeSample>& samples) {
-    std::int64_t least = std::numeric_limits<std::int64_t>::max();
-    for (const gaze::GazeSample& sample : samples) {
-        if (sample.arrived.known()) {
-            least = std::min(least, sample.arrived.ns - sample.sampled.ns);
-        }
-    }
-    for (gaze::GazeSample& sample : samples) {
-        if (sample.arrived.known()) {
-            sample.arrived.ns -= least;
-        }
-    }
+EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
+    const std::string side{gaze::kEyeNames[gaze::index(eye)]};
+    return {table,
+            eye,
+            {.valid = side + "_valid",
+             .direction = {side + "_x", side + "_y", side + "_z"},
+             .origin = {side + "_origin_x_m", side + "_origin_y_m", side + "_origin_z_m"},
+             .openness = side + "_openness",
+             .confidence = side + "_confidence"},
+            {.trust = trust, .bits = {}}};
 }
 
-Expected<gaze::GazeTrace> read(CsvTable& table) {
-    Columns columns{};
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        columns[i] = table.column(kColumns[i]);
-    }
-    RowClock device_clock(columns[1], 1);
-    RowClock host_clock(columns[2], 1);
-    TraceBuilder builder(table.name(), kName, "unknown device");
-
-    while (true) {
-        const Expected<bool> more = table.next();
-        if (!more) {
-            return std::unexpected(more.error());
+Expected<gaze::GazeTrace> read(CsvTable& table, const ReadOptions& options) {
+    gaze::PerEye<EyeCells> eyes{eye_cells(table, gaze::Eye::Left),
+                                eye_cells(table, gaze::Eye::Right)};
+    std::array<std::string_view, kHeadColumns> head_names{};
+    std::copy_n(kColumns.end() - kHeadColumns, kHeadColumns, head_names.begin());
+    const auto head = table.columns(head_names, "the head's pose");
+    const auto sequence = table.column("sequence");
+    const std::size_t device_clock = *table.column("t_device_ns");
+    const auto host_clock = table.column("t_host_ns");
+    TraceRows rows(table, eyes,
+                   {.file = table.name(), .format = kName, .device = "unknown device"});
+    const auto head_pose = [&]() -> std::optional<gaze::Pose> {
+        const auto numbers = head ? rows.head(*head) : std::nullopt;
+        if (!numbers) {
+            return std::nullopt;
         }
-        if (!*more) {
-            break;
+        const auto [x, y, z, qx, qy, qz, qw] = *numbers;
+        const glm::dquat written{qw, qx, qy, qz};
+        const double length = glm::length(written);
+        if (!std::isnormal(length)) {
+            rows.refuse_head(head->back(), "ends an orientation without length");
+            return std::nullopt;
         }
-        gaze::GazeSample sample;
-        sample.sequence = table.count(columns[0]);
-        sample.device_ns = table.integer(columns[1]);
-        sample.sampled = {device_clock.since_first_ns(table), time::StampKind::Modelled};
-        if (!table.blank(columns[2])) {
-            sample.arrived = {host_clock.since_first_ns(table), time::StampKind::Modelled};
-        }
-        for (const gaze::Eye eye : gaze::kEyes) {
-            sample.eyes[gaze::index(eye)] =
-                read_eye(table, columns, kLeftColumns + gaze::index(eye) * kColumnsPerEye);
-        }
-        sample.head = read_head(table, columns);
-        builder.add(sample);
-    }
-
-    Expected<gaze::GazeTrace> trace = builder.finish();
-    if (trace) {
-        align_arrivals(trace->samples);
-    }
-    return trace;
+        const bool is_unit = std::abs(length - 1.0) <= kUnitTolerance;
+        return gaze::Pose{is_unit ? written : written / length, {x, y, z}};
+    };
+    return rows.read(options, [&](TraceRow& row) {
+        row.sequence = rows.optional_count(sequence);
+        row.device_ticks = rows.ticks(device_clock);
+        row.host_ns = rows.optional_ticks(host_clock);
+        row.head = head_pose();
+    });
 }
 
 /// Puts numbers into a line without the locale having a say.
@@ -215,15 +156,20 @@ double rate_hz(const gaze::GazeTrace& trace) {
     return 1e9 / static_cast<double>(*median);
 }
 
-constexpr TraceFormat kFormat{kName, kColumns, read};
+constexpr TraceFormat kFormat{kName, kColumns, kNeeded, read};
 
 }  // namespace
 
 const TraceFormat& native_trace() { return kFormat; }
 
 Expected<std::string> read_native_sidecar(const std::string& trace_file) {
-    const std::string file = sidecar_file(trace_file);
+    std::string file = sidecar_file(trace_file);
     std::ifstream in(file, std::ios::binary);
+    constexpr std::string_view kCompressed = ".gz";
+    if (!in && trace_file.ends_with(kCompressed)) {
+        file = sidecar_file(trace_file.substr(0, trace_file.size() - kCompressed.size()));
+        in.open(file, std::ios::binary);
+    }
     if (!in) {
         return std::string{};
     }
@@ -281,7 +227,7 @@ void write_native_trace(const gaze::GazeTrace& trace, std::ostream& out) {
                              sample.head->orientation.z});
             line.add_finite(sample.head->orientation.w);
         } else {
-            for (std::size_t i = kHeadColumns; i < kColumns.size(); ++i) {
+            for (std::size_t i = 0; i < kHeadColumns; ++i) {
                 line.add_blank();
             }
         }

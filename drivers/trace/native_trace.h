@@ -20,10 +20,12 @@ namespace gazeloop::drivers {
 ///     head_x_m, head_y_m, head_z_m, head_qx, head_qy, head_qz, head_qw
 ///                                head in world; all blank where unknown
 ///
-/// An invalid eye's numbers may be blank. A direction or orientation that is not of unit length is
-/// made so; a valid eye's direction that is zero makes the eye invalid.
+/// Only t_device_ns and, of one eye, validity and direction are needed: what has no column, a blank
+/// cell or NaN is unknown. A direction or orientation that is not of unit length is made so; a
+/// valid eye's direction that is zero makes the eye invalid, and counts as bad cells.
 ///
-/// A JSON sidecar may stand beside it, FILE.json: format "gazeloop-gaze", version 1, axes
+/// A JSON sidecar may stand beside it, FILE.json (of FILE.gz too): format "gazeloop-gaze", version
+/// 1, axes
 /// "+x right, +y up, -z forward", clock, rate_hz, device, calibration. If it is there, format,
 /// version and axes must be these.
 ///

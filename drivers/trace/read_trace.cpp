@@ -1,14 +1,16 @@
 #include "drivers/trace/read_trace.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <span>
+#include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "drivers/trace/csv_table.h"
@@ -46,20 +48,44 @@ std::string listed(const std::vector<std::string_view>& names) {
     return text;
 }
 
+/// What the table lacks of what a format needs: of alternatives, those of the nearest.
+struct Lack {
+    std::vector<std::string_view> columns;
+    std::size_t needed = 0;
+
+    [[nodiscard]] double share() const {
+        return static_cast<double>(columns.size()) / static_cast<double>(needed);
+    }
+};
+
+Lack lacking(const CsvTable& table, const TraceFormat& format) {
+    Lack lack;
+    for (const std::span<const ColumnNames> alternatives : format.needed) {
+        std::vector<std::string_view> least;
+        std::size_t needed = 0;
+        for (const ColumnNames columns : alternatives) {
+            std::vector<std::string_view> missing = table.missing(columns);
+            if (needed == 0 || missing.size() < least.size()) {
+                least = std::move(missing);
+                needed = columns.size();
+            }
+        }
+        lack.needed += needed;
+        lack.columns.insert(lack.columns.end(), least.begin(), least.end());
+    }
+    return lack;
+}
+
 Error unknown_header(const CsvTable& table, const std::vector<const TraceFormat*>& candidates) {
-    const auto share_missing = [&](const TraceFormat* format) {
-        return static_cast<double>(table.missing(format->columns).size()) /
-               static_cast<double>(format->columns.size());
-    };
     const TraceFormat* const nearest = *std::min_element(
         candidates.begin(), candidates.end(), [&](const TraceFormat* a, const TraceFormat* b) {
-            return share_missing(a) < share_missing(b);
+            return lacking(table, *a).share() < lacking(table, *b).share();
         });
-    std::string message =
-        fmt::format("{}:1: unknown header; known formats: {}", table.name(), known_names());
-    if (candidates.size() == 1 || share_missing(nearest) < 1.0) {
-        message += fmt::format("; for {} it lacks {}", nearest->name,
-                               listed(table.missing(nearest->columns)));
+    std::string message = fmt::format("{}:{}: unknown header; known formats: {}", table.name(),
+                                      table.header_line(), known_names());
+    const Lack lack = lacking(table, *nearest);
+    if (candidates.size() == 1 || lack.share() < 1.0) {
+        message += fmt::format("; for {} it lacks {}", nearest->name, listed(lack.columns));
     }
     return {ErrorKind::BadInput, message};
 }
@@ -67,14 +93,14 @@ Error unknown_header(const CsvTable& table, const std::vector<const TraceFormat*
 }  // namespace
 
 Expected<gaze::GazeTrace> read_trace(std::istream& in, const std::string& name,
-                                     std::string_view format) {
+                                     const ReadOptions& options) {
     std::vector<const TraceFormat*> candidates = formats();
-    if (format != kAuto) {
-        std::erase_if(candidates, [&](const TraceFormat* f) { return f->name != format; });
+    if (options.format != kAuto) {
+        std::erase_if(candidates, [&](const TraceFormat* f) { return f->name != options.format; });
         if (candidates.empty()) {
             return std::unexpected(
                 Error{ErrorKind::Usage, fmt::format("unknown trace format '{}'; known: {}, {}",
-                                                    format, kAuto, known_names())});
+                                                    options.format, kAuto, known_names())});
         }
     }
     Expected<CsvTable> table = CsvTable::open(in, name);
@@ -83,18 +109,18 @@ Expected<gaze::GazeTrace> read_trace(std::istream& in, const std::string& name,
     }
     const auto fitting =
         std::find_if(candidates.begin(), candidates.end(),
-                     [&](const TraceFormat* f) { return table->missing(f->columns).empty(); });
+                     [&](const TraceFormat* f) { return lacking(*table, *f).columns.empty(); });
     if (fitting == candidates.end()) {
         return std::unexpected(unknown_header(*table, candidates));
     }
-    Expected<gaze::GazeTrace> trace = (*fitting)->read(*table);
+    Expected<gaze::GazeTrace> trace = (*fitting)->read(*table, options);
     if (trace) {
         gaze::report_new_origins(trace->samples, trace->report);
     }
     return trace;
 }
 
-Expected<gaze::GazeTrace> read_trace(const std::string& file, std::string_view format) {
+Expected<gaze::GazeTrace> read_trace(const std::string& file, const ReadOptions& options) {
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) {
         return std::unexpected(
@@ -107,7 +133,7 @@ Expected<gaze::GazeTrace> read_trace(const std::string& file, std::string_view f
             ErrorKind::BadInput,
             fmt::format("{}: cannot be opened: {}", file, std::generic_category().message(errno))});
     }
-    Expected<gaze::GazeTrace> trace = read_trace(in, file, format);
+    Expected<gaze::GazeTrace> trace = read_trace(in, file, options);
     if (trace && trace->format == native_trace().name) {
         Expected<std::string> device = read_native_sidecar(file);
         if (!device) {

@@ -2,26 +2,25 @@
 
 #include <istream>
 #include <string>
-#include <string_view>
 
+#include "drivers/trace/read_options.h"
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_trace.h"
 
 namespace gazeloop::drivers {
 
-/// Reads a recorded trace. `format` is "auto" (by the header's column names), "gazeloop" or
-/// "htc-vive-pro".
+/// Reads a recorded trace. The format is options.format, or known by the header's column names.
+/// What the file has that is not usual, and what was not used or changed, is in the trace's report.
 ///
 /// Errors: Usage for a format that does not exist. BadInput, naming the file and where it applies
-/// the line, for a file that is missing, a directory, empty or not text, or whose header no format
-/// knows. BadInput also for a row of the wrong width, a cell that the format does not allow, no
-/// row, or no row with a valid eye. Rows whose time does not advance are no error: Trace counts
-/// them.
+/// the line, for a file that is missing, a directory, empty, not a table of text (csv_table.h), or
+/// whose header no format knows. BadInput also for a row of the wrong width, no row, or no row with
+/// a valid eye. A cell that cannot be read is no error (trace_rows.h).
 [[nodiscard]] Expected<gaze::GazeTrace> read_trace(const std::string& file,
-                                                   std::string_view format = "auto");
+                                                   const ReadOptions& options = {});
 
 /// The same from a stream; `name` is the file's name in messages and in the trace. No sidecar.
 [[nodiscard]] Expected<gaze::GazeTrace> read_trace(std::istream& in, const std::string& name,
-                                                   std::string_view format = "auto");
+                                                   const ReadOptions& options = {});
 
 }  // namespace gazeloop::drivers

@@ -4,17 +4,23 @@
 #include <string_view>
 
 #include "drivers/trace/csv_table.h"
+#include "drivers/trace/read_options.h"
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_trace.h"
 
 namespace gazeloop::drivers {
 
+using ColumnNames = std::span<const std::string_view>;
+
 /// A kind of file that holds a trace, known by its columns.
 struct TraceFormat {
-    std::string_view name;                      ///< as --format and GazeTrace::format have it
-    std::span<const std::string_view> columns;  ///< the header has all of these, in any order
-    /// Reads the rows of a table that has the columns.
-    Expected<gaze::GazeTrace> (*read)(CsvTable& table);
+    std::string_view name;  ///< as --format and GazeTrace::format have it
+    ColumnNames columns;    ///< all that are read, in any order
+    /// What a fovea point cannot do without: of each of these lists of alternatives, the header has
+    /// all columns of at least one.
+    std::span<const std::span<const ColumnNames>> needed;
+    /// Reads the rows of a table that has what is needed.
+    Expected<gaze::GazeTrace> (*read)(CsvTable& table, const ReadOptions& options);
 };
 
 }  // namespace gazeloop::drivers

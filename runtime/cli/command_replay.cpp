@@ -222,8 +222,9 @@ ExitCode replay(const ReplayCommand& command, const std::string& command_line) {
         return ExitCode::Ok;
     }
     value_or_throw(settings.check());
-    return replay_trace(command, value_or_throw(drivers::read_trace(command.file, command.format)),
-                        settings, request);
+    return replay_trace(
+        command, value_or_throw(drivers::read_trace(command.file, {.format = command.format})),
+        settings, request);
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ inline std::optional<gaze::GazeTrace> read_checked(std::string_view header,
     std::string text{header};
     text.append(rows.begin(), rows.end());
     std::istringstream in(text);
-    const Expected<gaze::GazeTrace> trace = drivers::read_trace(in, "fuzz", format);
+    const Expected<gaze::GazeTrace> trace =
+        drivers::read_trace(in, "fuzz", {.format = std::string{format}});
     if (!trace) {
         require(trace.error().kind == ErrorKind::BadInput && !trace.error().message.empty());
         return std::nullopt;

@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (trace) {
         const std::string text = written(*trace);
         std::istringstream in(text);
-        const auto again = gazeloop::drivers::read_trace(in, "again", "gazeloop");
+        const auto again = gazeloop::drivers::read_trace(in, "again", {.format = "gazeloop"});
         require(again.has_value() && written(*again) == text);
     }
     return 0;

@@ -87,17 +87,19 @@ TEST(ReadTrace, RefusesAnotherFormatThanTheOneAskedFor) {
     EXPECT_TRUE(read_text(htc(""), "htc-vive-pro").has_value());
     expect_refused(read_text(htc(""), "gazeloop"),
                    "gaze.csv:1: unknown header; known formats: gazeloop, htc-vive-pro; for "
-                   "gazeloop it lacks 'sequence', 't_device_ns'");
-    expect_refused(read_text(htc(""), "gazeloop"), "and 20 more");
+                   "gazeloop it lacks 't_device_ns', 'left_valid', 'left_x', 'left_y', 'left_z'");
 }
 
 TEST(ReadTrace, NamesTheColumnsThatTheNearestFormatLacks) {
     std::string text = htc("");
-    text.replace(text.find("openness_R"), 10, "opennessXR");
+    text.replace(text.find("eye_valid_L"), 11, "eye_valiX_L");
+    text.replace(text.find("gaze_direct_R.y"), 15, "gaze_direct_R_y");
+    text.replace(text.find("gaze_direct_R.z"), 15, "gaze_direct_R_z");
     text.replace(text.find("time(100ns)"), 11, "time(200ns)");
+    text.replace(text.find("time_stamp(ms)"), 14, "time_stamp( s)");
     expect_refused(read_text(text),
                    "gaze.csv:1: unknown header; known formats: gazeloop, htc-vive-pro; for "
-                   "htc-vive-pro it lacks 'time(100ns)', 'openness_R'");
+                   "htc-vive-pro it lacks 'time(100ns)', 'eye_valid_L'");
 }
 
 TEST(ReadTrace, NamesNoNearestFormatWhereNothingFits) {
@@ -109,8 +111,8 @@ TEST(ReadTrace, NamesNoNearestFormatWhereNothingFits) {
 
 TEST(ReadTrace, RefusesAnEmptyFile) {
     expect_refused(read_text(""), "gaze.csv:1: empty file");
-    expect_refused(read_text("\n1;2\n"), "gaze.csv:1: no header in the first line");
-    expect_refused(read_text("\xEF\xBB\xBF\n"), "gaze.csv:1: no header in the first line");
+    expect_refused(read_text("\xEF\xBB\xBF"), "gaze.csv:1: empty file");
+    expect_refused(read_text("\xEF\xBB\xBF\n"), "gaze.csv:2: no header: a table begins with");
 }
 
 TEST(ReadTrace, RefusesAFileWithoutRows) {
@@ -124,47 +126,15 @@ TEST(ReadTrace, RefusesAFileWithoutAValidEye) {
     for (std::size_t at = 0; (at = text.find(";31;31;", at)) != std::string::npos;) {
         text.replace(at, 7, ";25;24;");
     }
-    expect_refused(read_text(text), "no valid gaze in gaze.csv");
-}
-
-TEST(ReadTrace, RefusesWhatIsNotANumberAndSaysWhere) {
-    expect_refused(read_text(htc(htc_row(2000, "0;abc;1"))),
-                   "gaze.csv:3: column 'gaze_direct_L.y': 'abc' is not a number");
-    expect_refused(read_text(htc("\r\n\r\n" + htc_row(2000, "0;0;1", "0;;1"))),
-                   "gaze.csv:5: column 'gaze_direct_R.y': '' is not a number");
-    expect_refused(read_text(htc(htc_row(2000, "0;0,5;1"))),
-                   "gaze.csv:3: column 'gaze_direct_L.y': '0,5' is not a number");
-    expect_refused(read_text(htc(htc_row(2000, "0;1e999;1"))), "'1e999' is not a number");
-    expect_refused(read_text(htc(htc_row(2000, "0;1 2;1"))), "'1 2' is not a number");
-    expect_refused(read_text(htc(htc_row(2000, "0x1;0;1"))), "'0x1' is not a number");
-    // In the last row too, which nothing follows.
-    expect_refused(read_text(htc(htc_row(2000, "0;0;1", "0;0;z"))),
-                   "gaze.csv:3: column 'gaze_direct_R.z': 'z' is not a number");
-}
-
-TEST(ReadTrace, RefusesWhatIsNotFinite) {
-    for (const std::string cell : {"nan", "NaN", "inf", "-inf", "infinity"}) {
-        expect_refused(
-            read_text(htc(htc_row(2000, "0;0;" + cell))),
-            fmt::format("gaze.csv:3: column 'gaze_direct_L.z': '{}' is not finite", cell));
-    }
-}
-
-TEST(ReadTrace, RefusesWholeNumbersThatAreNot) {
-    const std::string row = htc_row(2000);
-    expect_refused(read_text(htc("12.5" + row)),
-                   "gaze.csv:3: column 'time(100ns)': '12.52000' is not a whole number");
-    expect_refused(read_text(htc("99999999999999999" + row)), "is not a whole number of 64 bits");
-    expect_refused(read_text(native(native_row(-1, 2000))),
-                   "gaze.csv:3: column 'sequence': '-1' is not a whole number from 0");
+    expect_refused(read_text(text), "gaze.csv: no valid gaze in 2 rows; from line 2: left eye");
 }
 
 TEST(ReadTrace, RefusesRowsOfTheWrongWidth) {
     expect_refused(read_text(htc("1;2;3\r\n")), "gaze.csv:3: 3 columns, the header has 24");
     expect_refused(read_text(htc(htc_row(2000, "0;0;1;0"))),
                    "gaze.csv:3: 25 columns, the header has 24");
-    expect_refused(read_text(htc(htc_row(2000) + "6383427940")),
-                   "gaze.csv:4: 1 columns, the header has 24");
+    expect_refused(read_text(htc(htc_row(2000) + "6383427940\n")),
+                   "gaze.csv:4: 1 columns, the header has 24: mend or remove the line");
 }
 
 TEST(ReadTrace, RefusesAColumnNamedTwice) {
@@ -182,15 +152,10 @@ TEST(ReadTrace, RefusesLinesWithoutEnd) {
 }
 
 TEST(ReadTrace, RefusesABinaryFile) {
-    expect_refused(read_text(std::string("\x1f\x8b\x08\0\0\0", 6)), "gaze.csv:1: not a text file");
+    expect_refused(read_text("\x7f"
+                             "ELF\x02\x01"),
+                   "gaze.csv:1: not a text file");
     expect_refused(read_text(htc(std::string("1;\0;3\n", 6))), "gaze.csv:3: not a text file");
-}
-
-TEST(ReadTrace, QuotesCellsSafely) {
-    expect_refused(read_text(htc(htc_row(2000, "0;\xff\xfe;1"))),
-                   fmt::format("'{}' is not a number", std::string(2, '?')));
-    expect_refused(read_text(htc(htc_row(2000, fmt::format("0;{};1", std::string(500, 'a'))))),
-                   fmt::format("'{}...' is not a number", std::string(40, 'a')));
 }
 
 TEST(ReadTrace, DropsAndCountsRowsWhoseTimeDoesNotAdvance) {
@@ -202,15 +167,6 @@ TEST(ReadTrace, DropsAndCountsRowsWhoseTimeDoesNotAdvance) {
     EXPECT_EQ(trace->samples[0].sampled.ns, 0);
     EXPECT_EQ(trace->samples[1].sampled.ns, 200'000);
     EXPECT_EQ(trace->samples[2].sampled.ns, 200'100);
-}
-
-TEST(ReadTrace, RefusesTimesThatCannotBelongToOneRecording) {
-    expect_refused(read_text(htc(htc_row(9'000'000'000'000'000'000))),
-                   "gaze.csv:3: column 'time(100ns)': '9000000000000000000' is more than a year "
-                   "away from the first row");
-    expect_refused(read_text(htc(htc_row(-9'223'372'036'854'775'807))), "more than a year away");
-    expect_refused(read_text(native(native_row(1, -9'223'372'036'854'775'807))),
-                   "column 't_device_ns'");
 }
 
 TEST(ReadTrace, AcceptsAMissingLastLineEnd) {

@@ -13,7 +13,7 @@ namespace gazeloop::drivers {
 inline Expected<gaze::GazeTrace> read_text(const std::string& text,
                                            std::string_view format = "auto") {
     std::istringstream in(text);
-    return read_trace(in, "gaze.csv", format);
+    return read_trace(in, "gaze.csv", {.format = std::string{format}});
 }
 
 inline constexpr std::string_view kHtcHeader =

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace gazeloop::drivers {
+
+/// How a number was written, where not the C way.
+struct NumberSpelling {
+    bool decimal_comma = false;  ///< "0,5"
+    bool whole_as_real = false;  ///< "31.0" for 31
+};
+
+/// Numbers of a table's cells, whatever the locale. Decimals have a point, or a comma, which is
+/// added to `seen`.
+///
+/// A finite number; none where the cell is anything else, or does not fit.
+[[nodiscard]] std::optional<double> real_number(std::string_view cell, NumberSpelling& seen);
+
+/// A whole number of 64 bits, also as tables with gaps write it, with zeros behind a point.
+[[nodiscard]] std::optional<std::int64_t> whole_number(std::string_view cell, NumberSpelling& seen);
+[[nodiscard]] std::optional<std::uint64_t> count_number(std::string_view cell,
+                                                        NumberSpelling& seen);
+
+/// Whether the cell says that there is no number: blank, "NaN", "-nan(ind)", "inf", "n/a", "null"
+/// and the like, in any case.
+[[nodiscard]] bool says_no_number(std::string_view cell);
+
+}  // namespace gazeloop::drivers

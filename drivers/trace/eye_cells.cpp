@@ -1,0 +1,181 @@
+#include "drivers/trace/eye_cells.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string_view>
+
+#include "runtime/gaze/direction.h"
+
+namespace gazeloop::drivers {
+namespace {
+
+/// Directions this close to unit length are taken as they are, so that what was written is read
+/// back exactly.
+constexpr double kUnitTolerance = 1e-9;
+
+constexpr double kUnknown = -1.0;
+
+std::array<std::string_view, 3> views(const std::array<std::string, 3>& names) {
+    return {names[0], names[1], names[2]};
+}
+
+std::string_view name_of(gaze::Eye eye) { return gaze::kEyeNames[gaze::index(eye)]; }
+
+}  // namespace
+
+EyeCells::EyeCells(CsvTable& table, gaze::Eye eye, const EyeColumnNames& names, const EyeForm& form)
+    : eye_(eye), form_(form) {
+    const auto optional = [&](const std::string& name) {
+        return name.empty() ? std::nullopt : table.column(name);
+    };
+    const auto direction =
+        table.columns(views(names.direction), fmt::format("the {} eye's direction", name_of(eye)));
+    const auto valid = table.column(names.valid);
+    if (!direction || !valid) {
+        table.note(table.header_line(), fmt::format("no {} eye, for want of its direction or '{}'",
+                                                    name_of(eye), names.valid));
+        return;
+    }
+    valid_ = valid;
+    direction_ = *direction;
+    origin_ = table.columns(views(names.origin), fmt::format("the {} eye's origin", name_of(eye)));
+    openness_ = optional(names.openness);
+    confidence_ = optional(names.confidence);
+}
+
+gaze::EyeRay EyeCells::read(CsvTable& table, BadCells& bad) {
+    gaze::EyeRay ray;
+    if (!valid_) {
+        return ray;
+    }
+    const EyeTrust vouched = trust(table, bad);
+    count_refusals(vouched, table.line());
+    read_direction(table, vouched.direction, ray, bad);
+    if (origin_ && vouched.origin) {
+        ray.origin_m = read_origin(table, vouched.direction, bad);
+    }
+    if (openness_ && vouched.openness) {
+        ray.openness = read_fraction(table, *openness_, vouched.direction, bad);
+    }
+    if (confidence_) {
+        ray.confidence = read_fraction(table, *confidence_, vouched.direction, bad);
+    }
+    return ray;
+}
+
+EyeTrust EyeCells::trust(CsvTable& table, BadCells& bad) const {
+    const std::optional<std::int64_t> written = table.whole(*valid_);
+    const std::optional<EyeTrust> vouched = written ? form_.trust(*written) : std::nullopt;
+    if (vouched) {
+        return *vouched;
+    }
+    // A row may hold nothing at all of an eye.
+    const bool nothing_there =
+        table.is_missing(*valid_) &&
+        std::all_of(direction_.begin(), direction_.end(),
+                    [&](std::size_t column) { return table.is_missing(column); });
+    if (!nothing_there) {
+        bad.add(direction_of(eye_), table.line(), [&] {
+            return fmt::format("{} does not say whether the eye is valid",
+                               table.described(*valid_));
+        });
+    }
+    return {};
+}
+
+void EyeCells::count_refusals(const EyeTrust& trust, std::uint64_t line) {
+    if (!form_.bits) {
+        return;
+    }
+    const std::array<bool, 3> refuses{!trust.direction, origin_ && !trust.origin,
+                                      openness_ && !trust.openness};
+    for (std::size_t i = 0; i < refuses.size(); ++i) {
+        if (refuses[i] && refused_[i].rows++ == 0) {
+            refused_[i].first_line = line;
+        }
+    }
+}
+
+void EyeCells::read_direction(CsvTable& table, bool vouched, gaze::EyeRay& ray,
+                              BadCells& bad) const {
+    glm::dvec3 written = ray.direction;
+    std::optional<std::size_t> unreadable;
+    for (const int i : {0, 1, 2}) {
+        const std::size_t column = direction_[static_cast<std::size_t>(i)];
+        if (const std::optional<double> value = table.real(column)) {
+            written[i] = form_.to_our_axes[i] * *value;
+        } else if (!unreadable) {
+            unreadable = column;
+        }
+    }
+    ray.direction = written;
+    if (!vouched) {
+        return;
+    }
+    if (unreadable) {
+        bad.add(direction_of(eye_), table.line(),
+                [&] { return fmt::format("{} is no number", table.described(*unreadable)); });
+        return;
+    }
+    if (std::abs(glm::length(written) - 1.0) <= kUnitTolerance) {
+        ray.valid = true;
+    } else if (const std::optional<glm::dvec3> direction = gaze::unit(written)) {
+        ray.valid = true;
+        ray.direction = *direction;
+    } else {
+        bad.add(direction_of(eye_), table.line(),
+                [] { return std::string{"a direction without length (0, 0, 0)"}; });
+    }
+}
+
+glm::dvec3 EyeCells::read_origin(CsvTable& table, bool counts, BadCells& bad) const {
+    glm::dvec3 origin_m{0.0};
+    bool complete = true;
+    for (const int i : {0, 1, 2}) {
+        const std::size_t column = (*origin_)[static_cast<std::size_t>(i)];
+        if (const std::optional<double> value = table.real(column)) {
+            origin_m[i] = form_.to_our_axes[i] * *value * form_.metre;
+            continue;
+        }
+        complete = false;
+        if (counts && !table.is_missing(column)) {
+            bad.add(other_of(eye_), table.line(),
+                    [&] { return fmt::format("{} is no number", table.described(column)); });
+        }
+    }
+    return complete ? origin_m : glm::dvec3{0.0};
+}
+
+double EyeCells::read_fraction(CsvTable& table, std::size_t column, bool counts,
+                               BadCells& bad) const {
+    const std::optional<double> value = table.real(column);
+    if (value && (*value == kUnknown || (*value >= 0.0 && *value <= 1.0))) {
+        return *value;
+    }
+    if (counts && !table.is_missing(column)) {
+        bad.add(other_of(eye_), table.line(), [&] {
+            return fmt::format("{} is neither 0 to 1 nor -1 (unknown)", table.described(column));
+        });
+    }
+    return kUnknown;
+}
+
+void EyeCells::report_to(gaze::TraceReport& report) const {
+    constexpr std::array<std::string_view, 3> kNames{"direction", "origin", "openness"};
+    for (std::size_t i = 0; i < refused_.size(); ++i) {
+        if (refused_[i].rows > 0) {
+            report.add(
+                {.kind = gaze::TraceFindingKind::RefusedByBit,
+                 .line = refused_[i].first_line,
+                 .rows = refused_[i].rows,
+                 .text = fmt::format("{} eye: {} not vouched for in {} {} (validity bit {})",
+                                     name_of(eye_), kNames[i], refused_[i].rows,
+                                     refused_[i].rows == 1 ? "row" : "rows", (*form_.bits)[i])});
+        }
+    }
+}
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "drivers/trace/bad_cells.h"
+#include "drivers/trace/csv_table.h"
+#include "runtime/gaze/eye.h"
+#include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/trace_report.h"
+
+namespace gazeloop::drivers {
+
+/// The columns of one eye, by name. Those whose names are empty no file has.
+struct EyeColumnNames {
+    std::string valid;
+    std::array<std::string, 3> direction;
+    std::array<std::string, 3> origin;
+    std::string openness;
+    std::string confidence;
+};
+
+/// What a row vouches for in an eye.
+struct EyeTrust {
+    bool direction = false;
+    bool origin = false;
+    bool openness = false;
+};
+
+/// How a format writes an eye.
+struct EyeForm {
+    /// What a validity cell's number vouches for; none where the format has no such number.
+    std::optional<EyeTrust> (*trust)(std::int64_t valid);
+    glm::dvec3 to_our_axes{1.0};  ///< factors of x, y and z
+    double metre = 1.0;           ///< per unit of the origin
+    /// The validity cell's bits for direction, origin and openness; none where it has no bits.
+    std::optional<std::array<int, 3>> bits;
+};
+
+/// Reads one eye of a table's rows and counts what is refused. Only the direction and whether it is
+/// valid are needed. An eye that the row does not vouch for may have anything in its cells. In one
+/// that it does, a direction that cannot be read makes the eye invalid and counts as bad cells;
+/// another number that is missing is unknown, and one that cannot be read counts too.
+class EyeCells {
+  public:
+    /// An eye whose direction or validity the table lacks is never valid, which is noted.
+    EyeCells(CsvTable& table, gaze::Eye eye, const EyeColumnNames& names, const EyeForm& form);
+
+    /// The eye in the table's current row.
+    [[nodiscard]] gaze::EyeRay read(CsvTable& table, BadCells& bad);
+
+    /// Adds what the tracker's bits did not vouch for.
+    void report_to(gaze::TraceReport& report) const;
+
+  private:
+    /// What the row vouches for; nothing where its validity cannot be read.
+    [[nodiscard]] EyeTrust trust(CsvTable& table, BadCells& bad) const;
+    void count_refusals(const EyeTrust& trust, std::uint64_t line);
+    void read_direction(CsvTable& table, bool vouched, gaze::EyeRay& ray, BadCells& bad) const;
+    [[nodiscard]] glm::dvec3 read_origin(CsvTable& table, bool counts, BadCells& bad) const;
+    [[nodiscard]] double read_fraction(CsvTable& table, std::size_t column, bool counts,
+                                       BadCells& bad) const;
+
+    struct Refused {
+        std::uint64_t rows = 0;
+        std::uint64_t first_line = 0;
+    };
+
+    gaze::Eye eye_;
+    EyeForm form_;
+    std::optional<std::size_t> valid_;  ///< none: the table lacks the eye
+    std::array<std::size_t, 3> direction_{};
+    std::optional<std::array<std::size_t, 3>> origin_;
+    std::optional<std::size_t> openness_;
+    std::optional<std::size_t> confidence_;
+    std::array<Refused, 3> refused_{};  ///< direction, origin, openness
+};
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,68 @@
+#include "drivers/trace/trace_rows.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace gazeloop::drivers {
+
+TraceRows::TraceRows(CsvTable& table, gaze::PerEye<EyeCells>& eyes, TraceOrigin origin)
+    : table_(table), eyes_(eyes), builder_(std::move(origin)) {}
+
+std::optional<std::int64_t> TraceRows::optional_ticks(std::optional<std::size_t> column) {
+    if (!column) {
+        return std::nullopt;
+    }
+    const std::optional<std::int64_t> value = table_.whole(*column);
+    if (!value) {
+        refuse_unless_missing(RowPart::Other, *column);
+    }
+    return value;
+}
+
+std::optional<std::uint64_t> TraceRows::optional_count(std::optional<std::size_t> column) {
+    if (!column) {
+        return std::nullopt;
+    }
+    const std::optional<std::uint64_t> value = table_.count(*column);
+    if (!value) {
+        refuse_unless_missing(RowPart::Other, *column);
+    }
+    return value;
+}
+
+void TraceRows::refuse_unless_missing(RowPart part, std::size_t column) {
+    if (!table_.is_missing(column)) {
+        bad_.add(part, table_.line(),
+                 [&] { return fmt::format("{} is no whole number", table_.described(column)); });
+    }
+}
+
+void TraceRows::refuse_head(std::size_t column, std::string_view why) {
+    bad_.add(RowPart::Head, table_.line(),
+             [&] { return fmt::format("{} {}", table_.described(column), why); });
+}
+
+Expected<gaze::GazeTrace> TraceRows::finish(const ReadOptions& options) {
+    gaze::TraceReport& report = builder_.report();
+    table_.report_to(report);
+    bad_.report_to(report);
+    for (const EyeCells& eye : eyes_) {
+        eye.report_to(report);
+    }
+    if (rows_ == 0 || any_valid_) {
+        return builder_.finish(options);
+    }
+    std::string message = fmt::format("{}: no valid gaze in {} {}", table_.name(), rows_,
+                                      rows_ == 1 ? "row" : "rows");
+    for (const gaze::TraceFinding& finding : report.findings()) {
+        if (finding.kind == gaze::TraceFindingKind::BadCells ||
+            finding.kind == gaze::TraceFindingKind::RefusedByBit) {
+            message += fmt::format("; from line {}: {}", finding.line, finding.text);
+        }
+    }
+    return std::unexpected(Error{
+        ErrorKind::BadInput, message + ": set the tracker up for these eyes, and record again"});
+}
+
+}  // namespace gazeloop::drivers

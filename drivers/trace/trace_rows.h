@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "drivers/trace/bad_cells.h"
+#include "drivers/trace/csv_table.h"
+#include "drivers/trace/eye_cells.h"
+#include "drivers/trace/read_options.h"
+#include "drivers/trace/trace_builder.h"
+#include "drivers/trace/trace_row.h"
+#include "runtime/error.h"
+#include "runtime/gaze/gaze_trace.h"
+
+namespace gazeloop::drivers {
+
+/// Takes the rows of a table to a trace, for every format alike: what a format adds is where its
+/// columns stand and what their numbers mean. No cell is an error: what it would have said is
+/// unknown, and counted where the row claims otherwise.
+class TraceRows {
+  public:
+    /// The table and the eyes must outlive the rows.
+    TraceRows(CsvTable& table, gaze::PerEye<EyeCells>& eyes, TraceOrigin origin);
+
+    /// Reads all rows; `take_apart(row)` fills in what is not line or eyes, by the functions below.
+    /// Errors: those of the table and of the builder; no row with a valid eye.
+    template <typename TakeApart>
+    [[nodiscard]] Expected<gaze::GazeTrace> read(const ReadOptions& options,
+                                                 const TakeApart& take_apart);
+
+    /// A clock's reading; none where the cell holds none.
+    [[nodiscard]] std::optional<std::int64_t> ticks(std::size_t column) {
+        return table_.whole(column);
+    }
+    /// The same of a clock or counter that a row can do without.
+    [[nodiscard]] std::optional<std::int64_t> optional_ticks(std::optional<std::size_t> column);
+    [[nodiscard]] std::optional<std::uint64_t> optional_count(std::optional<std::size_t> column);
+
+    /// The numbers of the head's pose. None where all cells are missing, or where one of them
+    /// cannot be read, which is counted.
+    template <std::size_t Count>
+    [[nodiscard]] std::optional<std::array<double, Count>> head(
+        const std::array<std::size_t, Count>& columns);
+    /// Counts a pose whose numbers make none.
+    void refuse_head(std::size_t column, std::string_view why);
+
+  private:
+    void refuse_unless_missing(RowPart part, std::size_t column);
+    [[nodiscard]] Expected<gaze::GazeTrace> finish(const ReadOptions& options);
+
+    CsvTable& table_;
+    gaze::PerEye<EyeCells>& eyes_;
+    TraceBuilder builder_;
+    BadCells bad_;
+    std::uint64_t rows_ = 0;
+    bool any_valid_ = false;
+};
+
+template <typename TakeApart>
+Expected<gaze::GazeTrace> TraceRows::read(const ReadOptions& options, const TakeApart& take_apart) {
+    while (true) {
+        const Expected<bool> more = table_.next();
+        if (!more) {
+            return std::unexpected(more.error());
+        }
+        if (!*more) {
+            return finish(options);
+        }
+        TraceRow row;
+        row.line = table_.line();
+        for (const gaze::Eye eye : gaze::kEyes) {
+            gaze::EyeRay& ray = row.eyes[gaze::index(eye)];
+            ray = eyes_[gaze::index(eye)].read(table_, bad_);
+            any_valid_ = any_valid_ || ray.valid;
+        }
+        take_apart(row);
+        builder_.add(row);
+        ++rows_;
+    }
+}
+
+template <std::size_t Count>
+std::optional<std::array<double, Count>> TraceRows::head(
+    const std::array<std::size_t, Count>& columns) {
+    std::array<double, Count> numbers{};
+    std::size_t missing = 0;
+    std::optional<std::size_t> unreadable;
+    for (std::size_t i = 0; i < Count; ++i) {
+        if (const std::optional<double> number = table_.real(columns[i])) {
+            numbers[i] = *number;
+        } else {
+            missing += table_.is_missing(columns[i]) ? 1U : 0U;
+            unreadable = unreadable.value_or(columns[i]);
+        }
+    }
+    if (!unreadable) {
+        return numbers;
+    }
+    if (missing < Count) {
+        refuse_head(*unreadable, "is no number");
+    }
+    return std::nullopt;
+}
+
+}  // namespace gazeloop::drivers
