@@ -35,7 +35,7 @@ class BadCells {
     /// `what` says what is wrong: "column 'x': 'abc' is no number". It is called for the first
     /// only.
     template <typename What>
-    void add(RowPart part, std::uint64_t line, What&& what) {
+    void add(RowPart part, std::uint64_t line, const What& what) {
         Count& count = counts_[static_cast<std::size_t>(part)];
         if (count.rows == 0) {
             count.first_line = line;

@@ -51,8 +51,11 @@ gaze::EyeRay EyeCells::read(CsvTable& table, BadCells& bad) {
     if (!valid_) {
         return ray;
     }
-    const EyeTrust vouched = trust(table, bad);
-    count_refusals(vouched, table.line());
+    const std::optional<EyeTrust> written = trust(table, bad);
+    if (written) {
+        count_refusals(*written, table.line());
+    }
+    const EyeTrust vouched = written.value_or(EyeTrust{});
     read_direction(table, vouched.direction, ray, bad);
     if (origin_ && vouched.origin) {
         ray.origin_m = read_origin(table, vouched.direction, bad);
@@ -66,11 +69,11 @@ gaze::EyeRay EyeCells::read(CsvTable& table, BadCells& bad) {
     return ray;
 }
 
-EyeTrust EyeCells::trust(CsvTable& table, BadCells& bad) const {
+std::optional<EyeTrust> EyeCells::trust(CsvTable& table, BadCells& bad) const {
     const std::optional<std::int64_t> written = table.whole(*valid_);
     const std::optional<EyeTrust> vouched = written ? form_.trust(*written) : std::nullopt;
     if (vouched) {
-        return *vouched;
+        return vouched;
     }
     // A row may hold nothing at all of an eye.
     const bool nothing_there =
@@ -83,7 +86,7 @@ EyeTrust EyeCells::trust(CsvTable& table, BadCells& bad) const {
                                table.described(*valid_));
         });
     }
-    return {};
+    return std::nullopt;
 }
 
 void EyeCells::count_refusals(const EyeTrust& trust, std::uint64_t line) {

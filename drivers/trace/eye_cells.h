@@ -56,8 +56,8 @@ class EyeCells {
     void report_to(gaze::TraceReport& report) const;
 
   private:
-    /// What the row vouches for; nothing where its validity cannot be read.
-    [[nodiscard]] EyeTrust trust(CsvTable& table, BadCells& bad) const;
+    /// What the row vouches for; none where its validity cannot be read.
+    [[nodiscard]] std::optional<EyeTrust> trust(CsvTable& table, BadCells& bad) const;
     void count_refusals(const EyeTrust& trust, std::uint64_t line);
     void read_direction(CsvTable& table, bool vouched, gaze::EyeRay& ray, BadCells& bad) const;
     [[nodiscard]] glm::dvec3 read_origin(CsvTable& table, bool counts, BadCells& bad) const;

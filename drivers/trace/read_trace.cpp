@@ -87,6 +87,9 @@ Error unknown_header(const CsvTable& table, const std::vector<const TraceFormat*
     if (candidates.size() == 1 || lack.share() < 1.0) {
         message += fmt::format("; for {} it lacks {}", nearest->name, listed(lack.columns));
     }
+    if (table.header_line() > 1) {
+        message += "; the lines before it are blank, comments or 'sep='";
+    }
     return {ErrorKind::BadInput, message};
 }
 

@@ -109,10 +109,10 @@ TEST(TraceText, ReadsOldMacLines) {
     // Also where a buffer of 128 KiB ends between CR and LF, wherever that is in a row.
     std::string text = std::string{kHtcHeader} + "\r\n";
     std::size_t rows = 0;
-    for (; text.size() < 600'000; ++rows) {
+    for (; text.size() < 200'000; ++rows) {
         text += htc_row(static_cast<long long>(1000 + rows));
     }
-    for (std::size_t shift = 0; shift < 70; ++shift) {
+    for (std::size_t shift = 0; shift < 90; ++shift) {
         const auto longer = read_text("#" + std::string(shift, ' ') + "\r\n" + text);
         ASSERT_TRUE(longer.has_value()) << longer.error().message;
         ASSERT_EQ(longer->samples.size(), rows);
@@ -154,7 +154,7 @@ TEST(TraceText, KnowsNamesInAnotherCase) {
     const auto trace = read_text(text);
     expect_read(trace);
     EXPECT_THAT(notes(trace),
-                ElementsAre("1: column names in another case: 'EYE_VALID_L' (23 in all)"));
+                ElementsAre("1: column names in another case: 'GAZE_DIRECT_L.X' (23 in all)"));
 }
 
 TEST(TraceText, PrefersTheExactNameAndGuessesNone) {
@@ -169,7 +169,7 @@ TEST(TraceText, ReadsGzip) {
     const auto trace = read_text(gzipped(htc()));
     expect_read(trace);
     EXPECT_THAT(notes(trace), ElementsAre("0: gzip: decompressed"));
-    expect_read(read_text(gzipped(htc().substr(0, 700)) + gzipped(htc().substr(700))));
+    expect_read(read_text(gzipped(htc().substr(0, 300)) + gzipped(htc().substr(300))));
     const std::string file = gzipped(htc());
     EXPECT_THAT(refusal(file.substr(0, file.size() - 9)),
                 HasSubstr(": the gzip data end early, the file was cut: copy or download it"));
