@@ -18,6 +18,8 @@ class ByteStream {
   public:
     /// `in` must outlive the stream.
     explicit ByteStream(std::istream& in);
+    ByteStream(const ByteStream&) = delete;
+    ByteStream& operator=(const ByteStream&) = delete;
     ByteStream(ByteStream&&) noexcept;
     ByteStream& operator=(ByteStream&&) noexcept;
     ~ByteStream();

@@ -19,7 +19,7 @@ std::string lower_case(std::string_view text) {
 }
 
 /// A cell as it may stand in a message: short, and nothing that a terminal would act on.
-std::string quoted(std::string_view cell) {
+std::string shown(std::string_view cell) {
     constexpr std::size_t kLongest = 40;
     std::string text{cell.substr(0, kLongest)};
     std::replace_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
@@ -133,7 +133,7 @@ Expected<void> CsvTable::read_header() {
         const bool is_new = column_of_.try_emplace(std::string{cell}, at).second;
         if (!is_new && !cell.empty()) {
             return lines_.error_here(
-                fmt::format("column {} occurs twice: rename or remove one", quoted(cell)));
+                fmt::format("column {} occurs twice: rename or remove one", shown(cell)));
         }
         const auto [other, is_only] = column_of_lower_case_.try_emplace(lower_case(cell), at);
         if (!is_only) {
@@ -252,7 +252,7 @@ std::optional<std::uint64_t> CsvTable::count(std::size_t column) {
 }
 
 std::string CsvTable::described(std::size_t column) const {
-    return fmt::format("column '{}': {}", header_[column], quoted(cells_[column]));
+    return fmt::format("column '{}': {}", header_[column], shown(cells_[column]));
 }
 
 void CsvTable::note(std::uint64_t line, std::string text) {
@@ -279,7 +279,7 @@ void CsvTable::report_to(gaze::TraceReport& report) const {
         report.add({.kind = gaze::TraceFindingKind::Text,
                     .line = header_line_,
                     .text = fmt::format("column names in another case: {} ({} in all)",
-                                        quoted(in_other_case_.front()), in_other_case_.size())});
+                                        shown(in_other_case_.front()), in_other_case_.size())});
     }
     if (cut_line_ > 0) {
         report.rows += 1;
