@@ -95,7 +95,8 @@ Expected<bool> CsvTable::takes_separator(std::string_view line) {
     line.remove_prefix(kKey.size());
     const char named = line.empty() ? '\0' : line.front();
     // Programs that saw a table in it add separators, or a closing quote.
-    if (std::any_of(line.begin(), line.end(), [=](char c) { return c != named && c != '"'; })) {
+    if (std::any_of(line.begin(), line.end(),
+                    [=](char c) { return c != named && c != '"' && c != ' '; })) {
         return false;
     }
     if (named == '\0' || kSeparators.find(named) == std::string_view::npos) {

@@ -33,6 +33,11 @@ constexpr std::array kBeginnings{
     Beginning{"\x28\xB5\x2F\xFD"sv, "compressed by zstd: decompress it with zstd -d"},
     Beginning{"BZh"sv, "compressed by bzip2: decompress it with bzip2 -d"},
     Beginning{"7z\xBC\xAF"sv, "a 7z archive: unpack it"},
+    Beginning{"\x89HDF"sv, "an HDF5 file: export the table in it as CSV"},
+    Beginning{"MATLAB 5.0 MAT-file"sv, "a MATLAB file: export the table in it as CSV"},
+    Beginning{"PAR1"sv, "a Parquet file: export it as CSV"},
+    Beginning{"ARROW1"sv, "a Feather file: export it as CSV"},
+    Beginning{"\x89PNG"sv, "a picture"},
     Beginning{"%PDF"sv, "a PDF document: export the table as CSV"},
     Beginning{"SQLite format 3\0"sv, "an SQLite file, perhaps a session: gazeloop replay FILE"},
 };

@@ -170,12 +170,12 @@ TEST(BadInput, TraceNamesFileAndLine) {
     const ScratchFolder folder;
     const std::string file = folder.file("gaze.csv");
     ASSERT_EQ(run_gazeloop({"simulate", "gaze", file, "--seconds", "0.1"}).exit_code, 0);
-    const std::string broken = "sed -i '4s/^[0-9]*,/abc,/' '" + file + "'";
+    const std::string broken = "sed -i '4s/^[0-9]*,//' '" + file + "'";
     ASSERT_EQ(std::system(broken.c_str()), 0);
     const ProgramResult result = run_gazeloop({"replay", file});
     EXPECT_EQ(result.exit_code, 3);
     EXPECT_NE(result.err.find(file + ":4"), std::string::npos) << result.err;
-    EXPECT_NE(result.err.find("abc"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("27 columns, the header has 28"), std::string::npos) << result.err;
 }
 
 TEST(BadInput, TraceWithoutGaze) {

@@ -121,7 +121,7 @@ TEST(TraceText, ReadsOldMacLines) {
 }
 
 TEST(TraceText, TakesTheSeparatorFromALineThatNamesIt) {
-    for (const std::string_view line : {"sep=;\r\n", "SEP=;\n", "\"sep=;\"\r\n", "sep=;;;;\r\n"}) {
+    for (const std::string_view line : {"sep=;\r\n", "SEP=;\n", "\"sep=;\"\r\n", "sep=;;;; \r\n"}) {
         const auto trace = read_text(std::string{line} + htc());
         expect_read(trace);
         EXPECT_THAT(notes(trace),
@@ -265,6 +265,8 @@ TEST(TraceText, RefusesWhatIsNoTableByItsKind) {
     EXPECT_THAT(refusal("\xFD"
                         "7zXZ\x01"),
                 HasSubstr("decompress it with xz -d"));
+    EXPECT_EQ(refusal("\x89HDF\r\n\x1a\n"),
+              "gaze.csv:1: an HDF5 file: export the table in it as CSV");
     EXPECT_THAT(refusal(gzipped(utf16(htc(), true))), HasSubstr("UTF-16 text"));
     std::string tar = "gaze.csv" + std::string(249, 'x') + "ustar";
     EXPECT_THAT(refusal(tar), HasSubstr("a tar archive"));
