@@ -37,7 +37,7 @@ constexpr std::array kBeginnings{
     Beginning{"MATLAB 5.0 MAT-file"sv, "a MATLAB file: export the table in it as CSV"},
     Beginning{"PAR1"sv, "a Parquet file: export it as CSV"},
     Beginning{"ARROW1"sv, "a Feather file: export it as CSV"},
-    Beginning{"\x89PNG"sv, "a picture"},
+    Beginning{"\x89PNG"sv, "a picture: export the table as CSV"},
     Beginning{"%PDF"sv, "a PDF document: export the table as CSV"},
     Beginning{"SQLite format 3\0"sv, "an SQLite file, perhaps a session: gazeloop replay FILE"},
 };
