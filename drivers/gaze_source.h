@@ -2,9 +2,12 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "runtime/frame/event.h"
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/gaze_trace.h"
 #include "runtime/gaze/head_motion.h"
 #include "runtime/gaze/seen_depth.h"
 
@@ -14,6 +17,8 @@ namespace gazeloop::drivers {
 struct SourceEvent {
     time::Stamp time;
     std::string text;  ///< one line
+    /// For FrameObserver::on_event: "tracker", or "axes" where directions are in doubt.
+    frame::EventKind kind = frame::kTrackerEvent;
 };
 
 /// Where gaze comes from. A source that owns a device reads it on its own thread and hands the
@@ -44,6 +49,9 @@ class GazeSource {
     /// Whether its samples are fixed in the head on purpose (fixed foveation), so that they must
     /// not be held in world.
     [[nodiscard]] virtual bool fixed_in_head() const { return false; }
+
+    /// The trace that is played, for what its reader says of it, or null. Its times may be any.
+    [[nodiscard]] virtual const gaze::GazeTrace* trace() const { return nullptr; }
 
     /// Whether no sample can come any more (the end of a trace).
     [[nodiscard]] virtual bool finished() const { return false; }

@@ -347,7 +347,7 @@ class FrameLoop {
 
     void report_source_events() {
         for (const drivers::SourceEvent& event : source_->take_events()) {
-            report_event(event.time, frame::kTrackerEvent, event.text);
+            report_event(event.time, event.kind, event.text);
         }
     }
 

@@ -8,9 +8,10 @@ namespace gazeloop::drivers {
 /// How a trace's directions are to be turned before they are used.
 enum class AxesCorrection : std::uint8_t {
     None,
-    MirrorX,   ///< "-x": left and right are exchanged in every direction and origin
+    MirrorX,   ///< "-x": left and right are exchanged in directions, places or both
     SwapEyes,  ///< "swap-eyes": the left eye's columns are the right eye's
     MirrorZ,   ///< "-z": every direction points behind
+    MirrorXZ,  ///< "-x-z": and left and right are exchanged: turned by half a turn
 };
 
 /// What the user says about a trace.

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/trace/axes_correction.h"
 #include "drivers/trace/csv_table.h"
 #include "drivers/trace/htc_vive_pro.h"
 #include "drivers/trace/native_trace.h"
@@ -118,6 +119,9 @@ Expected<gaze::GazeTrace> read_trace(std::istream& in, const std::string& name,
     }
     Expected<gaze::GazeTrace> trace = (*fitting)->read(*table, options);
     if (trace) {
+        if (auto held = hold_against_anatomy(*trace, options.axes); !held) {
+            return std::unexpected(std::move(held.error()));
+        }
         gaze::report_new_origins(trace->samples, trace->report);
     }
     return trace;

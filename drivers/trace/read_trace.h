@@ -15,7 +15,8 @@ namespace gazeloop::drivers {
 /// Errors: Usage for a format that does not exist. BadInput, naming the file and where it applies
 /// the line, for a file that is missing, a directory, empty, not a table of text (csv_table.h), or
 /// whose header no format knows. BadInput also for a row of the wrong width, no row, or no row with
-/// a valid eye. A cell that cannot be read is no error (trace_rows.h).
+/// a valid eye, and for gaze that points behind the head (axes_correction.h). A cell that cannot be
+/// read is no error (trace_rows.h).
 [[nodiscard]] Expected<gaze::GazeTrace> read_trace(const std::string& file,
                                                    const ReadOptions& options = {});
 

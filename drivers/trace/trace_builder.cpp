@@ -78,10 +78,18 @@ void TraceBuilder::add(const TraceRow& row) {
     sample.head = row.head;
     if (!trace_.samples.empty() && sample.sampled.ns <= trace_.samples.back().sampled.ns) {
         ++trace_.rows_out_of_order;
+        trace_.report.add({.kind = gaze::TraceFindingKind::TimeOutlier,
+                           .line = trace_.report.rows + 1,
+                           .rows = 1,
+                           .dropped = 1,
+                           .text = "its time is not later than that before; dropped"});
         return;
     }
     trace_.samples.push_back(sample);
     any_valid_ = any_valid_ || sample.eyes[0].valid || sample.eyes[1].valid;
+    for (const std::size_t e : {0U, 1U}) {
+        trace_.report.valid[e] += sample.eyes[e].valid ? 1 : 0;
+    }
 }
 
 Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& /*options*/) {
@@ -94,6 +102,7 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& /*options*/) {
             Error{ErrorKind::BadInput, fmt::format("no valid gaze in {}", trace_.file)});
     }
     align_arrivals(trace_.samples);
+    trace_.report.lost_by_tracker = trace_.rows_missing;
     return std::move(trace_);
 }
 

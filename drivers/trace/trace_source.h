@@ -32,6 +32,7 @@ class TraceSource final : public GazeSource {
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;
     /// The head poses at the samples' times; null if the trace has none.
     [[nodiscard]] const gaze::HeadMotion* head_track() const override;
+    [[nodiscard]] const gaze::GazeTrace* trace() const override { return &trace_; }
     [[nodiscard]] bool finished() const override { return next_ == trace_.samples.size(); }
     [[nodiscard]] std::string description() const override;
 

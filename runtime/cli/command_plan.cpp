@@ -204,6 +204,7 @@ void add_plan_command(Command program) {
         {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16", ""},
         {"--mar", "acuity.mar", "slope of the acuity line, e.g. .022", ""},
     };
+    options.switches.clear();
     options.log.add_to(app);
     options.add_settings_to(app);
     app.option("--method", command->method, "full, kfr, acuity, layers, rings, sparse or all");

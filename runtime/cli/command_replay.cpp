@@ -7,7 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
-#include <optional>
+#include <string>
+#include <utility>
 
 #include "drivers/session/session_source.h"
 #include "drivers/trace/read_trace.h"
@@ -16,13 +17,12 @@
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/run/frame_run.h"
 #include "runtime/run/gaze_sources.h"
+#include "runtime/run/trace_of_session.h"
 #include "runtime/session/playback.h"
 #include "runtime/settings/recorded_values.h"
 
 namespace gazeloop::cli {
 namespace {
-
-constexpr const char* kSessionFormat = "session";
 
 struct ReplayCommand {
     RunOptions options;
@@ -37,60 +37,12 @@ ExitCode replay_trace(const ReplayCommand& command, gaze::GazeTrace trace,
     const profiles::TrackerProfile tracker =
         value_or_throw(profiles::tracker_in_force(settings.values().profile, settings));
     // A session knows when its samples arrived; other traces get the profile's delay.
-    const std::int64_t delay_ns = trace.format == kSessionFormat ? 0 : tracker.delay_ns;
+    const std::int64_t delay_ns = trace.format == run::kSessionFormat ? 0 : tracker.delay_ns;
     request.make_source = run::trace_player(std::move(trace), delay_ns, command.speed);
     request.clock = command.clock == "wall" ? run::RunClock::Wall : run::RunClock::Virtual;
     request.loop.end_with_source = true;
     return exit_code(run::frame_run(request));
 }
-
-/// Makes a session's gaze a trace, in the order in which it arrived, the first of it at 0. What has
-/// no known time keeps none: losses, and what came before the tracker's clock was known.
-class TraceOfSession final : public frame::FrameObserver {
-  public:
-    explicit TraceOfSession(const std::string& file) {
-        trace_.file = file;
-        trace_.format = kSessionFormat;
-        trace_.device = "recorded session";
-    }
-
-    void on_origin(const gaze::OriginChange& change) override {
-        origin_ = gaze::compose(origin_.value_or(gaze::Pose{}), change.new_in_old);
-    }
-
-    void on_sample(const gaze::GazeSample& recorded, std::uint64_t) override {
-        gaze::GazeSample& sample = trace_.samples.emplace_back(recorded);
-        if (sample.head && origin_) {
-            sample.head = gaze::compose(*origin_, *sample.head);
-        }
-        if (!start_) {
-            start_ = recorded.arrived.known() ? recorded.arrived : recorded.sampled;
-        }
-        for (time::Stamp* const stamp : {&sample.sampled, &sample.ready, &sample.arrived}) {
-            // Eleven days; --speed may stretch them a thousandfold.
-            constexpr std::int64_t kLongest_ns = 1'000'000'000'000'000;
-            std::int64_t since_start_ns = 0;
-            if (__builtin_sub_overflow(stamp->ns, start_->ns, &since_start_ns) ||
-                since_start_ns < -kLongest_ns || since_start_ns > kLongest_ns) {
-                stamp->kind = time::StampKind::Unknown;
-            }
-            *stamp = stamp->known() ? time::Stamp{since_start_ns, stamp->kind} : time::Stamp{};
-        }
-    }
-
-    gaze::GazeTrace take() {
-        if (trace_.samples.empty()) {
-            throw SetupError(ErrorKind::BadInput,
-                             fmt::format("{}: the session holds no gaze to replay", trace_.file));
-        }
-        return std::move(trace_);
-    }
-
-  private:
-    gaze::GazeTrace trace_;
-    std::optional<time::Stamp> start_;
-    std::optional<gaze::Pose> origin_;  ///< of the world in force, in the first one
-};
 
 void play_to(frame::FrameObserver& observer, const session::OpenSession& session) {
     const std::array<frame::FrameObserver*, 1> observers{&observer};
@@ -181,9 +133,7 @@ ExitCode replay_session(const ReplayCommand& command, run::ProgramSettings& sett
     }
     value_or_throw(settings.check());
     if (command.clock == "wall") {
-        TraceOfSession trace(command.file);
-        play_to(trace, session);
-        return replay_trace(command, trace.take(), settings, request);
+        return replay_trace(command, run::trace_of_session(session), settings, request);
     }
     if (command.speed != 1.0) {
         throw SetupError(ErrorKind::Usage,
@@ -222,9 +172,10 @@ ExitCode replay(const ReplayCommand& command, const std::string& command_line) {
         return ExitCode::Ok;
     }
     value_or_throw(settings.check());
-    return replay_trace(
-        command, value_or_throw(drivers::read_trace(command.file, {.format = command.format})),
-        settings, request);
+    drivers::ReadOptions options = drivers::read_options(settings.values().trace);
+    options.format = command.format;
+    return replay_trace(command, value_or_throw(drivers::read_trace(command.file, options)),
+                        settings, request);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ ExitCode report(const ReportCommand& command) {
     const session::SessionInfo& info = session.info();
     const report::SessionSummary summary = value_or_throw(report::summarize(session));
     if (command.json != "-" && !command.log.quiet) {
-        fmt::print("{}", report::summary_text(summary.report));
+        fmt::print("{}{}", report::summary_text(summary.report), summary.trace.text());
         if (!info.closed_cleanly) {
             fmt::print("{}\n", end_of(info, summary.end));
         }
@@ -55,8 +55,9 @@ ExitCode report(const ReportCommand& command) {
         }
     }
     if (!command.json.empty()) {
-        value_or_throw(
-            report::write_text(command.json, report::summary_json(summary.report).dump(2) + "\n"));
+        nlohmann::ordered_json json = report::summary_json(summary.report);
+        summary.trace.add_to(json);
+        value_or_throw(report::write_text(command.json, report::json_text(json)));
     }
     return ExitCode::Ok;
 }

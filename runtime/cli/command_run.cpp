@@ -42,6 +42,7 @@ ExitCode run(const RunCommand& command, const std::string& command_line) {
             value_or_throw(run::gaze_source_named(command.gaze, tracker, settings.values()));
     }
     request.from_device = run::is_device(command.gaze);
+    request.live_gaze = request.from_device || command.gaze == "sim";
     request.clock = command.clock == "wall" ? run::RunClock::Wall : run::RunClock::Virtual;
     command.options.fill(request);
     request.loop.end_with_source = !command.options.frames && !command.options.seconds;

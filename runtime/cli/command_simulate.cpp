@@ -59,6 +59,7 @@ void add_simulate_command(Command program) {
         {"--seed", "sim.seed", "the same seed gives the same trace", ""},
         {"--tracker", "profile.tracker", "tracker profile, by name or .toml file", ""},
     };
+    command->options.switches.clear();
     command->options.log.add_to(gaze);
     command->options.add_settings_to(gaze);
     gaze.does([=] {

@@ -11,6 +11,7 @@ void add_run_command(Command program, const std::string& command_line);
 void add_replay_command(Command program, const std::string& command_line);
 void add_numerics_command(Command program);
 void add_report_command(Command program);
+void add_gaze_command(Command program);
 void add_plan_command(Command program);
 void add_simulate_command(Command program);
 void add_devices_command(Command program);

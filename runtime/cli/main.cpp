@@ -52,6 +52,7 @@ int gazeloop_main(int count, char** arguments) {
         gazeloop::cli::add_replay_command(program, command_line);
         gazeloop::cli::add_numerics_command(program);
         gazeloop::cli::add_report_command(program);
+        gazeloop::cli::add_gaze_command(program);
         gazeloop::cli::add_plan_command(program);
         gazeloop::cli::add_simulate_command(program);
         gazeloop::cli::add_devices_command(program);

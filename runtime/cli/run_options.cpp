@@ -76,6 +76,9 @@ void RunOptions::add_settings_to(Command command) {
         command.option(alias.flag, alias.text, fmt::format("{} ({})", alias.meaning, alias.key))
             .not_empty();
     }
+    for (Switch& one : switches) {
+        command.flag(one.flag, one.given, fmt::format("{} ({})", one.meaning, one.key));
+    }
     command.flag("--print-config", print_config, "show every setting and where it comes from");
 }
 
@@ -112,6 +115,13 @@ Expected<void> RunOptions::set_in(settings::Settings& settings, bool standard_fi
     for (const Alias& alias : aliases) {
         if (!alias.text.empty()) {
             if (auto set = settings.set(alias.key, alias.text, alias.flag); !set) {
+                return set;
+            }
+        }
+    }
+    for (const Switch& one : switches) {
+        if (one.given) {
+            if (auto set = settings.set(one.key, "true", one.flag); !set) {
                 return set;
             }
         }

@@ -45,6 +45,18 @@ struct RunOptions {
         {"--seed", "sim.seed", "the same seed gives the same simulated gaze", ""},
         {"--tracker", "profile.tracker", "tracker profile: a name or a .toml file", ""},
         {"--spp", "render.spp", "samples per texel or pixel, 1 to 16", ""},
+        {"--axes", "trace.axes", "turn a trace's directions: none, -x, swap-eyes, -z, -x-z", ""},
+    };
+    /// Options that switch a setting on: the flag, its key, whether given.
+    struct Switch {
+        const char* flag;
+        const char* key;
+        const char* meaning;
+        bool given;
+    };
+    std::vector<Switch> switches{
+        {"--accept-repairs", "trace.accept_repairs",
+         "read a trace of which much was dropped or changed", false},
     };
     std::optional<std::int64_t> frames;
     std::optional<double> seconds;

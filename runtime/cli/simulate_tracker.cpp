@@ -7,9 +7,11 @@
 #include <chrono>
 #include <memory>
 
+#include "drivers/trace/axes_correction.h"
 #include "drivers/trace/read_trace.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/run/interrupt.h"
+#include "runtime/run/trace_log.h"
 #include "runtime/time/clock.h"
 #include "sim/gaze_generator.h"
 #include "sim/uhid_device.h"
@@ -24,13 +26,21 @@ constexpr double kLap_s = 60.0;
 struct SimulateTrackerCommand {
     LogOptions log;
     std::string trace;
+    std::string axes = "none";
+    drivers::ReadOptions read;
     double seconds = 1e9;
     sim::GazeSimulation gaze;
 };
 
 gaze::GazeTrace gaze_of(const SimulateTrackerCommand& command) {
-    return command.trace.empty() ? sim::generate_gaze(command.gaze, kLap_s)
-                                 : value_or_throw(drivers::read_trace(command.trace));
+    if (command.trace.empty()) {
+        return sim::generate_gaze(command.gaze, kLap_s);
+    }
+    drivers::ReadOptions options = command.read;
+    options.axes = drivers::axes_correction_named(command.axes);
+    gaze::GazeTrace trace = value_or_throw(drivers::read_trace(command.trace, options));
+    run::log_trace(trace);
+    return trace;
 }
 
 double rate_hz(const gaze::GazeTrace& trace) {
@@ -94,6 +104,10 @@ void add_simulate_tracker_command(Command simulate) {
         simulate.command("tracker", "be a HID eye tracker (usage page 0x12), through /dev/uhid");
     const auto command = std::make_shared<SimulateTrackerCommand>();
     app.option("--trace", command->trace, "what it sees; without: simulated gaze").type("FILE");
+    app.option("--axes", command->axes, "turn the trace's directions")
+        .one_of({drivers::kAxesCorrectionNames.begin(), drivers::kAxesCorrectionNames.end()});
+    app.flag("--accept-repairs", command->read.accept_repairs,
+             "read a trace of which much was dropped or changed");
     app.option("--seconds", command->seconds, "end after S seconds (until interrupted)")
         .number_between(0.0, 1e9);
     app.option("--rate", command->gaze.tracker.rate_hz, "samples per second, Hz")

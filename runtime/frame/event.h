@@ -28,6 +28,8 @@ inline constexpr EventKind kGpuClockEvent{"gpu-clock", EventWeight::Routine};
 inline constexpr EventKind kHiddenAreaEvent{"hidden-area", EventWeight::Routine};
 inline constexpr EventKind kErrorEvent{"error", EventWeight::Routine};  ///< said by itself
 inline constexpr EventKind kTrackerEvent{"tracker", EventWeight::Notice};
+inline constexpr EventKind kAxesEvent{"axes", EventWeight::Warning};
+inline constexpr EventKind kTraceEvent{"trace", EventWeight::Routine};  ///< a block of its own
 inline constexpr EventKind kClockEvent{"clock", EventWeight::Warning};
 inline constexpr EventKind kDisplayEvent{"display", EventWeight::Warning};
 
@@ -47,15 +49,30 @@ inline constexpr EventKind kFrameRefusedEvent{"frame-refused", EventWeight::Warn
 inline constexpr EventKind kEventsLostEvent{"events-lost", EventWeight::Warning};
 inline constexpr EventKind kSessionOddEvent{"session-odd", EventWeight::Warning};
 
-inline constexpr std::array kEventKinds{
-    kGazeEvent,           kGazeSourceEvent,      kGpuClockEvent,
-    kHiddenAreaEvent,     kErrorEvent,           kTrackerEvent,
-    kClockEvent,          kDisplayEvent,         kSessionEvent,
-    kMaskEvent,           kOriginEvent,          kHeadLostEvent,
-    kHeadFoundEvent,      kViewOddEvent,         kViewGoodEvent,
-    kDisplayTimeOddEvent, kDisplayTimeGoodEvent, kPeriodOddEvent,
-    kFrameDiscardedEvent, kFrameRefusedEvent,    kEventsLostEvent,
-    kSessionOddEvent};
+inline constexpr std::array kEventKinds{kGazeEvent,
+                                        kGazeSourceEvent,
+                                        kGpuClockEvent,
+                                        kHiddenAreaEvent,
+                                        kErrorEvent,
+                                        kTrackerEvent,
+                                        kAxesEvent,
+                                        kTraceEvent,
+                                        kClockEvent,
+                                        kDisplayEvent,
+                                        kSessionEvent,
+                                        kMaskEvent,
+                                        kOriginEvent,
+                                        kHeadLostEvent,
+                                        kHeadFoundEvent,
+                                        kViewOddEvent,
+                                        kViewGoodEvent,
+                                        kDisplayTimeOddEvent,
+                                        kDisplayTimeGoodEvent,
+                                        kPeriodOddEvent,
+                                        kFrameDiscardedEvent,
+                                        kFrameRefusedEvent,
+                                        kEventsLostEvent,
+                                        kSessionOddEvent};
 
 /// A kind that is not known (of a later version's recording) is worth a line.
 [[nodiscard]] constexpr EventWeight weight_of(std::string_view kind) {

@@ -24,12 +24,14 @@ Expected<SessionSummary> summarize(const session::OpenSession& session) {
     config.grids = header.grids;
     latency::LatencySummary summary(config);
     latency::SummaryObserver observer(summary);
-    const std::array<frame::FrameObserver*, 1> observers{&observer};
+    TraceAccount trace;
+    TraceObserver tracing(trace);
+    const std::array<frame::FrameObserver*, 2> observers{&observer, &tracing};
     auto end = session::play(session, observers);
     if (!end) {
         return std::unexpected(std::move(end.error()));
     }
-    return SessionSummary{summary.report(), *std::move(end)};
+    return SessionSummary{summary.report(), std::move(trace), *std::move(end)};
 }
 
 }  // namespace gazeloop::report

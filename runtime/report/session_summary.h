@@ -3,6 +3,7 @@
 #include "runtime/display/display_profile.h"
 #include "runtime/error.h"
 #include "runtime/latency/latency_summary.h"
+#include "runtime/report/trace_account.h"
 #include "runtime/session/playback.h"
 
 namespace gazeloop::report {
@@ -13,6 +14,7 @@ latency::SummaryConfig summary_config(const display::DisplayProfile& display,
 /// What a recorded session shows once it has been played.
 struct SessionSummary {
     latency::SummaryReport report;  ///< the same as at the end of its run
+    TraceAccount trace;
     session::PlaybackEnd end;
 };
 

@@ -99,4 +99,8 @@ Json summary_json(const latency::SummaryReport& report) {
             {"other_happenings", report.other_happenings}};
 }
 
+std::string json_text(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace gazeloop::report

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "runtime/latency/latency_summary.h"
 
@@ -9,5 +10,9 @@ namespace gazeloop::report {
 /// The report for programs: everything that the text says, with units in the keys. null: withheld
 /// or unknown.
 nlohmann::ordered_json summary_json(const latency::SummaryReport& report);
+
+/// As it is written to a file. Names of files and cells may be in any encoding: what is not UTF-8
+/// is replaced.
+std::string json_text(const nlohmann::ordered_json& json);
 
 }  // namespace gazeloop::report

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "drivers/anatomy/anatomy_source.h"
 #include "runtime/latency/summary_observer.h"
 #include "runtime/methods/registry.h"
 #include "runtime/preview/preview_feed.h"
@@ -21,11 +22,13 @@
 #include "runtime/report/session_summary.h"
 #include "runtime/report/summary_json.h"
 #include "runtime/report/summary_text.h"
+#include "runtime/report/trace_account.h"
 #include "runtime/run/event_log.h"
 #include "runtime/run/interrupt.h"
 #include "runtime/run/recording_observer.h"
 #include "runtime/run/run_checks.h"
 #include "runtime/run/run_target.h"
+#include "runtime/run/trace_log.h"
 #include "runtime/scene/scenes.h"
 #include "runtime/session/replay_check.h"
 #include "runtime/session/session_recorder.h"
@@ -197,28 +200,35 @@ class FrameRun {
         gaze::GazeToFovea gaze(gaze::fovea_policy(values_.gaze));
         latency::SummaryObserver summing(summary);
         EventLog logging;
+        report::TraceObserver tracing(trace_);
         if (request_.clock == RunClock::Recorded) {
             check_.emplace(*request_.recording->session, request_.same_gaze,
                            request_.same_rendering);
             add_recorded_events(summary);
         }
-        LoopParts parts{.target = *target_,
-                        .renderer = renderer,
-                        .gaze = gaze,
-                        .make_timeline = [this] { return make_timeline(); },
-                        .make_source =
-                            [this](std::int64_t start_ns) {
-                                auto source = openxr_gaze_ != nullptr
-                                                  ? std::move(openxr_gaze_)
-                                                  : request_.make_source(start_ns);
-                                spdlog::info("gaze: {}", source->description());
-                                if (recorder_ != nullptr) {
-                                    recorder_->event(time::Stamp{}, frame::kGazeSourceEvent.name,
-                                                     source->description());
-                                }
-                                return source;
-                            },
-                        .observers = {&summing, &logging}};
+        LoopParts parts{
+            .target = *target_,
+            .renderer = renderer,
+            .gaze = gaze,
+            .make_timeline = [this] { return make_timeline(); },
+            .make_source =
+                [this](std::int64_t start_ns) {
+                    auto source = openxr_gaze_ != nullptr ? std::move(openxr_gaze_)
+                                                          : request_.make_source(start_ns);
+                    if (request_.live_gaze) {
+                        source = std::make_unique<drivers::AnatomySource>(std::move(source));
+                    }
+                    spdlog::info("gaze: {}", source->description());
+                    if (recorder_ != nullptr) {
+                        recorder_->event(time::Stamp{}, frame::kGazeSourceEvent.name,
+                                         source->description());
+                    }
+                    if (source->trace() != nullptr) {
+                        tell_of_trace(*source->trace());
+                    }
+                    return source;
+                },
+            .observers = {&summing, &logging, &tracing}};
         if (recording_ != nullptr) {
             parts.observers.push_back(recording_.get());
         }
@@ -269,6 +279,17 @@ class FrameRun {
                 fmt::format("Vulkan failed ({}): use a smaller picture (--set render.scale=0.5) or "
                             "close what else uses the device",
                             error.what()));
+        }
+    }
+
+    /// What its reader found is said wherever the run is spoken of.
+    void tell_of_trace(const gaze::GazeTrace& trace) {
+        log_trace(trace);
+        for (const std::string& text : report::trace_events(trace.report)) {
+            trace_.take(frame::kTraceEvent.name, text);
+            if (recorder_ != nullptr) {
+                recorder_->event(time::Stamp{}, frame::kTraceEvent.name, text);
+            }
         }
     }
 
@@ -384,7 +405,7 @@ class FrameRun {
             text += "fixed gaze: no tracker; ages count from the latch\n";
         }
         if (!request_.quiet) {
-            text += report::summary_text(report);
+            text += report::summary_text(report) + trace_.text();
         }
         if (check_) {
             text += check_->text();
@@ -400,13 +421,14 @@ class FrameRun {
         std::fputs(text.c_str(), out);
         if (request_.json) {
             nlohmann::ordered_json json = report::summary_json(report);
+            trace_.add_to(json);
             if (request_.hash) {
                 json["hash"] = hash_.json();
             }
             if (check_) {
                 json["replay"] = check_->json();
             }
-            if (const auto written = report::write_text(*request_.json, json.dump(2) + "\n");
+            if (const auto written = report::write_text(*request_.json, report::json_text(json));
                 !written) {
                 fail(written.error().kind, written.error().message);
             }
@@ -467,6 +489,7 @@ class FrameRun {
     std::unique_ptr<render::Snapshot> snapshot_;
     std::unique_ptr<session::SessionRecorder> recorder_;
     std::unique_ptr<RecordingObserver> recording_;
+    report::TraceAccount trace_;
     session::ReplayHash hash_;
     std::optional<session::ReplayCheck> check_;
     LoopResult result_;

@@ -53,7 +53,8 @@ Expected<MakeSource> gaze_source_named(std::string_view text,
                                   "(--clock wall plays it in real time)",
                                   argument)});
         }
-        auto trace = drivers::read_trace(std::string(argument));
+        auto trace =
+            drivers::read_trace(std::string(argument), drivers::read_options(values.trace));
         if (!trace) {
             return std::unexpected(std::move(trace.error()));
         }

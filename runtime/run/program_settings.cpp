@@ -7,7 +7,7 @@ namespace gazeloop::run {
 
 ProgramSettings::ProgramSettings() {
     // By name, so that none is forgotten.
-    auto& [gaze, hid, methods, openxr, profile, render, sim, target, virtual_time, vulkan] =
+    auto& [gaze, hid, methods, openxr, profile, render, sim, target, trace, virtual_time, vulkan] =
         values_;
     add(rows_of(gaze));
     add(rows_of(hid));
@@ -17,6 +17,7 @@ ProgramSettings::ProgramSettings() {
     add(rows_of(render, methods::rendered_methods()));
     add(rows_of(sim));
     add(rows_of(target));
+    add(rows_of(trace));
     add(rows_of(virtual_time));
     add(rows_of(vulkan));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "drivers/hid/hid_settings.h"
+#include "drivers/trace/trace_settings.h"
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_settings.h"
 #include "runtime/methods/method_settings.h"
@@ -25,6 +26,7 @@ struct ProgramValues {
     render::RenderSettings render;
     sim::GazeSimulation sim;
     TargetSettings target;
+    drivers::TraceSettings trace;
     VirtualTimeSettings virtual_time;
     vulkan::VulkanSettings vulkan;
 };

@@ -25,7 +25,7 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
     {Concerns::Input,
      {"gaze.fixation_from_depth", "hid.eye_distance_m", "hid.screen_height_m", "hid.screen_width_m",
       "hid.viewing_distance_m", "profile.display", "profile.tracker", "render.scale",
-      "virtual_time.gpu_ms"}},
+      "trace.accept_repairs", "trace.axes", "trace.longest_gap_s", "virtual_time.gpu_ms"}},
     {Concerns::Foveae,
      {"gaze.fixation_distance_m", "gaze.hold_ms", "gaze.minimum_confidence", "gaze.return_ms",
       "gaze.stale_ms"}},
@@ -112,6 +112,7 @@ TEST(ProgramSettings, GiveEveryMemberARow) {
     expect_all(present::OpenXrSettings());
     expect_all(profiles::ProfileSettings());
     expect_all(TargetSettings());
+    expect_all(drivers::TraceSettings());
     expect_all(VirtualTimeSettings());
     expect_all(vulkan::VulkanSettings());
     render::RenderSettings render;

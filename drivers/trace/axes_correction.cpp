@@ -1,0 +1,163 @@
+#include "drivers/trace/axes_correction.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/gaze/anatomy.h"
+
+namespace gazeloop::drivers {
+namespace {
+
+using gaze::AnatomyVerdict;
+
+std::string_view name_of(AxesCorrection correction) {
+    return kAxesCorrectionNames[static_cast<std::size_t>(correction)];
+}
+
+void mirror_x(std::span<gaze::GazeSample> samples) {
+    const AnatomyVerdict before = gaze::anatomy_of(samples).verdict;
+    const bool places =
+        before == AnatomyVerdict::Exchanged || before == AnatomyVerdict::PlacesExchanged;
+    const bool directions = before != AnatomyVerdict::PlacesExchanged;
+    for (gaze::GazeSample& sample : samples) {
+        for (gaze::EyeRay& ray : sample.eyes) {
+            ray.direction.x *= directions ? -1.0 : 1.0;
+            ray.origin_m.x *= places ? -1.0 : 1.0;
+        }
+    }
+}
+
+void mirror_z(std::span<gaze::GazeSample> samples) {
+    for (gaze::GazeSample& sample : samples) {
+        for (gaze::EyeRay& ray : sample.eyes) {
+            ray.direction.z *= -1.0;
+        }
+    }
+}
+
+/// Enough of a trace to try a correction on.
+std::vector<gaze::GazeSample> some_of(std::span<const gaze::GazeSample> samples) {
+    constexpr std::size_t kMost = 5'000;
+    const std::size_t step = samples.size() / kMost + 1;
+    std::vector<gaze::GazeSample> some;
+    for (std::size_t i = 0; i < samples.size(); i += step) {
+        some.push_back(samples[i]);
+    }
+    return some;
+}
+
+/// The corrections after which nothing is wrong; where it can be told, after which all is right.
+std::vector<AxesCorrection> helping(std::span<const gaze::GazeSample> samples) {
+    const std::vector<gaze::GazeSample> some = some_of(samples);
+    std::vector<AxesCorrection> right;
+    std::vector<AxesCorrection> not_wrong;
+    for (const AxesCorrection correction : {AxesCorrection::MirrorX, AxesCorrection::SwapEyes,
+                                            AxesCorrection::MirrorZ, AxesCorrection::MirrorXZ}) {
+        std::vector<gaze::GazeSample> corrected = some;
+        correct_axes(corrected, correction);
+        const gaze::Anatomy anatomy = gaze::anatomy_of(corrected);
+        if (anatomy.verdict == AnatomyVerdict::Agrees) {
+            right.push_back(correction);
+        } else if (!anatomy.doubtful()) {
+            not_wrong.push_back(correction);
+        }
+    }
+    return right.empty() ? not_wrong : right;
+}
+
+/// What each correction is for, where more than one would help.
+std::string_view when(AxesCorrection correction) {
+    switch (correction) {
+        case AxesCorrection::None:
+            break;
+        case AxesCorrection::MirrorX:
+            return "if a look to the left moves the gaze right";
+        case AxesCorrection::SwapEyes:
+            return "if the columns of the eyes are exchanged";
+        case AxesCorrection::MirrorZ:
+            return "if left and right are right";
+        case AxesCorrection::MirrorXZ:
+            return "if they are exchanged too";
+    }
+    return "";
+}
+
+std::string remedy(std::span<const gaze::GazeSample> samples, AxesCorrection in_use) {
+    if (in_use != AxesCorrection::None) {
+        return fmt::format(
+            "--axes {} makes it so or does not help: look at the trace without it "
+            "(gazeloop gaze)",
+            name_of(in_use));
+    }
+    const std::vector<AxesCorrection> offered = helping(samples);
+    if (offered.empty()) {
+        return "no --axes mends it: correct the file where it was made";
+    }
+    if (offered.size() == 1) {
+        return fmt::format("--axes {} makes it agree", name_of(offered.front()));
+    }
+    std::string text;
+    for (const AxesCorrection correction : offered) {
+        text += fmt::format("{}--axes {} {}", text.empty() ? "" : ", ", name_of(correction),
+                            when(correction));
+    }
+    return text;
+}
+
+}  // namespace
+
+AxesCorrection axes_correction_named(std::string_view name) {
+    return static_cast<AxesCorrection>(std::ranges::find(kAxesCorrectionNames, name) -
+                                       kAxesCorrectionNames.begin());
+}
+
+void correct_axes(std::span<gaze::GazeSample> samples, AxesCorrection correction) {
+    switch (correction) {
+        case AxesCorrection::None:
+            break;
+        case AxesCorrection::MirrorX:
+            mirror_x(samples);
+            break;
+        case AxesCorrection::SwapEyes:
+            for (gaze::GazeSample& sample : samples) {
+                std::swap(sample.eyes[0], sample.eyes[1]);
+            }
+            break;
+        case AxesCorrection::MirrorZ:
+            mirror_z(samples);
+            break;
+        case AxesCorrection::MirrorXZ:
+            mirror_z(samples);
+            mirror_x(samples);
+            break;
+    }
+}
+
+Expected<void> hold_against_anatomy(gaze::GazeTrace& trace, AxesCorrection correction) {
+    correct_axes(trace.samples, correction);
+    const gaze::Anatomy anatomy = gaze::anatomy_of(trace.samples);
+    std::string text = gaze::anatomy_text(anatomy);
+    if (correction != AxesCorrection::None) {
+        text = fmt::format("corrected by --axes {}: {}", name_of(correction), text);
+    }
+    trace.report.axes = text;
+    if (anatomy.doubtful()) {
+        text += "; " + remedy(trace.samples, correction);
+    }
+    if (anatomy.verdict == AnatomyVerdict::Behind) {
+        return std::unexpected(Error{ErrorKind::BadInput, fmt::format("{}: {}", trace.file, text)});
+    }
+    if (anatomy.doubtful() || correction != AxesCorrection::None) {
+        trace.report.add({.kind = gaze::TraceFindingKind::Axes,
+                          .rows = trace.samples.size(),
+                          .text = std::move(text)});
+    }
+    return {};
+}
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,178 @@
+#include "runtime/report/gaze_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "runtime/gaze/anatomy.h"
+#include "runtime/latency/sample_counter.h"
+#include "runtime/report/trace_account.h"
+#include "runtime/report/wrapped_row.h"
+
+namespace gazeloop::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Gap {
+    std::int64_t after_ns;  ///< since the first sample
+    std::int64_t length_ns;
+};
+
+/// What the samples say, whoever read them.
+struct Samples {
+    std::optional<double> rate_hz;  ///< by the median interval
+    std::int64_t duration_ns = 0;
+    std::vector<Gap> gaps;  ///< the longest that are longer than two intervals, longest first
+    gaze::PerEye<std::uint64_t> valid{};
+    std::uint64_t both_valid = 0;
+    std::uint64_t with_head = 0;
+    latency::GazeCounts counts;
+};
+
+Samples look_at(const gaze::GazeTrace& trace) {
+    constexpr std::size_t kMostGaps = 3;
+    Samples found;
+    latency::SampleCounter counter;
+    std::vector<Gap> intervals;
+    std::optional<std::int64_t> first_ns;
+    std::optional<std::int64_t> before_ns;
+    for (const gaze::GazeSample& sample : trace.samples) {
+        counter.add(sample);
+        for (const std::size_t e : {0U, 1U}) {
+            found.valid[e] += sample.eyes[e].valid ? 1 : 0;
+        }
+        found.both_valid += sample.eyes[0].valid && sample.eyes[1].valid ? 1 : 0;
+        found.with_head += sample.head ? 1 : 0;
+        if (!sample.sampled.known() || (before_ns && sample.sampled.ns < *before_ns)) {
+            continue;
+        }
+        const std::int64_t now_ns = sample.sampled.ns;
+        first_ns = first_ns.value_or(now_ns);
+        if (before_ns) {
+            intervals.push_back({*before_ns - *first_ns, now_ns - *before_ns});
+        }
+        before_ns = now_ns;
+        found.duration_ns = now_ns - *first_ns;
+    }
+    found.counts = counter.counts();
+    if (intervals.empty()) {
+        return found;
+    }
+    std::ranges::stable_sort(intervals, std::ranges::greater{}, &Gap::length_ns);
+    const std::int64_t median_ns = intervals[intervals.size() / 2].length_ns;
+    if (median_ns > 0) {
+        found.rate_hz = 1e9 / static_cast<double>(median_ns);
+    }
+    for (const Gap& gap : intervals) {
+        if (found.gaps.size() == kMostGaps || gap.length_ns <= 2 * median_ns) {
+            break;
+        }
+        found.gaps.push_back(gap);
+    }
+    return found;
+}
+
+double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+    return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
+
+std::string directions_of(const gaze::GazeTrace& trace) {
+    return trace.report.axes.empty() ? gaze::anatomy_text(gaze::anatomy_of(trace.samples))
+                                     : trace.report.axes;
+}
+
+std::string gaps_text(const std::vector<Gap>& gaps) {
+    if (gaps.empty()) {
+        return "none longer than two intervals";
+    }
+    std::string text;
+    for (const Gap& gap : gaps) {
+        text += fmt::format("{}{:.3g} s at {:.2f} s", text.empty() ? "" : ", ",
+                            seconds(gap.length_ns), seconds(gap.after_ns));
+    }
+    return text;
+}
+
+std::string findings_text(const gaze::TraceReport& report) {
+    std::string text;
+    for (const std::string& event : trace_events(report)) {
+        if (is_finding(event)) {
+            text += wrapped_row(text.empty() ? "found" : "", at_line(event));
+        }
+    }
+    return text.empty() ? wrapped_row("found", "nothing dropped or changed") : text;
+}
+
+}  // namespace
+
+std::string gaze_text(const gaze::GazeTrace& trace) {
+    const Samples found = look_at(trace);
+    const std::size_t all = trace.samples.size();
+    std::string text = fmt::format("{}\n", trace.file);
+    const auto row = [&text](std::string_view label, const std::string& what) {
+        text += wrapped_row(label, what);
+    };
+    row("format", fmt::format("{}, {}", trace.format, trace.device));
+    if (trace.report.rows > 0) {
+        row("rows", fmt::format("{}, used {}", trace.report.rows, all));
+    } else {
+        row("samples", fmt::format("{}", all));
+    }
+    row("rate", found.rate_hz ? fmt::format("{:.4g} Hz for {:.4g} s", *found.rate_hz,
+                                            seconds(found.duration_ns))
+                              : std::string("unknown"));
+    row("gaps", gaps_text(found.gaps));
+    if (!trace.report.clock.empty()) {
+        row("clock", trace.report.clock);
+    }
+    row("eyes", fmt::format("left valid {:.1f} %, right {:.1f} %, both {:.1f} %",
+                            percent(found.valid[0], all), percent(found.valid[1], all),
+                            percent(found.both_valid, all)));
+    row("axes", directions_of(trace));
+    row("head", found.with_head > 0 ? fmt::format("recorded with {:.1f} % of the samples",
+                                                  percent(found.with_head, all))
+                                    : std::string("not recorded"));
+    row("lost",
+        fmt::format("{} by the tracker",
+                    trace.report.rows > 0 ? trace.report.lost_by_tracker : found.counts.lost));
+    return trace.report.rows > 0 ? text + findings_text(trace.report) : text;
+}
+
+Json gaze_json(const gaze::GazeTrace& trace) {
+    const Samples found = look_at(trace);
+    const std::size_t all = trace.samples.size();
+    Json gaps = Json::array();
+    for (const Gap& gap : found.gaps) {
+        gaps.push_back({{"at_s", seconds(gap.after_ns)}, {"length_s", seconds(gap.length_ns)}});
+    }
+    Json json{{"file", trace.file},
+              {"format", trace.format},
+              {"device", trace.device},
+              {"samples", all},
+              {"rate_hz", found.rate_hz ? Json(*found.rate_hz) : Json(nullptr)},
+              {"duration_s", seconds(found.duration_ns)},
+              {"longest_gaps", gaps},
+              {"clock", trace.report.clock.empty() ? Json(nullptr) : Json(trace.report.clock)},
+              {"valid_percent",
+               {{"left", percent(found.valid[0], all)},
+                {"right", percent(found.valid[1], all)},
+                {"both", percent(found.both_valid, all)}}},
+              {"head_percent", percent(found.with_head, all)}};
+    TraceAccount account;
+    for (const std::string& event : trace_events(trace.report)) {
+        account.take(frame::kTraceEvent.name, event);
+    }
+    account.add_to(json);
+    json["directions"] = directions_of(trace);
+    json["lost"] = trace.report.rows > 0 ? trace.report.lost_by_tracker : found.counts.lost;
+    return json;
+}
+
+}  // namespace gazeloop::report

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "runtime/gaze/gaze_trace.h"
+
+namespace gazeloop::run {
+
+/// Logs each thing that a trace's reader found, with file and line: as warnings if much of the
+/// trace is concerned, else as information.
+void log_trace(const gaze::GazeTrace& trace);
+
+}  // namespace gazeloop::run

@@ -1,0 +1,64 @@
+#include "runtime/run/trace_of_session.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "runtime/session/playback.h"
+
+namespace gazeloop::run {
+namespace {
+
+/// Makes a session's gaze a trace, in the order in which it arrived, the first of it at 0. What has
+/// no known time keeps none: losses, and what came before the tracker's clock was known.
+class TraceOfSession final : public frame::FrameObserver {
+  public:
+    explicit TraceOfSession(const std::string& file) {
+        trace_.file = file;
+        trace_.format = kSessionFormat;
+        trace_.device = "recorded session";
+    }
+
+    void on_sample(const gaze::GazeSample& recorded, std::uint64_t) override {
+        gaze::GazeSample& sample = trace_.samples.emplace_back(recorded);
+        if (!start_) {
+            start_ = recorded.arrived.known() ? recorded.arrived : recorded.sampled;
+        }
+        for (time::Stamp* const stamp : {&sample.sampled, &sample.ready, &sample.arrived}) {
+            // Eleven days; --speed may stretch them a thousandfold.
+            constexpr std::int64_t kLongest_ns = 1'000'000'000'000'000;
+            std::int64_t since_start_ns = 0;
+            if (__builtin_sub_overflow(stamp->ns, start_->ns, &since_start_ns) ||
+                since_start_ns < -kLongest_ns || since_start_ns > kLongest_ns) {
+                stamp->kind = time::StampKind::Unknown;
+            }
+            *stamp = stamp->known() ? time::Stamp{since_start_ns, stamp->kind} : time::Stamp{};
+        }
+    }
+
+    gaze::GazeTrace take() {
+        if (trace_.samples.empty()) {
+            throw SetupError(ErrorKind::BadInput,
+                             fmt::format("{}: the session holds no gaze to replay", trace_.file));
+        }
+        return std::move(trace_);
+    }
+
+  private:
+    gaze::GazeTrace trace_;
+    std::optional<time::Stamp> start_;
+};
+
+}  // namespace
+
+gaze::GazeTrace trace_of_session(const session::OpenSession& session) {
+    TraceOfSession trace(session.file().string());
+    const std::array<frame::FrameObserver*, 1> observers{&trace};
+    value_or_throw(session::play(session, observers));
+    return trace.take();
+}
+
+}  // namespace gazeloop::run

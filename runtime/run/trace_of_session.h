@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string_view>
+
+#include "runtime/gaze/gaze_trace.h"
+#include "runtime/session/open_session.h"
+
+namespace gazeloop::run {
+
+/// The format of such a trace.
+inline constexpr std::string_view kSessionFormat = "session";
+
+/// A recorded session's gaze as a trace: see GazeTrace. No reader's report.
+/// Throws SetupError (BadInput): damaged, or it holds no gaze.
+[[nodiscard]] gaze::GazeTrace trace_of_session(const session::OpenSession& session);
+
+}  // namespace gazeloop::run
