@@ -4,26 +4,138 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
+#include <span>
 #include <utility>
+
+#include "drivers/trace/device_times.h"
+#include "drivers/trace/host_fit.h"
+#include "drivers/trace/sequence_numbers.h"
+#include "drivers/trace/time_text.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
 namespace {
 
-/// Arrivals were read on the host's clock since its first row, sample times on the device's. The
-/// least difference of the two becomes zero: what the report took at least is unknown, what it took
-/// more than that is in the file.
-void align_arrivals(std::vector<gaze::GazeSample>& samples) {
-    std::int64_t least = std::numeric_limits<std::int64_t>::max();
-    for (const gaze::GazeSample& sample : samples) {
-        if (sample.arrived.known()) {
-            least = std::min(least, sample.arrived.ns - sample.sampled.ns);
+using gaze::TraceFindingKind;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+/// One row in so many may be dropped, or be one at which a clock was set.
+constexpr std::uint64_t kRowsPerRepair = 10;
+
+std::unexpected<Error> bad_input(std::string message) {
+    return std::unexpected(Error{ErrorKind::BadInput, std::move(message)});
+}
+
+void move_to(std::vector<gaze::TraceFinding>& findings, gaze::TraceReport& report) {
+    for (gaze::TraceFinding& finding : findings) {
+        report.add(std::move(finding));
+    }
+    findings.clear();
+}
+
+std::uint64_t first_line(const gaze::TraceReport& report, auto&& is_meant) {
+    std::optional<std::uint64_t> first;
+    for (const gaze::TraceFinding& finding : report.findings()) {
+        if (is_meant(finding)) {
+            first = std::min(first.value_or(finding.line), finding.line);
         }
     }
-    for (gaze::GazeSample& sample : samples) {
-        if (sample.arrived.known()) {
-            sample.arrived.ns -= least;
+    return first.value_or(0);
+}
+
+/// "time outlier 83, repeat 2"
+std::string reasons(const gaze::TraceReport& report) {
+    std::string text;
+    for (std::size_t kind = 0; kind < gaze::kTraceFindingKinds; ++kind) {
+        const auto& count = report.count(static_cast<TraceFindingKind>(kind));
+        if (count.dropped > 0) {
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", gaze::kTraceFindingNames[kind],
+                                count.dropped);
         }
+    }
+    return text;
+}
+
+/// What is wrong with a trace of which so much was dropped or changed; nothing if it will do.
+Expected<void> check_repairs(const std::string& file, const gaze::TraceReport& report) {
+    if (report.rows_dropped() * kRowsPerRepair > report.rows) {
+        const std::uint64_t line =
+            first_line(report, [](const auto& finding) { return finding.dropped > 0; });
+        return bad_input(
+            fmt::format("{}:{}: {} of {} rows cannot be used ({}), the first of them "
+                        "here; --accept-repairs plays the others",
+                        file, line, report.rows_dropped(), report.rows, reasons(report)));
+    }
+    const std::uint64_t sets = report.count(TraceFindingKind::DeviceClockSet).times +
+                               report.count(TraceFindingKind::HostClockSet).times;
+    if (sets * kRowsPerRepair > report.rows) {
+        const std::uint64_t line = first_line(report, [](const auto& finding) {
+            return finding.kind == TraceFindingKind::DeviceClockSet ||
+                   finding.kind == TraceFindingKind::HostClockSet;
+        });
+        return bad_input(
+            fmt::format("{}:{}: the clocks step back or ahead in {} of {} rows, the "
+                        "first of them here; --accept-repairs plays them in their "
+                        "order all the same",
+                        file, line, sets, report.rows));
+    }
+    return {};
+}
+
+/// The longest step of increasing times.
+struct Gap {
+    std::size_t after = 0;  ///< position of the row that ends it
+    std::int64_t length_ns = 0;
+};
+
+Gap longest_gap(std::span<const std::int64_t> times_ns) {
+    Gap longest;
+    for (std::size_t i = 1; i < times_ns.size(); ++i) {
+        const std::int64_t step_ns = times_ns[i] - times_ns[i - 1];
+        if (step_ns > longest.length_ns) {
+            longest = {i, step_ns};
+        }
+    }
+    return longest;
+}
+
+Expected<void> check_gap(const std::string& file, std::uint64_t line, const Gap& gap,
+                         const DeviceTimes& times, std::int64_t longest_ns) {
+    constexpr std::int64_t kGapIntervals = 8;
+    const std::int64_t shortest_ns = std::max(
+        kSecond_ns, time::saturated(static_cast<__int128>(kGapIntervals) * times.interval_ns));
+    const std::int64_t rest_ns = times.time_ns.back() - gap.length_ns;
+    if (gap.length_ns > shortest_ns && gap.length_ns > rest_ns) {
+        return bad_input(
+            fmt::format("{}:{}: {} without a row, longer than all the rest of the "
+                        "recording, {}; --accept-repairs plays it as {}",
+                        file, line, in_words(gap.length_ns), in_words(rest_ns),
+                        in_words(std::min(gap.length_ns, longest_ns))));
+    }
+    return {};
+}
+
+/// Shortens what is longer, and reports it.
+void shorten_gaps(std::span<const TraceRow> rows, DeviceTimes& times, std::int64_t longest_ns,
+                  gaze::TraceReport& report) {
+    std::vector<std::int64_t>& times_ns = times.time_ns;
+    std::int64_t cut_ns = 0;
+    std::int64_t before_ns = times_ns.front();
+    for (std::size_t i = 1; i < times_ns.size(); ++i) {
+        const std::int64_t step_ns = times_ns[i] - before_ns;
+        before_ns = times_ns[i];
+        if (step_ns > longest_ns) {
+            cut_ns += step_ns - longest_ns;
+            report.add({.kind = TraceFindingKind::GapShortened,
+                        .line = rows[times.rows[i]].line,
+                        .rows = 1,
+                        .dropped = 0,
+                        .span_ns = step_ns - longest_ns,
+                        .text = fmt::format("{} without a row: played as {}", in_words(step_ns),
+                                            in_words(longest_ns))});
+        }
+        times_ns[i] -= cut_ns;
     }
 }
 
@@ -35,75 +147,92 @@ TraceBuilder::TraceBuilder(TraceOrigin origin) : tick_ns_(origin.device_tick_ns)
     trace_.device = std::move(origin.device);
 }
 
-std::optional<std::int64_t> TraceBuilder::since_first_ns(std::optional<std::int64_t>& first,
-                                                         std::int64_t reading, double tick_ns) {
-    constexpr double kYear_ns = 366.0 * 24 * 3600 * 1e9;
-    if (!first) {
-        first = reading;
-    }
-    std::int64_t elapsed = 0;
-    if (__builtin_sub_overflow(reading, *first, &elapsed) ||
-        std::abs(static_cast<double>(elapsed) * tick_ns) > kYear_ns) {
-        return std::nullopt;
-    }
-    return elapsed * static_cast<std::int64_t>(tick_ns);
+void TraceBuilder::add(const TraceRow& row) {
+    rows_.push_back(row);
+    ++trace_.report.rows;
 }
 
-void TraceBuilder::add(const TraceRow& row) {
-    ++trace_.report.rows;
-    gaze::GazeSample sample;
-    sample.sequence = row.sequence.value_or(sequence_ ? *sequence_ + 1 : 0);
-    if (sequence_ && sample.sequence > *sequence_) {
-        trace_.rows_missing += sample.sequence - *sequence_ - 1;
+Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
+    const std::vector<TraceRow> rows = std::move(rows_);
+    gaze::GazeTrace trace = std::move(trace_);
+    gaze::TraceReport& report = trace.report;
+    if (rows.empty()) {
+        return bad_input(fmt::format("{}: no rows after the header", trace.file));
     }
-    sequence_ = sample.sequence;
-    const auto time_ns =
-        row.device_ticks ? since_first_ns(first_ticks_, *row.device_ticks, tick_ns_) : std::nullopt;
-    if (!time_ns) {
-        trace_.report.add({.kind = gaze::TraceFindingKind::BadTime,
-                           .line = row.line,
-                           .rows = 1,
-                           .dropped = 1,
-                           .text = "no readable time"});
-        return;
+    DeviceTimes times = device_times(rows, tick_ns_);
+    move_to(times.findings, report);
+    if (times.rows.empty()) {
+        return bad_input(
+            fmt::format("{}:{}: no row has a readable time", trace.file, rows.front().line));
     }
-    sample.device_ns = tick_ns_ == 1.0 ? *row.device_ticks : *time_ns;
-    sample.sampled = {*time_ns, time::StampKind::Modelled};
-    if (row.host_ns) {
-        if (const auto host_ns = since_first_ns(first_host_ns_, *row.host_ns, 1.0)) {
-            sample.arrived = {*host_ns, time::StampKind::Modelled};
+    if (times.rows.size() > 1 && times.interval_ns == 0) {
+        return bad_input(
+            fmt::format("{}:{}: all {} rows have the same time, and no host time says "
+                        "how long they took",
+                        trace.file, rows.front().line, times.rows.size()));
+    }
+    std::vector<std::optional<std::int64_t>> host_ns;
+    std::vector<std::uint64_t> lines;
+    for (const std::size_t row : times.rows) {
+        host_ns.push_back(rows[row].host_ns);
+        lines.push_back(rows[row].line);
+    }
+    HostFit fit = fit_to_host(times, host_ns, lines);
+    move_to(fit.findings, report);
+    report.clock = std::move(fit.text);
+
+    DeviceTimes fitted = std::move(times);
+    fitted.time_ns = std::move(fit.time_ns);
+    SequenceNumbers sequence = sequence_numbers(rows, fitted);
+    move_to(sequence.findings, report);
+    report.lost_by_tracker = sequence.lost;
+    report.rate_hz = fitted.interval_ns > 0 ? 1e9 / static_cast<double>(fitted.interval_ns) : 0.0;
+    const Gap gap = longest_gap(fitted.time_ns);
+    report.longest_gap_ns = gap.length_ns;
+    const std::int64_t longest_gap_ns = std::llround(options.longest_gap_s * 1e9);
+    if (!options.accept_repairs) {
+        for (const Expected<void>& check :
+             {check_repairs(trace.file, report),
+              check_gap(trace.file, lines[gap.after], gap, fitted, longest_gap_ns)}) {
+            if (!check) {
+                return std::unexpected(check.error());
+            }
         }
     }
-    sample.eyes = row.eyes;
-    sample.head = row.head;
-    if (!trace_.samples.empty() && sample.sampled.ns <= trace_.samples.back().sampled.ns) {
-        ++trace_.rows_out_of_order;
-        trace_.report.add({.kind = gaze::TraceFindingKind::TimeOutlier,
-                           .line = trace_.report.rows + 1,
-                           .rows = 1,
-                           .dropped = 1,
-                           .text = "its time is not later than that before; dropped"});
-        return;
+    shorten_gaps(rows, fitted, longest_gap_ns, report);
+    constexpr std::int64_t kYear_ns = 31'622'400 * kSecond_ns;
+    if (fitted.time_ns.back() > kYear_ns) {
+        return bad_input(
+            fmt::format("{}:{}: more than a year after the first row; a smaller "
+                        "longest gap makes it shorter",
+                        trace.file, lines.back()));
     }
-    trace_.samples.push_back(sample);
-    any_valid_ = any_valid_ || sample.eyes[0].valid || sample.eyes[1].valid;
-    for (const std::size_t e : {0U, 1U}) {
-        trace_.report.valid[e] += sample.eyes[e].valid ? 1 : 0;
-    }
-}
 
-Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& /*options*/) {
-    if (trace_.samples.empty()) {
-        return std::unexpected(
-            Error{ErrorKind::BadInput, fmt::format("{}: no rows after the header", trace_.file)});
+    trace.samples.reserve(fitted.rows.size());
+    for (std::size_t i = 0; i < fitted.rows.size(); ++i) {
+        const TraceRow& row = rows[fitted.rows[i]];
+        gaze::GazeSample& sample = trace.samples.emplace_back();
+        sample.sequence = sequence.numbers[i];
+        sample.device_ns = fitted.reading_ns[i];
+        sample.sampled = {fitted.time_ns[i], time::StampKind::Modelled};
+        if (fit.delay_ns[i]) {
+            sample.arrived = {
+                time::saturated(static_cast<__int128>(fitted.time_ns[i]) + *fit.delay_ns[i]),
+                time::StampKind::Modelled};
+        }
+        if (fitted.step_ns[i] > 0) {
+            sample.uncertainty_ns = fitted.step_ns[i];
+        }
+        sample.eyes = row.eyes;
+        sample.head = row.head;
+        for (const gaze::Eye eye : gaze::kEyes) {
+            report.valid[gaze::index(eye)] += row.eyes[gaze::index(eye)].valid ? 1 : 0;
+        }
     }
-    if (!any_valid_) {
-        return std::unexpected(
-            Error{ErrorKind::BadInput, fmt::format("no valid gaze in {}", trace_.file)});
+    if (report.valid[0] + report.valid[1] == 0) {
+        return bad_input(fmt::format("no valid gaze in {}", trace.file));
     }
-    align_arrivals(trace_.samples);
-    trace_.report.lost_by_tracker = trace_.rows_missing;
-    return std::move(trace_);
+    return trace;
 }
 
 }  // namespace gazeloop::drivers

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "drivers/trace/read_options.h"
 #include "drivers/trace/trace_row.h"
@@ -12,39 +12,39 @@
 
 namespace gazeloop::drivers {
 
-/// Where a trace comes from, and what its device's clock counts.
+/// Where a trace comes from.
 struct TraceOrigin {
-    std::string file;
-    std::string_view format;
+    std::string file;         ///< as messages name it
+    std::string_view format;  ///< as GazeTrace::format has it
     std::string device;
-    double device_tick_ns = 1.0;
+    double device_tick_ns = 1.0;  ///< > 0; a tick of TraceRow::device_ticks
 };
 
-/// Makes a trace from a file's rows and enforces what gaze_trace.h promises.
+/// Makes a trace from a file's rows and enforces what gaze_trace.h promises. Rows are held in
+/// memory until finish().
+///
+/// Clocks, order and sequence are judged over the whole trace, with both neighbours of a row at
+/// hand (device_times.h, host_fit.h, sequence_numbers.h).
 class TraceBuilder {
   public:
     explicit TraceBuilder(TraceOrigin origin);
 
-    /// Takes the rows in the file's order. Drops and counts one without a time, or whose time is
-    /// not later than that of the row before.
+    /// Takes the next row of the file, and counts it in report().rows.
     void add(const TraceRow& row);
 
+    /// For what the format's reader finds. Rows that it does not add it counts itself.
     [[nodiscard]] gaze::TraceReport& report() { return trace_.report; }
 
-    /// The trace. Errors (BadInput): no row was added; none of them has a valid eye.
+    /// The trace. Leaves nothing behind. Errors (BadInput), with file and line: no row was added;
+    /// none has a readable time, or all have the same; no used row has a valid eye; it is longer
+    /// than a year. Unless options.accept_repairs also: more than a tenth of the rows is dropped,
+    /// or a clock was set at more than a tenth of them; a gap is longer than all the rest.
     [[nodiscard]] Expected<gaze::GazeTrace> finish(const ReadOptions& options);
 
   private:
-    /// A reading of a clock as time since its first one, ns; none more than a year away.
-    [[nodiscard]] static std::optional<std::int64_t> since_first_ns(
-        std::optional<std::int64_t>& first, std::int64_t reading, double tick_ns);
-
     double tick_ns_;
     gaze::GazeTrace trace_;
-    std::optional<std::int64_t> first_ticks_;
-    std::optional<std::int64_t> first_host_ns_;
-    std::optional<std::uint64_t> sequence_;  ///< of the row before, dropped or not
-    bool any_valid_ = false;
+    std::vector<TraceRow> rows_;
 };
 
 }  // namespace gazeloop::drivers

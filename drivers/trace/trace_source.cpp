@@ -110,11 +110,16 @@ const gaze::HeadMotion* TraceSource::head_track() const {
 std::string TraceSource::description() const {
     std::string text =
         fmt::format("trace {} ({}, {} samples", trace_.file, trace_.device, trace_.samples.size());
-    if (trace_.rows_out_of_order > 0) {
-        text += fmt::format(", {} out of order", trace_.rows_out_of_order);
+    const gaze::TraceReport& report = trace_.report;
+    if (report.lost_by_tracker > 0) {
+        text += fmt::format(", {} lost by the tracker", report.lost_by_tracker);
     }
-    if (trace_.rows_missing > 0) {
-        text += fmt::format(", {} missing", trace_.rows_missing);
+    if (report.rows_dropped() > 0) {
+        text += fmt::format(", {} dropped", report.rows_dropped());
+    }
+    const std::uint64_t moved = report.count(gaze::TraceFindingKind::OutOfOrder).rows;
+    if (moved > 0) {
+        text += fmt::format(", {} out of order", moved);
     }
     return text + ")";
 }

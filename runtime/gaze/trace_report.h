@@ -28,6 +28,7 @@ enum class TraceFindingKind : std::uint8_t {
     CoarseTimes,      ///< several rows with one time: spread over the clock's step, in their order
     OutOfOrder,       ///< rows in another order than their times: put in order
     SequenceRestarted,  ///< the sequence number wrapped or began anew
+    SequenceOutlier,    ///< a sequence number that neither neighbour agrees with
     GapShortened,       ///< longer without a row than is played: played shorter
     // Where the gaze points.
     Axes,       ///< directions that no pair of eyes has, or were corrected on request
@@ -35,7 +36,7 @@ enum class TraceFindingKind : std::uint8_t {
     // The file.
     Text,  ///< quotes, 'sep=', decimal commas and the like, that were read all the same
 };
-inline constexpr std::array<std::string_view, 17> kTraceFindingNames{"time outlier",
+inline constexpr std::array<std::string_view, 18> kTraceFindingNames{"time outlier",
                                                                      "repeat",
                                                                      "bad time",
                                                                      "bad cells",
@@ -48,6 +49,7 @@ inline constexpr std::array<std::string_view, 17> kTraceFindingNames{"time outli
                                                                      "coarse times",
                                                                      "out of order",
                                                                      "sequence restarted",
+                                                                     "sequence outlier",
                                                                      "gap shortened",
                                                                      "axes",
                                                                      "new origin",
@@ -91,7 +93,7 @@ class TraceReport {
     /// changed, or where the gaze points is in doubt.
     [[nodiscard]] bool worth_a_warning() const;
 
-    std::uint64_t rows = 0;             ///< of the file, after its header
+    std::uint64_t rows = 0;             ///< of the file, after its header, used or not
     std::uint64_t lost_by_tracker = 0;  ///< by gaps in the sequence numbers
     double rate_hz = 0.0;               ///< by the median interval; 0: fewer than two rows
     std::int64_t longest_gap_ns = 0;    ///< between samples, as recorded

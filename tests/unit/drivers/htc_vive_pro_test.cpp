@@ -235,7 +235,8 @@ TEST(HtcViveProRecordings, HaveTheEyesOnTheirSidesAndLookForward) {
         EXPECT_NEAR(median(right_x), 0.030, 0.006) << trace.file;
         EXPECT_GE(median(vergence), 0.0) << trace.file;
         EXPECT_LT(median(vergence), 5.0) << trace.file;
-        EXPECT_EQ(trace.rows_out_of_order, 0U) << trace.file;
+        EXPECT_EQ(trace.report.rows_dropped(), 0U) << trace.file;
+        EXPECT_EQ(trace.report.count(gaze::TraceFindingKind::OutOfOrder).rows, 0U) << trace.file;
         RecordProperty(std::filesystem::path(trace.file).stem().string() + " vergence deg",
                        fmt::format("{:.3f}", median(vergence)));
     }

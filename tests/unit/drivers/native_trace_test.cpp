@@ -114,7 +114,7 @@ TEST(NativeTrace, ComesBackBitForBit) {
         }
     }
     EXPECT_EQ(written(*read), text);
-    EXPECT_EQ(read->rows_missing, 5U);
+    EXPECT_EQ(read->report.lost_by_tracker, 5U);
 }
 
 TEST(NativeTrace, WritesTheColumnsThatItReads) {
@@ -186,7 +186,7 @@ TEST(NativeTrace, CountsGapsInTheSequence) {
     const gaze::GazeTrace trace =
         read_rows(native_row(10, 100) + native_row(11, 200) + native_row(15, 300) +
                   native_row(3, 400) + native_row(5, 500));
-    EXPECT_EQ(trace.rows_missing, 4U);
+    EXPECT_EQ(trace.report.lost_by_tracker, 4U);
     EXPECT_EQ(trace.samples.size(), 5U);
 }
 

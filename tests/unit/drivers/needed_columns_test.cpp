@@ -121,7 +121,7 @@ TEST(NeededColumns, OfOurOwnFormatAreFew) {
     EXPECT_EQ(trace.samples[1].sampled.ns, 4);
     EXPECT_FALSE(trace.samples[1].arrived.known());
     EXPECT_FALSE(trace.samples[1].head.has_value());
-    EXPECT_EQ(trace.rows_missing, 0U);
+    EXPECT_EQ(trace.report.lost_by_tracker, 0U);
 }
 
 // ---- Bits ---------------------------------------------------------------------------------------

@@ -158,15 +158,6 @@ TEST(ReadTrace, RefusesABinaryFile) {
     expect_refused(read_text(htc(std::string("1;\0;3\n", 6))), "gaze.csv:3: not a text file");
 }
 
-TEST(ReadTrace, DropsAndCountsRowsWhoseTimeDoesNotAdvance) {
-    const Expected<gaze::GazeTrace> trace =
-        read_text(htc(htc_row(3000) + htc_row(2000) + htc_row(3000) + htc_row(3001)));
-    ASSERT_TRUE(trace.has_value()) << trace.error().message;
-    EXPECT_EQ(trace->rows_out_of_order, 2U);
-    ASSERT_EQ(trace->samples.size(), 3U);
-    EXPECT_EQ(trace->samples[0].sampled.ns, 0);
-    EXPECT_EQ(trace->samples[1].sampled.ns, 200'000);
-    EXPECT_EQ(trace->samples[2].sampled.ns, 200'100);
 }
 
 TEST(ReadTrace, AcceptsAMissingLastLineEnd) {

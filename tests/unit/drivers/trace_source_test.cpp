@@ -291,10 +291,22 @@ TEST(TraceSource, GivesTheHeadTrackInHostTime) {
 TEST(TraceSource, DescribesItself) {
     gaze::GazeTrace trace = trace_of({sample_at(0), sample_at(100)});
     EXPECT_EQ(TraceSource(trace, 0, 0).description(), "trace gaze.csv (HTC Vive Pro, 2 samples)");
-    trace.rows_out_of_order = 3;
-    trace.rows_missing = 4;
+    trace.report.lost_by_tracker = 4;
+    trace.report.add({.kind = gaze::TraceFindingKind::OutOfOrder,
+                      .line = 2,
+                      .rows = 3,
+                      .dropped = 0,
+                      .span_ns = 0,
+                      .text = {}});
+    trace.report.add({.kind = gaze::TraceFindingKind::Repeat,
+                      .line = 5,
+                      .rows = 2,
+                      .dropped = 2,
+                      .span_ns = 0,
+                      .text = {}});
     EXPECT_EQ(TraceSource(trace, 0, 0).description(),
-              "trace gaze.csv (HTC Vive Pro, 2 samples, 3 out of order, 4 missing)");
+              "trace gaze.csv (HTC Vive Pro, 2 samples, 4 lost by the tracker, 2 dropped, 3 out of "
+              "order)");
 }
 
 }  // namespace

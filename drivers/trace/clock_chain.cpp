@@ -1,0 +1,97 @@
+#include "drivers/trace/clock_chain.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace gazeloop::drivers {
+namespace {
+
+constexpr std::size_t kLongestBurst = 16;
+constexpr std::size_t kReadingsPerOneLeftOut = 8;
+constexpr std::size_t kFewestToDoubtTheEnds = 16;
+
+/// Readings that join one another, [first, end).
+struct Run {
+    std::size_t first = 0;
+    std::size_t end = 0;
+};
+
+std::vector<Run> runs_of(std::size_t count, const ClockSteps& steps) {
+    std::vector<Run> runs{{0, 1}};
+    for (std::size_t i = 1; i < count; ++i) {
+        if (steps.joins(i - 1, i)) {
+            ++runs.back().end;
+        } else {
+            runs.push_back({i, i + 1});
+        }
+    }
+    return runs;
+}
+
+/// The best choice of which this run is the last that is kept.
+struct Choice {
+    double cost = std::numeric_limits<double>::infinity();
+    std::size_t before = 0;  ///< the run kept before it; itself: none
+};
+
+}  // namespace
+
+std::vector<bool> readings_in_step(std::size_t count, const ClockSteps& steps) {
+    std::vector<bool> kept(count, true);
+    if (count < 3) {
+        return kept;
+    }
+    const std::vector<Run> runs = runs_of(count, steps);
+    if (runs.size() == 1) {
+        return kept;
+    }
+    const std::size_t burst =
+        std::clamp<std::size_t>(count / kReadingsPerOneLeftOut, 1, kLongestBurst);
+    const std::size_t end_burst = count < kFewestToDoubtTheEnds ? 0 : burst;
+
+    std::vector<Choice> choices(runs.size());
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        Choice& choice = choices[r];
+        if (runs[r].first <= end_burst) {
+            choice = {static_cast<double>(runs[r].first), r};
+        }
+        for (std::size_t before = r; before-- > 0;) {
+            const std::size_t left_out = runs[r].first - runs[before].end;
+            if (left_out > burst) {
+                break;
+            }
+            const double cost = choices[before].cost + static_cast<double>(left_out);
+            if (cost < choice.cost) {
+                const double whole = cost + steps.doubt(runs[before].end - 1, runs[r].first);
+                if (whole < choice.cost) {
+                    choice = {whole, before};
+                }
+            }
+        }
+    }
+    std::size_t last = runs.size() - 1;
+    double least = choices[last].cost;
+    for (std::size_t r = runs.size(); r-- > 0;) {
+        if (count - runs[r].end > end_burst) {
+            break;
+        }
+        const double cost = choices[r].cost + static_cast<double>(count - runs[r].end);
+        if (cost < least) {
+            least = cost;
+            last = r;
+        }
+    }
+    std::size_t kept_from = count;  // everything from here on is decided
+    for (std::size_t r = last;; r = choices[r].before) {
+        std::fill(kept.begin() + static_cast<std::ptrdiff_t>(runs[r].end),
+                  kept.begin() + static_cast<std::ptrdiff_t>(kept_from), false);
+        kept_from = runs[r].first;
+        if (choices[r].before == r) {
+            break;
+        }
+    }
+    std::fill(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(kept_from), false);
+    return kept;
+}
+
+}  // namespace gazeloop::drivers

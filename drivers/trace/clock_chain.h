@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace gazeloop::drivers {
+
+/// What two readings of a clock, by their positions, are to each other.
+struct ClockSteps {
+    /// Whether neighbours belong together without a doubt, as most do.
+    std::function<bool(std::size_t before, std::size_t after)> joins;
+    /// How little is to be said for the one following the other, as a number of readings that may
+    /// be left out instead. 0: nothing against it.
+    std::function<double(std::size_t before, std::size_t after)> doubt;
+};
+
+/// The doubt about a step that the clock itself cannot have made: more than the longest burst, so
+/// that a burst is left out where this saves one such step.
+inline constexpr double kImpossibleStep = 20.0;
+
+/// Which of `count` readings are those of one clock, however often it was set: the choice with the
+/// least sum of doubts and readings left out. What is left out are bursts of at most an eighth of
+/// the readings and at most 16, so that what lasts is never left out; at the ends only where there
+/// are 16 readings. O(count).
+[[nodiscard]] std::vector<bool> readings_in_step(std::size_t count, const ClockSteps& steps);
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace gazeloop::drivers {
+
+/// A reading or a difference of readings, ns. Clocks that count from the year 1 need more than 64
+/// bits.
+using Wide = __int128;
+
+/// If a clock that read `before` and then the lower `after` is a counter that began anew in
+/// between: its range, to be added. The counters that are known have 16, 24, 31 or 32 bits of 1,
+/// 100, 1000 or 1,000,000 ns, from 0 or with a sign. The reading before must lie so near the end of
+/// the range, and the one after so near its start, that together they are at most `step_ns` apart.
+[[nodiscard]] std::optional<Wide> wrapped_range(Wide before, Wide after, std::int64_t step_ns);
+
+}  // namespace gazeloop::drivers
