@@ -79,9 +79,9 @@ TEST(TraceText, ReadsQuotedNames) {
 }
 
 TEST(TraceText, ReadsQuotedCells) {
-    const auto trace = read_text(replaced(htc(), "0.6;0;0.8", "\"0.6\"; \"0\" ;\"0.8\""));
+    const auto trace = read_text(replaced(htc(), ";0.6;0;0.8", ";\"0.6\"; \"0\" ;\"0.8\""));
     expect_read(trace);
-    EXPECT_THAT(notes(trace), ElementsAre("2: cells in double quotes: read without them"));
+    EXPECT_THAT(notes(trace), ElementsAre("4: cells in double quotes: read without them"));
 }
 
 TEST(TraceText, TakesSeparatorsAndQuotesInQuotesForText) {
