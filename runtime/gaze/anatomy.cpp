@@ -16,7 +16,8 @@ constexpr std::size_t kMostOfTrace = 20'000;
 
 /// Where a sorted list has this share of it below.
 double at_share(const std::vector<double>& sorted, double share) {
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
+    const double place = share * static_cast<double>(sorted.size() - 1);
+    return sorted[static_cast<std::size_t>(std::lround(place))];
 }
 
 double correlation_of(const auto& pairs, auto angle) {
