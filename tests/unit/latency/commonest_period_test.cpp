@@ -23,7 +23,7 @@ TEST(CommonestPeriod, LetsNoOddOneDecide) {
 
 TEST(CommonestPeriod, TakesWhatIsWithinAPercentAsOne) {
     CommonestPeriod period;
-    for (int i = 0; i < 10; ++i) {
+    for (std::int64_t i = 0; i < 10; ++i) {
         period.add(k90Hz + i % 2 * 50'000);
         period.add(k72Hz + i * 1'000'000);
     }
@@ -44,7 +44,7 @@ TEST(CommonestPeriod, IsTheLaterOfTwoAsCommon) {
 // More kinds than are counted apart: the common one is among them all the same.
 TEST(CommonestPeriod, IsFoundAmongMany) {
     CommonestPeriod period;
-    for (int i = 0; i < 300; ++i) {
+    for (std::int64_t i = 0; i < 300; ++i) {
         period.add(20'000'000 + i * 1'000'000);
         if (i % 2 == 0) {
             period.add(k90Hz);

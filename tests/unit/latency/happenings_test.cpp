@@ -4,6 +4,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "tests/support/allocation_counter.h"
 
@@ -48,6 +49,7 @@ TEST(Happenings, KeepToTheirMemory) {
     const auto text = [](std::size_t i) { return std::string(i + 1, 'x') + std::string(300, 'y'); };
     Happenings happenings;
     std::vector<std::string> texts;
+    texts.reserve(Happenings::kMost + 5);
     for (std::size_t i = 0; i < Happenings::kMost + 5; ++i) {
         texts.push_back(text(i));
     }

@@ -119,7 +119,7 @@ TEST(AnnouncedPeriod, IsUnknownWhereNoDisplayHasIt) {
     AnnouncedPeriod period;
     EXPECT_EQ(period.next(kPeriod).period_ns, kPeriod);
     EXPECT_FALSE(period.next(0).change.has_value()) << "says that it is not known";
-    for (const std::int64_t odd : {std::int64_t{1}, std::int64_t{-kPeriod}, 1001 * kMs,
+    for (const std::int64_t odd : {std::int64_t{1}, -kPeriod, 1001 * kMs,
                                    std::numeric_limits<std::int64_t>::max()}) {
         const auto judged = period.next(odd);
         EXPECT_EQ(judged.period_ns, 0);
