@@ -17,6 +17,7 @@
 namespace gazeloop::tests {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -115,8 +116,8 @@ INSTANTIATE_TEST_SUITE_P(
               "good again, 5 were not", kFrames},
         Fault{"announces_the_end_of_time", "xrWaitFrame@9+5=display=9223372036854775807", 0,
               "the announced display time", "good again, 5 were not", kFrames},
-        Fault{"announces_the_beginning_of_time", "xrWaitFrame@9+5=display=1", 0, "s back",
-              "good again, 5 were not", kFrames},
+        Fault{"announces_the_beginning_of_time", "xrWaitFrame@9+5=display=1", 0,
+              "the announced display time", "good again, 5 were not", kFrames},
         Fault{"pauses", "xrWaitFrame@9=pause", 0, "30 frames", "session state: IDLE", kFrames},
         Fault{"never_ends_the_session", "xrRequestExitSession@1=XR_SUCCESS", 0,
               "does not end the session", "it was left", kFrames},
@@ -193,7 +194,7 @@ TEST_F(OpenXrTimes, DaysAheadAreUnknownSaidOnceAndCounted) {
     const ProgramResult report = run_gazeloop({"report", session(), "--json", report_json});
     EXPECT_EQ(report.exit_code, 0) << report.err;
     EXPECT_EQ(read(report_json), summary);
-    EXPECT_EQ(report.out, result.out);
+    EXPECT_THAT(result.out, EndsWith(report.out));
     const ProgramResult replay = run_gazeloop({"replay", session()});
     EXPECT_EQ(replay.exit_code, 0) << replay.err;
     EXPECT_THAT(replay.out, HasSubstr("- display-time-odd at "));
@@ -248,7 +249,10 @@ TEST_F(OpenXrTimes, OddPeriodsDecideNothing) {
     std::filesystem::remove(session());
     ASSERT_EQ(run("xrWaitFrame@9+3=period=3000000;xrWaitFrame@60=period=3000000").exit_code, 0);
     const nlohmann::json with = read(json());
-    for (const char* figure : {"display_period_ns", "switching_ns", "rolling_ns"}) {
+    EXPECT_NEAR(with["display_period_ns"].get<double>(), without["display_period_ns"].get<double>(),
+                1e5);
+    for (const char* figure : {"switching_ns", "rolling_ns"}) {
+        EXPECT_TRUE(without[figure].is_number()) << figure;
         EXPECT_EQ(with[figure], without[figure]) << figure;
     }
 }
