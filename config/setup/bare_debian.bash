@@ -17,12 +17,12 @@ bare_sources() {
 }
 
 # The archive of the bare Debian: made once; then it is taken from the cache.
-make_bare_archive() { # make_bare_archive ARCHIVE
-    local folder mirror status=1
+make_bare_archive() { # make_bare_archive ARCHIVE FOLDER: in FOLDER, which is removed then
+    local folder=$2 mirror status=1
     mirror=$(bare_sources | awk -v suite="$bare_release" '$3 == suite { print $2; exit }')
     [[ -n $mirror ]] || die "fresh: apt knows no mirror of this Debian (/etc/apt/sources.list, sources.list.d)"
     install_packages fresh
-    folder=$(mktemp -d /var/tmp/gazeloop-bare.XXXXXX)
+    mkdir -- "$folder"
     say "making a bare Debian ($bare_release) from $mirror (a minute or two, once)"
     env http_proxy="$(proxy_of http)" https_proxy="$(proxy_of https)" \
         unshare --mount --propagation private \
@@ -120,6 +120,6 @@ end_bare() {
         kill -KILL "$bare_process" 2>/dev/null || true # and with it all that it started
         wait "$bare_process" 2>/dev/null || true
     }
-    [[ -z ${bare_folder:-} ]] || rm -rf --one-file-system -- "$bare_folder"
+    [[ -z ${bare_folder:-} ]] || rm -rf --one-file-system -- "$bare_folder" "$bare_folder.base"
     [[ -z $caller ]] || give_back
 }
