@@ -49,10 +49,13 @@ std::vector<bool> readings_in_step(std::size_t count, const ClockSteps& steps) {
         std::clamp<std::size_t>(count / kReadingsPerOneLeftOut, 1, kLongestBurst);
     const std::size_t end_burst = count < kFewestToDoubtTheEnds ? 0 : burst;
 
+    const auto may_end = [&](const Run& run, std::size_t left_out) {
+        return left_out == 0 || (left_out <= end_burst && run.end - run.first > left_out);
+    };
     std::vector<Choice> choices(runs.size());
     for (std::size_t r = 0; r < runs.size(); ++r) {
         Choice& choice = choices[r];
-        if (runs[r].first <= end_burst) {
+        if (may_end(runs[r], runs[r].first)) {
             choice = {static_cast<double>(runs[r].first), r};
         }
         for (std::size_t before = r; before-- > 0;) {
@@ -61,22 +64,24 @@ std::vector<bool> readings_in_step(std::size_t count, const ClockSteps& steps) {
                 break;
             }
             const double cost = choices[before].cost + static_cast<double>(left_out);
-            if (cost < choice.cost) {
-                const double whole = cost + steps.doubt(runs[before].end - 1, runs[r].first);
-                if (whole < choice.cost) {
-                    choice = {whole, before};
-                }
+            if (cost >= choice.cost) {
+                continue;
+            }
+            const double doubt = steps.doubt(runs[before].end - 1, runs[r].first);
+            if (cost + doubt < choice.cost && (left_out == 0 || doubt < kDisagree)) {
+                choice = {cost + doubt, before};
             }
         }
     }
     std::size_t last = runs.size() - 1;
     double least = choices[last].cost;
     for (std::size_t r = runs.size(); r-- > 0;) {
-        if (count - runs[r].end > end_burst) {
+        const std::size_t left_out = count - runs[r].end;
+        if (left_out > end_burst) {
             break;
         }
-        const double cost = choices[r].cost + static_cast<double>(count - runs[r].end);
-        if (cost < least) {
+        const double cost = choices[r].cost + static_cast<double>(left_out);
+        if (cost < least && may_end(runs[r], left_out)) {
             least = cost;
             last = r;
         }

@@ -15,14 +15,17 @@ struct ClockSteps {
     std::function<double(std::size_t before, std::size_t after)> doubt;
 };
 
+/// With less doubt than this two readings agree.
+inline constexpr double kDisagree = 1.0;
 /// The doubt about a step that the clock itself cannot have made: more than the longest burst, so
 /// that a burst is left out where this saves one such step.
 inline constexpr double kImpossibleStep = 20.0;
 
 /// Which of `count` readings are those of one clock, however often it was set: the choice with the
 /// least sum of doubts and readings left out. What is left out are bursts of at most an eighth of
-/// the readings and at most 16, so that what lasts is never left out; at the ends only where there
-/// are 16 readings. O(count).
+/// the readings and at most 16, so that what lasts is never left out, and only where the readings
+/// before and after then agree. At the ends a burst is left out if there are 16 readings, and more
+/// in a row next to it than it has itself. O(count).
 [[nodiscard]] std::vector<bool> readings_in_step(std::size_t count, const ClockSteps& steps);
 
 }  // namespace gazeloop::drivers

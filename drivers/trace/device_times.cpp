@@ -225,14 +225,20 @@ class DeviceClock {
     [[nodiscard]] double doubt(std::size_t before, std::size_t after) const {
         const Wide step_ns = step(before, after);
         if (step_ns < 0) {
-            return wrap_between(before, after) ? 0.5 : kImpossibleStep;
+            return wrap_between(before, after) ? 0.0 : kImpossibleStep;
         }
         if (step_ns <= longest_joined_ns(before, after)) {
             return 0.0;
         }
-        const bool vouched = host_agrees(before, after) || reports_agree(before, after);
-        return host_objects(before, after) || (!vouched && step_ns > kDay_ns) ? kImpossibleStep
-                                                                              : 0.0;
+        if (host_objects(before, after)) {
+            return kImpossibleStep;
+        }
+        if (host_agrees(before, after) || reports_agree(before, after)) {
+            return 0.0;
+        }
+        // Less than a row is worth: a row between two gaps is none to be left out.
+        constexpr double kGap = 0.25;
+        return step_ns > kDay_ns ? kImpossibleStep : kGap;
     }
 
     /// A wrap with something else in between.

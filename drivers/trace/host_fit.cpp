@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <deque>
 #include <utility>
 
 #include "drivers/trace/clock_chain.h"
@@ -144,62 +146,102 @@ class Fitting {
         used_ = std::move(left);
     }
 
-    /// The least lag of the rows next to `at`, an index into used_, for 10 s on one side of it.
-    [[nodiscard]] Wide least_lag(std::size_t at, bool after) const {
-        constexpr std::int64_t kAround_ns = 10 * kSecond_ns;
-        constexpr std::size_t kMostRows = 4096;
-        const std::size_t first = after ? at : at - 1;
-        Wide least = lag(used_[first]);
-        for (std::size_t k = 1; k < kMostRows; ++k) {
-            if (after ? first + k >= used_.size() : k > first) {
-                break;
-            }
-            const std::size_t row = used_[after ? first + k : first - k];
-            const bool is_apart =
-                after ? is_set_in(used_[first], row) : is_set_in(row, used_[first]);
-            if (is_apart ||
-                std::abs(device_.time_ns[row] - device_.time_ns[used_[first]]) > kAround_ns) {
-                break;
-            }
-            least = std::min(least, lag(row));
-        }
-        return least;
-    }
-
     /// Whether the device's clock was set after one row and not after another.
     [[nodiscard]] bool is_set_in(std::size_t before, std::size_t after) const {
         const auto set = std::upper_bound(device_.sets.begin(), device_.sets.end(), before);
         return set != device_.sets.end() && *set <= after;
     }
 
+    /// Whether one row and the next of used_ are of two stretches at any rate.
+    [[nodiscard]] bool is_cut(std::size_t before, std::size_t after) const {
+        return is_set_in(before, after) || elapsed(before, after) < -static_cast<Wide>(jitter_ns());
+    }
+
+    /// The least lag of some rows that follow one another, as some come and others go.
+    class Lowest {
+      public:
+        void add(std::int64_t device_ns, Wide lag_ns) {
+            while (!rising_.empty() && rising_.back().lag_ns >= lag_ns) {
+                rising_.pop_back();
+            }
+            rising_.push_back({device_ns, lag_ns});
+            ++count_;
+        }
+        /// Forgets rows that are more than 10 s away.
+        void forget_far_from(std::int64_t device_ns) {
+            while (std::abs(rising_.front().device_ns - device_ns) > kAround_ns) {
+                rising_.pop_front();
+            }
+        }
+        void clear() {
+            rising_.clear();
+            count_ = 0;
+        }
+        [[nodiscard]] bool rests_on_many() const { return count_ >= kMany; }
+        [[nodiscard]] Wide lag_ns() const { return rising_.front().lag_ns; }
+
+      private:
+        static constexpr std::int64_t kAround_ns = 10 * kSecond_ns;
+        static constexpr std::size_t kMany = 8;
+        struct Row {
+            std::int64_t device_ns;
+            Wide lag_ns;
+        };
+        std::deque<Row> rising_;
+        std::size_t count_ = 0;  ///< since it was cleared
+    };
+
+    struct After {
+        Wide lag_ns = 0;  ///< the least of 10 s from here on
+        bool many = false;
+    };
+
+    [[nodiscard]] std::vector<After> lowest_after() const {
+        std::vector<After> after(used_.size());
+        Lowest lowest;
+        for (std::size_t i = used_.size(); i-- > 0;) {
+            if (i + 1 < used_.size() && is_cut(used_[i], used_[i + 1])) {
+                lowest.clear();
+            }
+            lowest.add(device_.time_ns[used_[i]], lag(used_[i]));
+            lowest.forget_far_from(device_.time_ns[used_[i]]);
+            after[i] = {lowest.lag_ns(), lowest.rests_on_many()};
+        }
+        return after;
+    }
+
+    /// Where lags are lower, or higher, from some row on than they were before, a clock was set. A
+    /// host that is late is in time again sooner or later.
     void find_stretches() {
+        constexpr std::int64_t kShortest_ns = 10 * kMillisecond_ns;
         std::vector<Stretch> stretches;
         stretches.reserve(device_.sets.size());
         for (const std::size_t set : device_.sets) {
             stretches.push_back({set, 0, true});
         }
-        for (std::size_t i = 1; i < used_.size(); ++i) {
-            const std::size_t before = used_[i - 1];
+        const std::vector<After> after = lowest_after();
+        Lowest lowest;
+        for (std::size_t i = 0; i < used_.size(); ++i) {
             const std::size_t now = used_[i];
-            const Wide more = excess(before, now);
-            const std::int64_t went_on = device_.time_ns[now] - device_.time_ns[before];
-            const std::int64_t tolerance = 2 * jitter_ns() + went_on / 1000;
-            if (more >= -tolerance && more <= tolerance) {
-                continue;
-            }
-            const Wide by_ns = least_lag(i, true) - least_lag(i, false);
-            if (by_ns >= -tolerance && by_ns <= tolerance) {
-                continue;  // late, and then in time again
-            }
-            if (is_set_in(before, now)) {
-                // Both were set: what the host's clock says of the time between is worth nothing.
-                for (Stretch& stretch : stretches) {
-                    stretch.by_host &= stretch.first <= before || stretch.first > now;
+            const std::int64_t now_ns = device_.time_ns[now];
+            if (i > 0) {
+                const std::size_t before = used_[i - 1];
+                const std::int64_t went_on_ns = now_ns - device_.time_ns[before];
+                const bool many = lowest.rests_on_many() && after[i].many;
+                const std::int64_t tolerance_ns =
+                    (many ? kShortest_ns : 2 * jitter_ns()) + went_on_ns / 1000;
+                const auto is_more = [&](Wide ns) {
+                    return ns > tolerance_ns || ns < -static_cast<Wide>(tolerance_ns);
+                };
+                if (is_more(excess(before, now)) && is_more(after[i].lag_ns - lowest.lag_ns())) {
+                    note_step(before, now, after[i].lag_ns - lowest.lag_ns(), stretches);
+                    lowest.clear();
+                } else if (is_cut(before, now)) {
+                    lowest.clear();
                 }
-            } else {
-                stretches.push_back({now, 0, false});
             }
-            report_host_set(now, by_ns);
+            lowest.add(now_ns, lag(now));
+            lowest.forget_far_from(now_ns);
         }
         std::sort(stretches.begin(), stretches.end(),
                   [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
@@ -207,6 +249,19 @@ class Fitting {
         stretches_.push_back({0, device_.time_ns.size(), false});
         for (const Stretch& stretch : stretches) {
             split_at(stretches_.size() - 1, stretch.first, stretch.by_host);
+        }
+    }
+
+    void note_step(std::size_t before, std::size_t now, Wide by_ns,
+                   std::vector<Stretch>& stretches) {
+        if (is_set_in(before, now)) {
+            // Both were set: what the host's clock says of the time between is worth nothing.
+            for (Stretch& stretch : stretches) {
+                stretch.by_host &= stretch.first <= before || stretch.first > now;
+            }
+            report_host_set(now, by_ns);
+        } else {
+            stretches.push_back({now, 0, report_step(before, now, by_ns)});
         }
     }
 
@@ -271,7 +326,10 @@ class Fitting {
             const time::ClockReading reading = fit.add(device_ns, arrived_ns);
             if (reading.stepped) {
                 if (const std::size_t at = step_in(fed, i); at > 0) {
-                    report_step(s, fed[at - 1], fed[at]);
+                    const bool device_set =
+                        report_step(fed[at - 1], fed[at], excess(fed[at - 1], fed[at]));
+                    split_at(s, fed[at], device_set);
+                    ++fit_.steps;
                     break;
                 }
             }
@@ -306,7 +364,10 @@ class Fitting {
             const auto [least, most] = std::minmax_element(
                 line.knots.begin(), line.knots.end(),
                 [](const Knot& a, const Knot& b) { return a.lag_ns < b.lag_ns; });
-            line.steep = most->lag_ns - least->lag_ns > static_cast<double>(line.within_ns);
+            // Twice, for two knots; and a long trace has many, of which the odd one is off.
+            constexpr double kNone_ns = 50e3;
+            line.steep = most->lag_ns - least->lag_ns >
+                         std::max(2.0 * static_cast<double>(line.within_ns), kNone_ns);
         }
         return line;
     }
@@ -328,30 +389,33 @@ class Fitting {
         return at;
     }
 
-    /// The clock that was set is the one whose step is less usual.
-    void report_step(std::size_t stretch, std::size_t before, std::size_t now) {
-        const Wide by_ns = excess(before, now);
-        const Wide usual = device_.interval_ns;
-        const Wide device_step = device_.time_ns[now] - device_.time_ns[before] - usual;
-        const Wide host_step = elapsed(before, now) - usual;
-        const bool device_set = (device_step < 0 ? -device_step : device_step) >
-                                (host_step < 0 ? -host_step : host_step);
-        if (device_set) {
-            const std::int64_t by = time::saturated(-by_ns);
-            fit_.findings.push_back(
-                {.kind = TraceFindingKind::DeviceClockSet,
-                 .line = lines_[now],
-                 .rows = 1,
-                 .dropped = 0,
-                 .span_ns = by,
-                 .text = fmt::format("the device's clock steps {} by {}: times go on by the host's "
-                                     "clock",
-                                     by < 0 ? "back" : "ahead", in_words(by))});
-        } else {
+    /// The clock that was set is the one whose step is less usual; a gap is none that was set.
+    /// Whether it is the device's.
+    bool report_step(std::size_t before, std::size_t now, Wide by_ns) {
+        constexpr Wide kGapIntervals = 8;
+        const auto off = [&](Wide step_ns) {
+            const Wide off_ns = step_ns - device_.interval_ns;
+            return off_ns < 0 ? -off_ns : off_ns;
+        };
+        const Wide went_on_ns = device_.time_ns[now] - device_.time_ns[before];
+        const auto rows = static_cast<Wide>(now - before);
+        const bool device_set = went_on_ns <= (kGapIntervals + rows) * device_.interval_ns &&
+                                off(went_on_ns) > off(elapsed(before, now));
+        if (!device_set) {
             report_host_set(now, by_ns);
+            return false;
         }
-        ++fit_.steps;
-        split_at(stretch, now, device_set);
+        const std::int64_t by = time::saturated(-by_ns);
+        fit_.findings.push_back(
+            {.kind = TraceFindingKind::DeviceClockSet,
+             .line = lines_[now],
+             .rows = 1,
+             .dropped = 0,
+             .span_ns = by,
+             .text = fmt::format("the device's clock steps {} by {}: times go on by the host's "
+                                 "clock",
+                                 by < 0 ? "back" : "ahead", in_words(by))});
+        return true;
     }
 
     /// Stretches too short to show a skew get that of the longest that does. All lines end up below

@@ -125,29 +125,48 @@ class Ordering {
         std::size_t end = back + 1;
         Wide least = at(back);
         Wide most = at(back - 1);
-        // Rows move by no more than a window, but windows may follow one another without end.
-        std::size_t last_back = back;
-        while (true) {
-            if (first > 0 && at(first - 1) > least && back - first < kOrderWindow) {
-                most = std::max(most, at(--first));
-            } else if (end < order_.rows.size() && at(end) < most &&
-                       end - last_back < kOrderWindow) {
-                if (at(end) < at(end - 1)) {
-                    last_back = end;
+        // A row moves by no more than a window, but those that move may follow one another all
+        // along.
+        const std::size_t earliest = back - std::min(back, kOrderWindow);
+        std::size_t latest = std::min(back + kOrderWindow, order_.rows.size());
+        for (bool grows = true; grows;) {
+            grows = false;
+            for (std::size_t i = earliest; i < first; ++i) {
+                if (at(i) > least) {
+                    grows = true;
+                    most = std::max(most, highest(i, first));
+                    least = std::min(least, lowest(i, first));
+                    first = i;
                 }
-                least = std::min(least, at(end));
-                most = std::max(most, at(end));
-                ++end;
-            } else {
-                break;
+            }
+            for (std::size_t i = latest; i-- > end;) {
+                if (at(i) < most) {
+                    grows = true;
+                    most = std::max(most, highest(end, i + 1));
+                    least = std::min(least, lowest(end, i + 1));
+                    end = i + 1;
+                    latest = std::min(i + kOrderWindow, order_.rows.size());
+                    break;
+                }
             }
         }
-        const bool is_apart = (first == 0 || at(first - 1) <= least) &&
-                              (end == order_.rows.size() || at(end) >= most);
-        if (is_apart) {
-            sort(first, end);
-        }
+        sort(first, end);
         return end - 1;
+    }
+
+    [[nodiscard]] Wide highest(std::size_t first, std::size_t end) const {
+        Wide most = at(first);
+        for (std::size_t i = first; i < end; ++i) {
+            most = std::max(most, at(i));
+        }
+        return most;
+    }
+    [[nodiscard]] Wide lowest(std::size_t first, std::size_t end) const {
+        Wide least = at(first);
+        for (std::size_t i = first; i < end; ++i) {
+            least = std::min(least, at(i));
+        }
+        return least;
     }
 
     void sort(std::size_t first, std::size_t end) {
