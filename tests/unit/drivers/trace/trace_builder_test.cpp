@@ -36,7 +36,8 @@ TEST(TraceBuilder, MakesATraceOfGoodRows) {
     EXPECT_EQ(trace.device, "a tracker");
     ASSERT_EQ(trace.samples.size(), 100U);
     EXPECT_EQ(trace.samples[99].sequence, 99U);
-    EXPECT_EQ(trace.samples[99].sampled, (time::Stamp{99 * 8'333'333, time::StampKind::Modelled}));
+    EXPECT_EQ(trace.samples[99].sampled,
+              (time::Stamp{std::int64_t{99} * 8'333'333, time::StampKind::Modelled}));
     EXPECT_EQ(trace.samples[99].arrived, trace.samples[99].sampled);
     EXPECT_EQ(trace.samples[99].device_ns, 3 * kSecond + 99 * 8'333'333);
     EXPECT_FALSE(trace.samples[99].uncertainty_ns.has_value());
