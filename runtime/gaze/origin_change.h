@@ -10,7 +10,7 @@ namespace gazeloop::gaze {
 /// From this frame on, poses are given in another world than before: its origin has moved.
 struct OriginChange {
     std::uint64_t frame = 0;
-    Pose new_in_old;         ///< the new world's origin, in the world before
+    Pose new_in_old{};       ///< the new world's origin, in the world before
     bool announced = false;  ///< as the runtime said; false: the head was taken to stand still
 };
 
