@@ -69,7 +69,7 @@ TEST_F(DevicesProgram, SaysWhyThereIsNoGaze) {
     tracker_->plug_in();
     const ProgramResult silent = run_gazeloop({"devices", "--seconds", "0.2"});
     EXPECT_EQ(silent.exit_code, 4) << silent.err;
-    for (const char* part : {"opened, no report in 0.2", "not worn", "less than its descriptor"}) {
+    for (const char* part : {"opened, no report in ", "not worn", "less than its descriptor"}) {
         EXPECT_NE(silent.out.find(part), std::string::npos) << part << '\n' << silent.out;
     }
     EXPECT_NE(silent.out.find("not tried on hardware"), std::string::npos) << silent.out;
@@ -143,7 +143,7 @@ TEST_F(DevicesProgram, ListsWhatATrackerDoesNotAnswer) {
     const auto tracker = nlohmann::json::parse(result.out).at(0);
     EXPECT_EQ(tracker["unanswered_feature_reports"], nlohmann::json({0x12}));
     EXPECT_EQ(tracker["stated_hz"], 200) << "the others are answered";
-    EXPECT_NE(tracker["remarks"].dump().find("feature report 0x12: no answer in 2 s"),
+    EXPECT_NE(tracker["remarks"].dump().find("feature report 0x12: no answer in "),
               std::string::npos)
         << tracker.dump(2);
 }
@@ -166,8 +166,12 @@ TEST_F(DevicesProgram, RunsOnWhileATrackerThatWasPluggedInDoesNotAnswer) {
     sending.reset();
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const session::SessionFile file = value_or_throw(session::read_session(session));
-    expect_no_standstill_at(file, "plugged in");
-    expect_no_standstill_at(file, "feature report 0x12: no answer in 3 s");
+    ASSERT_GT(file.frames.size(), 100U);
+    for (std::size_t i = 1; i < file.frames.size(); ++i) {
+        // The request takes 3 s, and nothing else that holds a loop up does.
+        ASSERT_LT(file.frames[i].frame.stamps.latch.ns - file.frames[i - 1].frame.stamps.latch.ns,
+                  2'500'000'000);
+    }
     const auto given_up = std::ranges::find_if(file.events, [](const auto& event) {
         return event.text.starts_with("feature report 0x12: no answer");
     });

@@ -81,7 +81,7 @@ TEST(CheckHid, SaysThatATrackerSendsNothing) {
     EXPECT_EQ(findings[0].facts["usable"], 1) << "it can be opened";
     EXPECT_EQ(findings[1].verdict, Verdict::Warning);
     EXPECT_EQ(findings[1].facts["reports"], 0);
-    for (const char* part : {"opened, no report in 0.3", "less than its descriptor declares"}) {
+    for (const char* part : {"opened, no report in ", "less than its descriptor declares"}) {
         EXPECT_NE(findings[1].found.find(part), std::string::npos) << findings[1].found;
     }
     EXPECT_NE(findings[1].remedy.find("dmesg"), std::string::npos) << findings[1].remedy;

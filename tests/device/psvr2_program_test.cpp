@@ -101,7 +101,7 @@ TEST_F(Psvr2Program, IsListedWithWhatItDoes) {
     const ProgramResult silent = run_gazeloop({"devices", "--seconds", "0.2"});
     EXPECT_EQ(silent.exit_code, 4) << silent.err;
     EXPECT_NE(silent.out.find("PlayStation VR2 (054c:0cde)"), std::string::npos) << silent.out;
-    EXPECT_NE(silent.out.find("opened, no report in 0.2"), std::string::npos) << silent.out;
+    EXPECT_NE(silent.out.find("opened, no report in "), std::string::npos) << silent.out;
     EXPECT_NE(silent.out.find("not tried on hardware"), std::string::npos) << silent.out;
 
     const Sending sending(*headset_);
