@@ -119,8 +119,8 @@ TEST(AnnouncedPeriod, IsUnknownWhereNoDisplayHasIt) {
     AnnouncedPeriod period;
     EXPECT_EQ(period.next(kPeriod).period_ns, kPeriod);
     EXPECT_FALSE(period.next(0).change.has_value()) << "says that it is not known";
-    for (const std::int64_t odd : {std::int64_t{1}, -kPeriod, 1001 * kMs,
-                                   std::numeric_limits<std::int64_t>::max()}) {
+    for (const std::int64_t odd :
+         {std::int64_t{1}, -kPeriod, 1001 * kMs, std::numeric_limits<std::int64_t>::max()}) {
         const auto judged = period.next(odd);
         EXPECT_EQ(judged.period_ns, 0);
         ASSERT_TRUE(judged.change.has_value()) << odd;
