@@ -196,7 +196,7 @@ class FrameLoop {
     /// Held gaze goes along with the world; what was seen in the one before is forgotten.
     void follow_origin(std::uint64_t frame) {
         if (const std::uint64_t given_up = timeline_->origins_given_up(); given_up > 0) {
-            report_event(timeline_->now(), "origin",
+            report_event(timeline_->now(), frame::kOriginEvent,
                          fmt::format("{} announced new origin{} never showed in the head's poses: "
                                      "not followed; the runtime is at fault",
                                      given_up, given_up == 1 ? "" : "s"));
@@ -213,7 +213,7 @@ class FrameLoop {
             observer->on_origin(change);
         }
         report_event(
-            timeline_->now(), "origin",
+            timeline_->now(), frame::kOriginEvent,
             fmt::format("new origin, turned by {:.1f} deg and moved by {:.3f} m, {}",
                         glm::degrees(gaze::turned_rad({}, change.new_in_old)),
                         glm::length(change.new_in_old.position_m),

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "runtime/frame/event.h"
 #include "runtime/gaze/anatomy.h"
 #include "runtime/latency/sample_counter.h"
 #include "runtime/report/trace_account.h"
