@@ -274,10 +274,9 @@ Deserved swap_eyes(Table& table, Random&) {
             }
             return false;
         };
-        if (table.numbered) {
-            swapped("left_", "right_") || swapped("right_", "left_");
-        } else {
-            swapped("_L", "_R") || swapped("_R", "_L");
+        const bool was_left = table.numbered ? swapped("left_", "right_") : swapped("_L", "_R");
+        if (!was_left) {
+            swapped(table.numbered ? "right_" : "_R", table.numbered ? "left_" : "_L");
         }
     }
     return {"eyes swapped", table.rows.size(), true, {}, 0};
