@@ -16,6 +16,8 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kTwoMs = 2 * kMs;
+constexpr std::int64_t kThreeMs = 3 * kMs;
 
 /// Which of these readings are left out, where steps of 1 join and steps back are impossible.
 std::vector<std::size_t> left_out(const std::vector<int>& readings) {
@@ -84,21 +86,21 @@ TEST(ReadingsInStep, DoNotDoubtTheEndsOfAFewReadings) {
 }
 
 TEST(WrappedRange, KnowsTheUsualCounters) {
-    const std::int64_t step = 33 * kMs;
+    const std::int64_t step = 3kThreeMs;
     for (const std::int64_t tick : {1, 100, 1'000, 1'000'000}) {
         const Wide range = static_cast<Wide>(tick) << 32;
-        EXPECT_TRUE(wrapped_range(range - 2 * kMs, 3 * kMs, step) == range) << tick;
-        EXPECT_TRUE(wrapped_range(range / 2 - 2 * kMs, 3 * kMs - range / 2, step) == range) << tick;
+        EXPECT_TRUE(wrapped_range(range - kTwoMs, kThreeMs, step) == range) << tick;
+        EXPECT_TRUE(wrapped_range(range / 2 - kTwoMs, kThreeMs - range / 2, step) == range) << tick;
     }
 }
 
 TEST(WrappedRange, IsNoneWhereAClockWasSetOrGoesOn) {
-    const std::int64_t step = 33 * kMs;
+    const std::int64_t step = 3kThreeMs;
     const Wide range = Wide{1'000} << 32;
-    EXPECT_FALSE(wrapped_range(5 * kMs, 6 * kMs, step));
-    EXPECT_FALSE(wrapped_range(range / 3, 3 * kMs, step)) << "far from the end";
-    EXPECT_FALSE(wrapped_range(range - 2 * kMs, range / 100, step)) << "far from the start";
-    EXPECT_FALSE(wrapped_range(range + 2 * kMs, 3 * kMs, step)) << "no such counter";
+    EXPECT_FALSE(wrapped_range(kTwoMs, kThreeMs, step));
+    EXPECT_FALSE(wrapped_range(range / 3, kThreeMs, step)) << "far from the end";
+    EXPECT_FALSE(wrapped_range(range - kTwoMs, range / 100, step)) << "far from the start";
+    EXPECT_FALSE(wrapped_range(range + kTwoMs, kThreeMs, step)) << "no such counter";
     EXPECT_FALSE(wrapped_range((Wide{1} << 16) - 5, 2, step)) << "shorter than a step";
 }
 
