@@ -86,7 +86,7 @@ TEST(ReadingsInStep, DoNotDoubtTheEndsOfAFewReadings) {
 }
 
 TEST(WrappedRange, KnowsTheUsualCounters) {
-    const std::int64_t step = 3kThreeMs;
+    const std::int64_t step = 11 * kThreeMs;
     for (const std::int64_t tick : {1, 100, 1'000, 1'000'000}) {
         const Wide range = static_cast<Wide>(tick) << 32;
         EXPECT_TRUE(wrapped_range(range - kTwoMs, kThreeMs, step) == range) << tick;
@@ -95,7 +95,7 @@ TEST(WrappedRange, KnowsTheUsualCounters) {
 }
 
 TEST(WrappedRange, IsNoneWhereAClockWasSetOrGoesOn) {
-    const std::int64_t step = 3kThreeMs;
+    const std::int64_t step = 11 * kThreeMs;
     const Wide range = Wide{1'000} << 32;
     EXPECT_FALSE(wrapped_range(kTwoMs, kThreeMs, step));
     EXPECT_FALSE(wrapped_range(range / 3, kThreeMs, step)) << "far from the end";
