@@ -22,11 +22,11 @@ namespace gazeloop::gaze {
 /// A recorded session's gaze is unchanged, in the order of its arrival, the first sample at 0:
 /// `sampled` may be unknown or go back, `ready` may be known.
 struct GazeTrace {
-    std::string file;
-    std::string format;  ///< "gazeloop", "htc-vive-pro"
-    std::string device;  ///< as the file states it, else the format's device
-    std::vector<gaze::GazeSample> samples;
-    TraceReport report;  ///< what the file's reader found
+    std::string file{};
+    std::string format{};  ///< "gazeloop", "htc-vive-pro"
+    std::string device{};  ///< as the file states it, else the format's device
+    std::vector<gaze::GazeSample> samples{};
+    TraceReport report{};  ///< what the file's reader found
 };
 
 }  // namespace gazeloop::gaze

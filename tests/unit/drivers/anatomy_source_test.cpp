@@ -35,7 +35,7 @@ TEST(AnatomySource, TellsOnceOfDirectionsInDoubt) {
     const auto events = told(gaze::pair_of_eyes(-2.4, 1000));
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].first, AnatomySource::kDecide);
-    EXPECT_EQ(events[0].second.kind, "axes");
+    EXPECT_EQ(events[0].second.kind.name, "axes");
     EXPECT_THAT(events[0].second.text, HasSubstr("rays diverge (median -2.4 deg)"));
     EXPECT_THAT(events[0].second.text, HasSubstr("calibrate"));
 }
@@ -43,7 +43,7 @@ TEST(AnatomySource, TellsOnceOfDirectionsInDoubt) {
 TEST(AnatomySource, TellsOnceThatDirectionsAgree) {
     const auto events = told(gaze::pair_of_eyes(2.4, 1000));
     ASSERT_EQ(events.size(), 1U);
-    EXPECT_EQ(events[0].second.kind, "tracker");
+    EXPECT_EQ(events[0].second.kind.name, "tracker");
     EXPECT_THAT(events[0].second.text, HasSubstr("directions: agree with anatomy"));
 }
 

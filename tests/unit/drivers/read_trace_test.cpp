@@ -158,8 +158,6 @@ TEST(ReadTrace, RefusesABinaryFile) {
     expect_refused(read_text(htc(std::string("1;\0;3\n", 6))), "gaze.csv:3: not a text file");
 }
 
-}
-
 TEST(ReadTrace, AcceptsAMissingLastLineEnd) {
     std::string text = htc(htc_row(2000));
     text.resize(text.size() - 2);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "runtime/frame/event.h"
 #include "runtime/report/gaze_report.h"
 #include "tests/unit/gaze/pair_of_eyes.h"
 
