@@ -147,8 +147,8 @@ TEST_F(TraceReports, KnowTheirOptions) {
     EXPECT_TRUE(has(wrong_in_run.err, "swap-eyes")) << wrong_in_run.err;
     const ProgramResult config =
         run_gazeloop({"replay", right_, "--axes", "-x", "--accept-repairs", "--print-config"});
-    EXPECT_TRUE(has(config.out, "axes = \"-x\"")) << config.out;
-    EXPECT_TRUE(has(config.out, "accept_repairs = true")) << config.out;
+    EXPECT_TRUE(has(config.out, "trace.axes                   = '-x' ")) << config.out;
+    EXPECT_TRUE(has(config.out, "trace.accept_repairs         = true ")) << config.out;
     const ProgramResult help = run_gazeloop({"gaze", "--help"});
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_TRUE(has(help.out, "--accept-repairs")) << help.out;

@@ -248,7 +248,7 @@ TEST(SummaryText, SaysWhatHappenedOnlyWhereSomethingDid) {
     EXPECT_THAT(text,
                 HasSubstr("what happened, from the first frame on\n"
                           "- display-time-odd, 2 times from 0.050 s to 1.250 s: the announced "
-                          "display time lies 9 s\n    ahead\n"
+                          "display time lies 9 s ahead\n"
                           "- head-found at 0.250 s: the head is tracked\n"
                           "- display, at an unknown time:"));
     for (const std::string& line : lines(text)) {

@@ -57,7 +57,11 @@ TEST(TraceEvents, CountWhatIsNotKept) {
     gaze::TraceReport report;
     report.rows = 100;
     for (std::uint64_t line = 2; line < 32; ++line) {
-        report.add({.kind = TraceFindingKind::Repeat, .line = line, .rows = 2, .dropped = 2});
+        report.add({.kind = TraceFindingKind::Repeat,
+                    .line = line,
+                    .rows = 2,
+                    .dropped = 2,
+                    .text = "again"});
     }
     const std::vector<std::string> events = trace_events(report);
     EXPECT_EQ(events.size(), 1 + gaze::TraceReport::kKeptOfEachKind + 1);
