@@ -6,7 +6,6 @@
 namespace gazeloop::drivers {
 namespace {
 
-constexpr std::size_t kLongestBurst = 16;
 constexpr std::size_t kReadingsPerOneLeftOut = 8;
 constexpr std::size_t kFewestToDoubtTheEnds = 16;
 
@@ -46,7 +45,9 @@ std::vector<bool> readings_in_step(std::size_t count, const ClockSteps& steps) {
         return kept;
     }
     const std::size_t burst =
-        std::clamp<std::size_t>(count / kReadingsPerOneLeftOut, 1, kLongestBurst);
+        std::clamp<std::size_t>(count / kReadingsPerOneLeftOut, 1, steps.longest_burst);
+    const double price =
+        static_cast<double>(kLongestBurst) / static_cast<double>(steps.longest_burst);
     const std::size_t end_burst = count < kFewestToDoubtTheEnds ? 0 : burst;
 
     const auto may_end = [&](const Run& run, std::size_t left_out) {
@@ -56,14 +57,14 @@ std::vector<bool> readings_in_step(std::size_t count, const ClockSteps& steps) {
     for (std::size_t r = 0; r < runs.size(); ++r) {
         Choice& choice = choices[r];
         if (may_end(runs[r], runs[r].first)) {
-            choice = {static_cast<double>(runs[r].first), r};
+            choice = {price * static_cast<double>(runs[r].first), r};
         }
         for (std::size_t before = r; before-- > 0;) {
             const std::size_t left_out = runs[r].first - runs[before].end;
             if (left_out > burst) {
                 break;
             }
-            const double cost = choices[before].cost + static_cast<double>(left_out);
+            const double cost = choices[before].cost + price * static_cast<double>(left_out);
             if (cost >= choice.cost) {
                 continue;
             }
@@ -80,7 +81,7 @@ std::vector<bool> readings_in_step(std::size_t count, const ClockSteps& steps) {
         if (left_out > end_burst) {
             break;
         }
-        const double cost = choices[r].cost + static_cast<double>(left_out);
+        const double cost = choices[r].cost + price * static_cast<double>(left_out);
         if (cost < least && may_end(runs[r], left_out)) {
             least = cost;
             last = r;

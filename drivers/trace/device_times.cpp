@@ -206,6 +206,21 @@ class DeviceClock {
         return count && *count > 1 && difference <= step_ns / 5;
     }
 
+    /// Whether the numbers count on as if far less time had gone by.
+    [[nodiscard]] bool reports_object(std::size_t before, std::size_t after) const {
+        constexpr Wide kFarLess = 4;
+        const auto count = reports(before, after);
+        return count && kFarLess * *count * interval_ns_ < step(before, after);
+    }
+
+    /// So many rows in a row may be left out.
+    [[nodiscard]] std::size_t longest_burst() const {
+        constexpr Wide kBurst_ns = 50 * kMillisecond_ns;
+        return static_cast<std::size_t>(
+            std::clamp<Wide>(kBurst_ns / std::max<Wide>(1, interval_ns_), kLongestBurst,
+                             3 * static_cast<Wide>(kLongestBurst)));
+    }
+
     /// Whether the host says that less time went by than the device's clock has it.
     [[nodiscard]] bool host_objects(std::size_t before, std::size_t after) const {
         const auto host_ns = host_step(before, after);
@@ -236,6 +251,9 @@ class DeviceClock {
         if (host_agrees(before, after) || reports_agree(before, after)) {
             return 0.0;
         }
+        if (reports_object(before, after)) {
+            return kImpossibleStep;
+        }
         // Less than a row is worth: a row between two gaps is none to be left out.
         constexpr double kGap = 0.25;
         return step_ns > kDay_ns ? kImpossibleStep : kGap;
@@ -260,17 +278,19 @@ class DeviceClock {
                     [this, reach_ns](std::size_t before, std::size_t after) {
                         const Wide step_ns = step(before, after);
                         return step_ns < 0 && step_ns >= -reach_ns ? 0.0 : doubt(before, after);
-                    }};
+                    },
+                .longest_burst = longest_burst()};
     }
 
     [[nodiscard]] ClockSteps near_steps() const {
-        return {.joins =
-                    [this](std::size_t before, std::size_t after) {
-                        const Wide step_ns = step(before, after);
-                        return step_ns >= 0 && 2 * step_ns <= 3 * static_cast<Wide>(interval_ns_);
-                    },
-                .doubt = [this](std::size_t before,
-                                std::size_t after) { return doubt(before, after); }};
+        return {
+            .joins =
+                [this](std::size_t before, std::size_t after) {
+                    const Wide step_ns = step(before, after);
+                    return step_ns >= 0 && 2 * step_ns <= 3 * static_cast<Wide>(interval_ns_);
+                },
+            .doubt = [this](std::size_t before, std::size_t after) { return doubt(before, after); },
+            .longest_burst = longest_burst()};
     }
 
     void drop(const std::vector<bool>& kept) {

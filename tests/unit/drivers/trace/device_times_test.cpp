@@ -483,5 +483,30 @@ TEST(DeviceTimes, BearAnyReadings) {
     }
 }
 
+TEST(DeviceTimes, DropBurstsAtTheEndsThatNumbersContradict) {
+    for (const std::size_t length : {2U, 16U}) {
+        for (const std::size_t first : {std::size_t{0}, 2'000 - length}) {
+            for (const std::int64_t by : {2'500 * kMs, -2'500 * kMs}) {
+                auto rows = good_rows(2'000, 9 * kSecond, kMs);
+                move_times(rows, first, first + length, by);
+                const DeviceTimes times = device_times(rows, 1.0);
+                EXPECT_EQ(times.rows.size(), 2'000 - length) << first << ' ' << by;
+                expect_one(times, TraceFindingKind::TimeOutlier, first + 2, length);
+            }
+        }
+    }
+}
+
+TEST(DeviceTimes, DropABurstOfManyRowsThatIsShort) {
+    for (const std::size_t length : {20U, 48U, 49U}) {
+        auto rows = good_rows(2'000, 9 * kSecond, kMs);
+        move_times(rows, 800, 800 + length, 2'500 * kMs);
+        EXPECT_EQ(device_times(rows, 1.0).rows.size(), length <= 48 ? 2'000 - length : 2'000);
+    }
+    auto rows = good_rows(2'000);
+    move_times(rows, 800, 820, 2'500 * kMs);
+    EXPECT_EQ(device_times(rows, 1.0).rows.size(), 2'000U);  // 167 ms
+}
+
 }  // namespace
 }  // namespace gazeloop::drivers
