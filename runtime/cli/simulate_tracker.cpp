@@ -10,6 +10,7 @@
 #include "drivers/trace/axes_correction.h"
 #include "drivers/trace/read_trace.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/gaze/sample_rate.h"
 #include "runtime/run/interrupt.h"
 #include "runtime/run/trace_log.h"
 #include "runtime/time/clock.h"
@@ -43,15 +44,11 @@ gaze::GazeTrace gaze_of(const SimulateTrackerCommand& command) {
     return trace;
 }
 
-double rate_hz(const gaze::GazeTrace& trace) {
-    const double span_s = static_cast<double>(trace.samples.back().sampled.ns) * 1e-9;
-    return span_s > 0.0 ? static_cast<double>(trace.samples.size() - 1) / span_s : 0.0;
-}
-
 /// Plays the gaze again and again, each sample at its time, to whoever has started the tracker.
 ExitCode simulate_tracker(const SimulateTrackerCommand& command) {
     const gaze::GazeTrace trace = gaze_of(command);
-    const auto hz = static_cast<std::uint16_t>(std::clamp(rate_hz(trace) + 0.5, 0.0, 65535.0));
+    const auto hz = static_cast<std::uint16_t>(
+        std::clamp(gaze::sample_rate_hz(trace.samples) + 0.5, 0.0, 65535.0));
     std::uint8_t modes = 0;
     auto device = value_or_throw(sim::UhidDevice::create(
         {"gazeloop virtual eye tracker", sim::kVirtualVendor, sim::kVirtualProduct},

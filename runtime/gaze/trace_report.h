@@ -95,7 +95,7 @@ class TraceReport {
 
     std::uint64_t rows = 0;             ///< of the file, after its header, used or not
     std::uint64_t lost_by_tracker = 0;  ///< by gaps in the sequence numbers
-    double rate_hz = 0.0;               ///< by the median interval; 0: fewer than two rows
+    double rate_hz = 0.0;               ///< sample_rate.h; 0: fewer than two rows
     std::int64_t longest_gap_ns = 0;    ///< between samples, as recorded
     std::string clock;  ///< one line: "device, fitted to the host's: +148 ppm, within 0.2 ms"
     std::string axes;   ///< one line: "agree with anatomy", "both eyes diverge: ..."

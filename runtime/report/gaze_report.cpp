@@ -10,6 +10,7 @@
 
 #include "runtime/frame/event.h"
 #include "runtime/gaze/anatomy.h"
+#include "runtime/gaze/sample_rate.h"
 #include "runtime/latency/sample_counter.h"
 #include "runtime/report/trace_account.h"
 #include "runtime/report/wrapped_row.h"
@@ -26,7 +27,7 @@ struct Gap {
 
 /// What the samples say, whoever read them.
 struct Samples {
-    std::optional<double> rate_hz;  ///< by the median interval
+    std::optional<double> rate_hz;
     std::int64_t duration_ns = 0;
     std::vector<Gap> gaps;  ///< the longest that are longer than two intervals, longest first
     gaze::PerEye<std::uint64_t> valid{};
@@ -66,8 +67,8 @@ Samples look_at(const gaze::GazeTrace& trace) {
     }
     std::ranges::stable_sort(intervals, std::ranges::greater{}, &Gap::length_ns);
     const std::int64_t median_ns = intervals[intervals.size() / 2].length_ns;
-    if (median_ns > 0) {
-        found.rate_hz = 1e9 / static_cast<double>(median_ns);
+    if (const double rate_hz = gaze::sample_rate_hz(trace.samples); rate_hz > 0.0) {
+        found.rate_hz = rate_hz;
     }
     for (const Gap& gap : intervals) {
         if (found.gaps.size() == kMostGaps || gap.length_ns <= 2 * median_ns) {
