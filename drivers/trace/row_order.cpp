@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "drivers/trace/time_text.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
@@ -26,8 +28,8 @@ bool is_telling(const TraceRow& row) {
 /// The work on the rows of one file.
 class Ordering {
   public:
-    Ordering(std::span<const TraceRow> rows, std::span<const Wide> at_ns,
-             std::vector<std::size_t> used, std::int64_t interval_ns)
+    Ordering(std::span<const TraceRow> rows, std::span<Wide> at_ns, std::vector<std::size_t> used,
+             std::int64_t interval_ns)
         : rows_(rows), at_ns_(at_ns), interval_ns_(interval_ns) {
         order_.rows = std::move(used);
     }
@@ -35,6 +37,7 @@ class Ordering {
     RowOrder run() {
         turn_round();
         leave_out_repeats();
+        jitters_ = jitters();
         const Wide reach_ns = static_cast<Wide>(interval_ns_) * kOrderWindow;
         for (std::size_t i = 1; i < order_.rows.size(); ++i) {
             const Wide back_ns = at(i - 1) - at(i);
@@ -184,8 +187,16 @@ class Ordering {
             }
         }
         const std::vector<std::size_t> rising = longest_rising(first, end);
-        if (!is_better(sorted, rising)) {
-            return;
+        const bool numbers_count_on = counts_up(first, end, &TraceRow::sequence);
+        if (numbers_count_on || !is_better(sorted, rising)) {
+            const Wide most_ns = furthest(sorted);
+            if (!jitters_ || most_ns > static_cast<Wide>(interval_ns_) * kJitterIntervals) {
+                return;
+            }
+            if (numbers_count_on || counts_up(first, end, &TraceRow::host_ns)) {
+                level(sorted, rising.size(), most_ns);
+                return;
+            }
         }
         const std::size_t moved = sorted.size() - rising.size();
         const auto out = std::find_if(sorted.begin(), sorted.end(), [&](std::size_t i) {
@@ -206,6 +217,68 @@ class Ordering {
         }
         std::copy(rows.begin(), rows.end(),
                   order_.rows.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+
+    template <typename Number>
+    [[nodiscard]] bool counts_up(std::size_t first, std::size_t end,
+                                 std::optional<Number> TraceRow::* number) const {
+        for (std::size_t i = first; i < end; ++i) {
+            const auto& now = row(i).*number;
+            if (!now || (i > first && *now <= *(row(i - 1).*number))) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// By how much a time moves at most where times are put in order among rows that stay.
+    [[nodiscard]] Wide furthest(const std::vector<std::size_t>& sorted) const {
+        std::size_t place = *std::min_element(sorted.begin(), sorted.end());
+        Wide most_ns = 0;
+        for (const std::size_t i : sorted) {
+            const Wide by_ns = at(i) - at(place++);
+            most_ns = std::max(most_ns, by_ns < 0 ? -by_ns : by_ns);
+        }
+        return most_ns;
+    }
+
+    /// Leaves the rows where they are, and puts their times in order. So many are as they stand.
+    void level(const std::vector<std::size_t>& sorted, std::size_t rising, Wide most_ns) {
+        const std::size_t first = *std::min_element(sorted.begin(), sorted.end());
+        std::vector<Wide> times_ns;
+        times_ns.reserve(sorted.size());
+        for (const std::size_t i : sorted) {
+            times_ns.push_back(at(i));
+        }
+        for (std::size_t i = 0; i < times_ns.size(); ++i) {
+            at_ns_[order_.rows[first + i]] = times_ns[i];
+        }
+        order_.findings.push_back(
+            {.kind = TraceFindingKind::OutOfOrder,
+             .line = row(first).line,
+             .rows = sorted.size() - rising,
+             .dropped = 0,
+             .span_ns = 0,
+             .text = fmt::format("times jitter, {} of {} go back while the rows count on: levelled "
+                                 "by up to {}",
+                                 sorted.size() - rising, sorted.size(),
+                                 in_words(time::saturated(most_ns)))});
+    }
+
+    /// Whether steps are usually off by much of an interval, so that one back is nothing special.
+    [[nodiscard]] bool jitters() const {
+        constexpr double kOff = 0.15;
+        std::vector<double> off;
+        for (std::size_t i = 1; i < order_.rows.size(); ++i) {
+            off.push_back(std::abs(
+                static_cast<double>(at(i) - at(i - 1)) / static_cast<double>(interval_ns_) - 1.0));
+        }
+        if (off.empty() || interval_ns_ == 0) {
+            return false;
+        }
+        const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+        std::nth_element(off.begin(), middle, off.end());
+        return *middle > kOff;
     }
 
     /// The most rows of [first, end) whose times never go back, as positions.
@@ -241,16 +314,12 @@ class Ordering {
                                                  *row(a).sequence > *row(b).sequence;
                                       }) == positions.end();
         };
-        std::vector<std::size_t> as_filed = sorted;
-        std::sort(as_filed.begin(), as_filed.end());
-        if (counts_up(as_filed)) {
-            return false;
-        }
         // A spike costs nearly one or more in its place too; a row left out at either end of the
         // file leaves no gap behind.
         constexpr double kAsGood = 0.25;
-        const std::size_t first = as_filed.front();
-        const std::size_t last = as_filed.back();
+        const auto [least, greatest] = std::minmax_element(sorted.begin(), sorted.end());
+        const std::size_t first = *least;
+        const std::size_t last = *greatest;
         return counts_up(sorted) ||
                unevenness(sorted, first, last) < unevenness(rising, first, last) + kAsGood;
     }
@@ -280,8 +349,9 @@ class Ordering {
     }
 
     std::span<const TraceRow> rows_;
-    std::span<const Wide> at_ns_;
+    std::span<Wide> at_ns_;
     std::int64_t interval_ns_;
+    bool jitters_ = false;
     RowOrder order_;
 };
 
@@ -292,7 +362,7 @@ bool same_report(const TraceRow& a, const TraceRow& b) {
            same_ray(a.eyes[1], b.eyes[1]);
 }
 
-RowOrder rows_in_order(std::span<const TraceRow> rows, std::span<const Wide> at_ns,
+RowOrder rows_in_order(std::span<const TraceRow> rows, std::span<Wide> at_ns,
                        std::vector<std::size_t> used, std::int64_t interval_ns) {
     return Ordering(rows, at_ns, std::move(used), interval_ns).run();
 }
