@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "tests/unit/drivers/trace/trace_rows.h"
@@ -12,6 +13,7 @@ namespace {
 
 using gaze::TraceFindingKind;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
@@ -110,6 +112,84 @@ TEST(SequenceNumbers, DoNotLoseWhatTheReaderDropped) {
     EXPECT_EQ(sequence.lost, 3U);
     EXPECT_EQ(sequence.numbers.size(), 795U);
     EXPECT_EQ(sequence.numbers.back(), 797U);
+}
+
+TEST(SequenceNumbers, DoNotTakeARestartForAWrap) {
+    for (const std::uint64_t last : {std::uint64_t{239}, std::uint64_t{1'999}}) {
+        auto rows = good_rows(last + 101);
+        for (std::size_t i = last + 1; i < rows.size(); ++i) {
+            *rows[i].sequence -= last + 1;
+        }
+        for (const bool late : {false, true}) {
+            if (late) {
+                move_times(rows, last + 1, rows.size(), 200 * kSecond);
+            }
+            const SequenceNumbers sequence = of(rows);
+            EXPECT_EQ(sequence.lost, 0U) << last;
+            EXPECT_EQ(sequence.numbers.back(), last + 100);
+            ASSERT_THAT(sequence.findings, SizeIs(1));
+            EXPECT_THAT(sequence.findings[0].text, HasSubstr("begins anew, 0 after"));
+        }
+    }
+}
+
+TEST(SequenceNumbers, TakeWhatTheTimeAgreesWithForAWrap) {
+    // 200 is not near 256, but 60 reports' time went by, and 60 is what a wrap makes.
+    auto rows = good_rows(300);
+    for (TraceRow& row : rows) {
+        *row.sequence = (*row.sequence + 101) % 256;
+    }
+    rows.erase(rows.begin() + 100, rows.begin() + 159);
+    const SequenceNumbers sequence = of(rows);
+    EXPECT_EQ(sequence.lost, 59U);
+    EXPECT_EQ(sequence.numbers.back(), 400U);
+    ASSERT_THAT(sequence.findings, SizeIs(1));
+    EXPECT_THAT(sequence.findings[0].text, HasSubstr("wraps from 200 to 4"));
+}
+
+TEST(SequenceNumbers, AreSaidNotToCountOnce) {
+    auto descending = good_rows(200);
+    auto random = good_rows(200);
+    for (std::size_t i = 0; i < 200; ++i) {
+        descending[i].sequence = 5'000 - i;
+        random[i].sequence = i * 7'919'000'017U % 1'000'003U;
+    }
+    for (const auto& rows : {descending, random}) {
+        const SequenceNumbers sequence = of(rows);
+        EXPECT_EQ(sequence.lost, 0U);
+        EXPECT_EQ(sequence.numbers.front(), 0U);
+        EXPECT_EQ(sequence.numbers.back(), 199U);
+        ASSERT_THAT(sequence.findings, SizeIs(1));
+        EXPECT_EQ(sequence.findings[0].kind, TraceFindingKind::SequenceOutlier);
+        EXPECT_EQ(sequence.findings[0].line, 3U);
+        EXPECT_THAT(sequence.findings[0].text, HasSubstr("the sequence does not count: "));
+    }
+}
+
+TEST(SequenceNumbers, MayBeginWithOneTwice) {
+    const SequenceNumbers sequence = of(numbered({5, 5, 6, 7, 8}));
+    EXPECT_THAT(sequence.numbers, ElementsAre(5, 6, 7, 8, 9));
+    EXPECT_THAT(sequence.findings, IsEmpty());
+}
+
+TEST(SequenceNumbers, DoNotLoseRowsThatWereFiledLate) {
+    auto rows = good_rows(800);
+    std::rotate(rows.begin() + 300, rows.begin() + 320, rows.begin() + 420);
+    const SequenceNumbers sequence = of(rows);
+    EXPECT_EQ(sequence.lost, 0U);
+    ASSERT_EQ(sequence.numbers.size(), 800U);
+    EXPECT_EQ(sequence.numbers.back(), 799U);
+    ASSERT_THAT(sequence.findings, SizeIs(1));
+    EXPECT_EQ(sequence.findings[0].line, 302U);
+    EXPECT_THAT(sequence.findings[0].text, HasSubstr("20 rows of a gap further up, 300 to 319"));
+}
+
+TEST(SequenceNumbers, DoNotLoseRowsThatWereFiledLateAndLeftOut) {
+    auto rows = good_rows(800);
+    std::rotate(rows.begin() + 300, rows.begin() + 310, rows.begin() + 410);
+    const SequenceNumbers sequence = of(rows);
+    EXPECT_EQ(sequence.lost, 0U);
+    EXPECT_EQ(sequence.numbers.back(), 789U);
 }
 
 }  // namespace
