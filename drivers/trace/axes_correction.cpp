@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -138,6 +140,36 @@ void correct_axes(std::span<gaze::GazeSample> samples, AxesCorrection correction
     }
 }
 
+namespace {
+
+/// What is odd about how far apart the eyes are; nothing if they are as people's.
+std::string odd_distance(const gaze::Anatomy& anatomy) {
+    constexpr double kLeast_m = 0.045;
+    constexpr double kMost_m = 0.080;
+    const double apart_m = std::abs(anatomy.apart_m.value_or(0.0));
+    if (apart_m == 0.0 || (apart_m >= kLeast_m && apart_m <= kMost_m)) {
+        return {};
+    }
+    struct Unit {
+        double per_metre;
+        std::string_view name;
+    };
+    for (const Unit& unit : {Unit{1e3, "millimetres"}, Unit{1e2, "centimetres"}}) {
+        if (apart_m >= kLeast_m * unit.per_metre && apart_m <= kMost_m * unit.per_metre) {
+            return fmt::format(
+                "origins look like {}, the eyes would be {:.3g} m apart: write them "
+                "in metres",
+                unit.name, apart_m);
+        }
+    }
+    return fmt::format(
+        "origins are {:.3g} mm apart, eyes are {:.0f} to {:.0f} mm: look at their "
+        "unit and columns",
+        apart_m * 1e3, kLeast_m * 1e3, kMost_m * 1e3);
+}
+
+}  // namespace
+
 Expected<void> hold_against_anatomy(gaze::GazeTrace& trace, AxesCorrection correction) {
     correct_axes(trace.samples, correction);
     const gaze::Anatomy anatomy = gaze::anatomy_of(trace.samples);
@@ -145,7 +177,12 @@ Expected<void> hold_against_anatomy(gaze::GazeTrace& trace, AxesCorrection corre
     if (correction != AxesCorrection::None) {
         text = fmt::format("corrected by --axes {}: {}", name_of(correction), text);
     }
-    trace.report.axes = text;
+    const std::string odd = odd_distance(anatomy);
+    trace.report.axes = odd.empty() ? text : text + "; but " + odd;
+    if (!odd.empty()) {
+        trace.report.add(
+            {.kind = gaze::TraceFindingKind::Axes, .rows = trace.samples.size(), .text = odd});
+    }
     if (anatomy.doubtful()) {
         text += "; " + remedy(trace.samples, correction);
     }

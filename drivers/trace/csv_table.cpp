@@ -9,6 +9,26 @@
 namespace gazeloop::drivers {
 namespace {
 
+constexpr std::string_view kSeparators = ",;\t|";
+
+/// Also one that a program saved in quotes.
+bool is_comment(std::string_view line) {
+    if (line.starts_with('"')) {
+        line.remove_prefix(1);
+    }
+    return line.starts_with('#') || line.starts_with("//");
+}
+
+/// A line of one cell, however many empty ones stand behind it.
+bool is_title(std::string_view line) {
+    return std::all_of(kSeparators.begin(), kSeparators.end(), [&](char separator) {
+        LineCells cells(line.size());
+        return cells.split(line, separator) == LineCells::Problem::None && !cells[0].empty() &&
+               std::all_of(cells.cells().begin() + 1, cells.cells().end(),
+                           [](std::string_view cell) { return cell.empty(); });
+    });
+}
+
 constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
 std::string lower_case(std::string_view text) {
@@ -50,11 +70,19 @@ Expected<CsvTable> CsvTable::open(std::istream& in, std::string name) {
 }
 
 Expected<void> CsvTable::skip_preamble() {
+    constexpr std::size_t kMostTitles = 8;
+    constexpr std::string_view kNoHeader =
+        "no header: no line up to here has columns' names with , ; | or tabs between them";
     std::uint64_t first_skipped = 0;
+    std::uint64_t title = 0;
+    std::size_t titles = 0;
     while (true) {
         const Expected<bool> any = lines_.next();
         if (!any) {
             return std::unexpected(any.error());
+        }
+        if (!*any && titles > 0) {
+            return lines_.error_here(kNoHeader);
         }
         if (!*any) {
             return lines_.error_here(lines_.line() == 1
@@ -62,7 +90,7 @@ Expected<void> CsvTable::skip_preamble() {
                                          : "no header: a table begins with its columns' names");
         }
         const std::string_view text = trimmed(lines_.text());
-        if (text.empty() || text.front() == '#') {
+        if (text.empty() || is_comment(text)) {
             first_skipped = first_skipped > 0 ? first_skipped : lines_.line();
             continue;
         }
@@ -70,8 +98,15 @@ Expected<void> CsvTable::skip_preamble() {
         if (!says_separator) {
             return std::unexpected(says_separator.error());
         }
-        if (!*says_separator) {
+        if (*says_separator) {
+            continue;
+        }
+        if (separator_ != '\0' || !is_title(lines_.text())) {
             break;
+        }
+        title = lines_.line();
+        if (++titles > kMostTitles) {
+            return lines_.error_here(kNoHeader);
         }
     }
     header_line_ = lines_.line();
@@ -80,12 +115,15 @@ Expected<void> CsvTable::skip_preamble() {
              fmt::format("blank or comment lines before the header, which is line {}: skipped",
                          header_line_));
     }
+    if (title > 0) {
+        note(title,
+             fmt::format("a title before the header, which is line {}: skipped", header_line_));
+    }
     return {};
 }
 
 Expected<bool> CsvTable::takes_separator(std::string_view line) {
     constexpr std::string_view kKey = "sep=";
-    constexpr std::string_view kSeparators = ",;\t|";
     if (line.starts_with('"')) {
         line.remove_prefix(1);
     }
@@ -113,7 +151,7 @@ Expected<void> CsvTable::read_header() {
     if (separator_ == '\0') {
         std::size_t most = 0;
         separator_ = ',';
-        for (const char candidate : {',', ';', '\t'}) {
+        for (const char candidate : kSeparators) {
             const std::size_t count = count_outside_quotes(line, candidate);
             if (count > most) {
                 most = count;

@@ -21,11 +21,11 @@
 namespace gazeloop::drivers {
 
 /// A table of separated values with one header line, read row by row: the file may be of any size,
-/// and gzip (text_lines.h). Cells are separated by whichever of ',', ';' and tab the header has
-/// most of, or by what a line "sep=;" before it says; they may stand in double quotes. Blank lines,
-/// and lines with '#' before the header, are skipped. Column names are known in any case. Numbers
-/// are written with a decimal point, or with a comma where that separates no cells, whatever the
-/// locale.
+/// and gzip (text_lines.h). Cells are separated by whichever of ',', ';', tab and '|' the header
+/// has most of, or by what a line "sep=;" before it says; they may stand in double quotes. Blank
+/// lines, and lines with '#', '//' or a single cell (a title) before the header, are skipped.
+/// Column names are known in any case. Numbers are written with a decimal point, or with a comma
+/// where that separates no cells, whatever the locale.
 ///
 /// Every error is BadInput and says "NAME:LINE: what, and what to do". What was read although it is
 /// not usual is noted (report_to). No cell is an error: what to make of a cell that holds no number

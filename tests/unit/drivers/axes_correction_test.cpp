@@ -190,5 +190,23 @@ TEST(AxesCorrection, HasANameEach) {
     }
 }
 
+TEST(HoldAgainstAnatomy, SaysThatOriginsAreInAnotherUnit) {
+    const auto told_of = [](double factor) {
+        gaze::GazeTrace trace;
+        trace.samples = gaze::changed(gaze::pair_of_eyes(), [&](EyeRay& left, EyeRay& right) {
+            left.origin_m *= factor;
+            right.origin_m *= factor;
+        });
+        EXPECT_TRUE(hold_against_anatomy(trace, AxesCorrection::None).has_value());
+        return trace.report.findings().empty() ? std::string{}
+                                               : trace.report.findings().front().text;
+    };
+    EXPECT_EQ(told_of(1.0), "");
+    EXPECT_EQ(told_of(0.0), "");  // places are not known
+    EXPECT_THAT(told_of(1e3), HasSubstr("origins look like millimetres, the eyes would be 64 m"));
+    EXPECT_THAT(told_of(1e2), HasSubstr("origins look like centimetres"));
+    EXPECT_THAT(told_of(1.5), HasSubstr("origins are 96 mm apart, eyes are 45 to 80 mm"));
+}
+
 }  // namespace
 }  // namespace gazeloop::drivers

@@ -154,7 +154,7 @@ TEST(TraceText, KnowsNamesInAnotherCase) {
     const auto trace = read_text(text);
     expect_read(trace);
     EXPECT_THAT(notes(trace),
-                ElementsAre("1: column names in another case: 'GAZE_DIRECT_L.X' (23 in all)"));
+                ElementsAre("1: column names in another case: 'GAZE_DIRECT_L.X' (24 in all)"));
 }
 
 TEST(TraceText, PrefersTheExactNameAndGuessesNone) {
@@ -277,6 +277,29 @@ TEST(TraceText, SaysWhereAFileStopsToBeText) {
     EXPECT_THAT(refusal(htc() + std::string(512, '\0')),
                 HasSubstr("gaze.csv:5: not a text file (a byte 0x00): export the table as CSV; if "
                           "it is text up to here"));
+}
+
+TEST(TraceText, SkipsOtherCommentsAndTitlesBeforeTheHeader) {
+    for (const std::string_view comment : {"// made by us; twice", "\"# a; b\"", "\"// a\""}) {
+        const auto trace = read_text(std::string{comment} + "\r\n" + htc());
+        expect_read(trace);
+        EXPECT_THAT(notes(trace), ElementsAre("1: blank or comment lines before the header, which "
+                                              "is line 2: skipped"));
+    }
+    for (const std::string_view title : {"My recording", "My recording;;;;", "\"One, two\""}) {
+        const auto trace = read_text(std::string{title} + "\r\n" + htc());
+        expect_read(trace);
+        EXPECT_THAT(notes(trace),
+                    ElementsAre("1: a title before the header, which is line 2: skipped"));
+    }
+    EXPECT_THAT(refusal(replaced(htc(), ";", " ")),
+                HasSubstr("no header: no line up to here has columns' names with , ; | or tabs"));
+}
+
+TEST(TraceText, KnowsBarsForSeparators) {
+    const auto trace = read_text(replaced(htc(), ";", "|"));
+    expect_read(trace);
+    EXPECT_THAT(notes(trace), IsEmpty());
 }
 
 }  // namespace
