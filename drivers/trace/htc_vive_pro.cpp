@@ -109,14 +109,20 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const ReadOptions& options) {
                                 eye_cells(table, gaze::Eye::Right)};
     const auto helmet = table.columns(kHelmetColumns, "the helmet's pose");
     const auto time = table.column(kTime);
-    const std::size_t clock = time ? *time : *table.column(kTimeStamp);
+    const auto time_stamp = table.column(kTimeStamp);
     TraceRows rows(table, eyes,
                    {.file = table.name(),
                     .format = kName,
                     .device = "HTC Vive Pro",
-                    .device_tick_ns = time ? kTime_ns : kTimeStamp_ns});
+                    .device_tick_ns = time ? kTime_ns : kTimeStamp_ns,
+                    .other_tick_ns = kTimeStamp_ns,
+                    .other_clock = kTimeStamp});
     return rows.read(options, [&](TraceRow& row) {
-        row.device_ticks = rows.ticks(clock);
+        row.device_ticks =
+            time ? rows.ticks(*time, "100 ns") : rows.ticks(*time_stamp, "milliseconds");
+        if (time && time_stamp) {
+            row.other_ticks = table.whole(*time_stamp);
+        }
         if (helmet) {
             if (const auto pose = rows.head(*helmet)) {
                 row.head = helmet_pose(*pose);

@@ -16,6 +16,7 @@
 
 #include "drivers/trace/eye_cells.h"
 #include "drivers/trace/trace_rows.h"
+#include "runtime/gaze/sample_rate.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -96,7 +97,7 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const ReadOptions& options) {
     };
     return rows.read(options, [&](TraceRow& row) {
         row.sequence = rows.optional_count(sequence);
-        row.device_ticks = rows.ticks(device_clock);
+        row.device_ticks = rows.ticks(device_clock, "nanoseconds");
         row.host_ns = rows.optional_ticks(host_clock);
         row.head = head_pose();
     });
@@ -140,20 +141,6 @@ std::string sidecar_file(const std::string& trace_file) { return trace_file + ".
 
 std::unexpected<Error> bad_input(std::string message) {
     return std::unexpected(Error{ErrorKind::BadInput, std::move(message)});
-}
-
-/// Samples per second by the median interval; 0 for a single sample.
-double rate_hz(const gaze::GazeTrace& trace) {
-    std::vector<std::int64_t> intervals_ns;
-    for (std::size_t i = 1; i < trace.samples.size(); ++i) {
-        intervals_ns.push_back(trace.samples[i].sampled.ns - trace.samples[i - 1].sampled.ns);
-    }
-    if (intervals_ns.empty()) {
-        return 0.0;
-    }
-    const auto median = intervals_ns.begin() + static_cast<std::ptrdiff_t>(intervals_ns.size() / 2);
-    std::nth_element(intervals_ns.begin(), median, intervals_ns.end());
-    return 1e9 / static_cast<double>(*median);
 }
 
 constexpr TraceFormat kFormat{kName, kColumns, kNeeded, read};
@@ -257,7 +244,7 @@ Expected<void> write_native_trace(const gaze::GazeTrace& trace, const std::strin
         {"format", kSidecarFormat},
         {"version", kSidecarVersion},
         {"clock", "t_device_ns: the device's; t_host_ns: the host's at arrival"},
-        {"rate_hz", rate_hz(trace)},
+        {"rate_hz", gaze::sample_rate_hz(trace.samples)},
         {"axes", kSidecarAxes},
         {"device", trace.device},
         {"calibration", nullptr},

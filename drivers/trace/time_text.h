@@ -11,9 +11,10 @@ namespace gazeloop::drivers {
 /// How long, without a sign, for messages: "8.33 ms", "900 s".
 [[nodiscard]] inline std::string in_words(std::int64_t ns) {
     constexpr double kSecond_ns = 1e9;
+    constexpr double kRoundsToSecond_ns = 999.5e6;  // in three digits
     const double length_ns = std::abs(static_cast<double>(ns));
-    return length_ns < kSecond_ns ? fmt::format("{:.3g} ms", length_ns * 1e-6)
-                                  : fmt::format("{:.6g} s", length_ns / kSecond_ns);
+    return length_ns < kRoundsToSecond_ns ? fmt::format("{:.3g} ms", length_ns * 1e-6)
+                                          : fmt::format("{:.6g} s", length_ns / kSecond_ns);
 }
 
 }  // namespace gazeloop::drivers

@@ -11,7 +11,9 @@
 #include "drivers/trace/device_times.h"
 #include "drivers/trace/host_fit.h"
 #include "drivers/trace/sequence_numbers.h"
+#include "drivers/trace/standing_gaze.h"
 #include "drivers/trace/time_text.h"
+#include "runtime/gaze/sample_rate.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
@@ -44,12 +46,12 @@ std::uint64_t first_line(const gaze::TraceReport& report, auto&& is_meant) {
     return first.value_or(0);
 }
 
-/// "time outlier 83, repeat 2"
+/// Of what is dropped, without a cut last line: "time outlier 83, repeat 2"
 std::string reasons(const gaze::TraceReport& report) {
     std::string text;
     for (std::size_t kind = 0; kind < gaze::kTraceFindingKinds; ++kind) {
         const auto& count = report.count(static_cast<TraceFindingKind>(kind));
-        if (count.dropped > 0) {
+        if (count.dropped > 0 && static_cast<TraceFindingKind>(kind) != TraceFindingKind::CutRow) {
             text += fmt::format("{}{} {}", text.empty() ? "" : ", ", gaze::kTraceFindingNames[kind],
                                 count.dropped);
         }
@@ -59,13 +61,24 @@ std::string reasons(const gaze::TraceReport& report) {
 
 /// What is wrong with a trace of which so much was dropped or changed; nothing if it will do.
 Expected<void> check_repairs(const std::string& file, const gaze::TraceReport& report) {
-    if (report.rows_dropped() * kRowsPerRepair > report.rows) {
-        const std::uint64_t line =
-            first_line(report, [](const auto& finding) { return finding.dropped > 0; });
+    // A recorder that was stopped cuts the last line of a good file.
+    const std::uint64_t cut = report.count(TraceFindingKind::CutRow).dropped;
+    const std::uint64_t dropped = report.rows_dropped() - cut;
+    if (dropped * kRowsPerRepair > report.rows - cut) {
+        const auto bad_time = std::ranges::find(report.findings(), TraceFindingKind::BadTime,
+                                                &gaze::TraceFinding::kind);
+        if (2 * report.count(TraceFindingKind::BadTime).dropped > dropped) {
+            return bad_input(
+                fmt::format("{}:{}: {}; mend the column, or --accept-repairs leaves these rows out",
+                            file, bad_time->line, bad_time->text));
+        }
+        const std::uint64_t line = first_line(report, [](const auto& finding) {
+            return finding.dropped > 0 && finding.kind != TraceFindingKind::CutRow;
+        });
         return bad_input(
             fmt::format("{}:{}: {} of {} rows cannot be used ({}), the first of them "
                         "here; --accept-repairs plays the others",
-                        file, line, report.rows_dropped(), report.rows, reasons(report)));
+                        file, line, dropped, report.rows - cut, reasons(report)));
     }
     const std::uint64_t sets = report.count(TraceFindingKind::DeviceClockSet).times +
                                report.count(TraceFindingKind::HostClockSet).times;
@@ -141,10 +154,10 @@ void shorten_gaps(std::span<const TraceRow> rows, DeviceTimes& times, std::int64
 
 }  // namespace
 
-TraceBuilder::TraceBuilder(TraceOrigin origin) : tick_ns_(origin.device_tick_ns) {
-    trace_.file = std::move(origin.file);
-    trace_.format = origin.format;
-    trace_.device = std::move(origin.device);
+TraceBuilder::TraceBuilder(TraceOrigin origin) : origin_(std::move(origin)) {
+    trace_.file = origin_.file;
+    trace_.format = origin_.format;
+    trace_.device = origin_.device;
 }
 
 void TraceBuilder::add(const TraceRow& row) {
@@ -152,18 +165,54 @@ void TraceBuilder::add(const TraceRow& row) {
     ++trace_.report.rows;
 }
 
+double TraceBuilder::choose_clock() {
+    if (std::ranges::any_of(rows_,
+                            [](const TraceRow& row) { return row.device_ticks.has_value(); })) {
+        return origin_.device_tick_ns;
+    }
+    const auto add = [&](std::string text) {
+        trace_.report.add({.kind = TraceFindingKind::BadTime,
+                           .line = rows_.front().line,
+                           .rows = rows_.size(),
+                           .text = std::move(text)});
+    };
+    const auto differs = [&](const TraceRow& row) {
+        return row.other_ticks && row.other_ticks != rows_.front().other_ticks;
+    };
+    if (std::ranges::any_of(rows_, differs)) {
+        for (TraceRow& row : rows_) {
+            row.device_ticks = row.other_ticks;
+        }
+        add(fmt::format("{}, nor is it in any row: the times are those of '{}'", unread_time_,
+                        origin_.other_clock));
+        return origin_.other_tick_ns;
+    }
+    if (!unread_time_.empty() &&
+        std::ranges::any_of(rows_, [](const TraceRow& row) { return row.host_ns.has_value(); })) {
+        add(unread_time_ + ", nor is it in any row: the times are the host's");
+    }
+    return origin_.device_tick_ns;
+}
+
 Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
+    const double tick_ns = choose_clock();
     const std::vector<TraceRow> rows = std::move(rows_);
     gaze::GazeTrace trace = std::move(trace_);
     gaze::TraceReport& report = trace.report;
     if (rows.empty()) {
         return bad_input(fmt::format("{}: no rows after the header", trace.file));
     }
-    DeviceTimes times = device_times(rows, tick_ns_);
+    DeviceTimes times = device_times(rows, tick_ns);
+    for (gaze::TraceFinding& finding : times.findings) {
+        if (finding.kind == TraceFindingKind::BadTime && !unread_time_.empty()) {
+            finding.text = unread_time_ + "; " + finding.text;
+        }
+    }
     move_to(times.findings, report);
     if (times.rows.empty()) {
-        return bad_input(
-            fmt::format("{}:{}: no row has a readable time", trace.file, rows.front().line));
+        return bad_input(fmt::format("{}:{}: no row has a readable time{}{}", trace.file,
+                                     rows.front().line, unread_time_.empty() ? "" : ": ",
+                                     unread_time_));
     }
     if (times.rows.size() > 1 && times.interval_ns == 0) {
         return bad_input(
@@ -186,7 +235,8 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
     SequenceNumbers sequence = sequence_numbers(rows, fitted);
     move_to(sequence.findings, report);
     report.lost_by_tracker = sequence.lost;
-    report.rate_hz = fitted.interval_ns > 0 ? 1e9 / static_cast<double>(fitted.interval_ns) : 0.0;
+    std::vector<gaze::TraceFinding> standing = standing_gaze(rows, fitted);
+    move_to(standing, report);
     const Gap gap = longest_gap(fitted.time_ns);
     report.longest_gap_ns = gap.length_ns;
     const std::int64_t longest_gap_ns = std::llround(options.longest_gap_s * 1e9);
@@ -229,6 +279,7 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
             report.valid[gaze::index(eye)] += row.eyes[gaze::index(eye)].valid ? 1 : 0;
         }
     }
+    report.rate_hz = gaze::sample_rate_hz(trace.samples);
     if (report.valid[0] + report.valid[1] == 0) {
         return bad_input(fmt::format("no valid gaze in {}", trace.file));
     }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "drivers/trace/read_options.h"
@@ -17,7 +18,9 @@ struct TraceOrigin {
     std::string file;         ///< as messages name it
     std::string_view format;  ///< as GazeTrace::format has it
     std::string device;
-    double device_tick_ns = 1.0;  ///< > 0; a tick of TraceRow::device_ticks
+    double device_tick_ns = 1.0;        ///< > 0; a tick of TraceRow::device_ticks
+    double other_tick_ns = 1.0;         ///< > 0; a tick of TraceRow::other_ticks
+    std::string_view other_clock = {};  ///< as messages name it
 };
 
 /// Makes a trace from a file's rows and enforces what gaze_trace.h promises. Rows are held in
@@ -32,6 +35,13 @@ class TraceBuilder {
     /// Takes the next row of the file, and counts it in report().rows.
     void add(const TraceRow& row);
 
+    /// Says what the first row without device_ticks has in their place: "column 't': 'x' is no
+    /// whole number of nanoseconds".
+    void unread_time(std::string what) {
+        unread_time_ = unread_time_.empty() ? std::move(what) : unread_time_;
+    }
+    [[nodiscard]] bool knows_unread_time() const { return !unread_time_.empty(); }
+
     /// For what the format's reader finds. Rows that it does not add it counts itself.
     [[nodiscard]] gaze::TraceReport& report() { return trace_.report; }
 
@@ -42,7 +52,11 @@ class TraceBuilder {
     [[nodiscard]] Expected<gaze::GazeTrace> finish(const ReadOptions& options);
 
   private:
-    double tick_ns_;
+    /// Takes the other clock where the device's cannot be read in any row. The tick, ns.
+    [[nodiscard]] double choose_clock();
+
+    TraceOrigin origin_;
+    std::string unread_time_;
     gaze::GazeTrace trace_;
     std::vector<TraceRow> rows_;
 };

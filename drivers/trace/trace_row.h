@@ -16,6 +16,8 @@ struct TraceRow {
     /// The device's clock as the file has it, in ticks of the format (TraceOrigin); none where the
     /// cell cannot be read.
     std::optional<std::int64_t> device_ticks;
+    /// Another clock of the device's, for want of the first in all rows.
+    std::optional<std::int64_t> other_ticks;
     std::optional<std::int64_t> host_ns;  ///< the host's clock at the arrival, where recorded
     gaze::PerEye<gaze::EyeRay> eyes;      ///< in our axes and units
     std::optional<gaze::Pose> head;

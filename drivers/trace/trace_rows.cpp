@@ -9,6 +9,15 @@ namespace gazeloop::drivers {
 TraceRows::TraceRows(CsvTable& table, gaze::PerEye<EyeCells>& eyes, TraceOrigin origin)
     : table_(table), eyes_(eyes), builder_(std::move(origin)) {}
 
+std::optional<std::int64_t> TraceRows::ticks(std::size_t column, std::string_view ticks) {
+    const std::optional<std::int64_t> value = table_.whole(column);
+    if (!value && !builder_.knows_unread_time()) {
+        builder_.unread_time(
+            fmt::format("{} is no whole number of {}", table_.described(column), ticks));
+    }
+    return value;
+}
+
 std::optional<std::int64_t> TraceRows::optional_ticks(std::optional<std::size_t> column) {
     if (!column) {
         return std::nullopt;

@@ -31,10 +31,9 @@ class TraceRows {
     [[nodiscard]] Expected<gaze::GazeTrace> read(const ReadOptions& options,
                                                  const TakeApart& take_apart);
 
-    /// A clock's reading; none where the cell holds none.
-    [[nodiscard]] std::optional<std::int64_t> ticks(std::size_t column) {
-        return table_.whole(column);
-    }
+    /// The reading of the clock that gives a row its time; none where the cell holds none, of which
+    /// the first is kept for messages: it is no whole number of `ticks` ("nanoseconds").
+    [[nodiscard]] std::optional<std::int64_t> ticks(std::size_t column, std::string_view ticks);
     /// The same of a clock or counter that a row can do without.
     [[nodiscard]] std::optional<std::int64_t> optional_ticks(std::optional<std::size_t> column);
     [[nodiscard]] std::optional<std::uint64_t> optional_count(std::optional<std::size_t> column);

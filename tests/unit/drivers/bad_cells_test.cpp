@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <sstream>
 #include <string>
 
 #include "tests/unit/drivers/trace_findings.h"
@@ -164,12 +165,41 @@ TEST(BadCells, LeaveAHeadUnknown) {
 }
 
 TEST(BadCells, LeaveTimesUnread) {
-    const gaze::GazeTrace trace = read_htc(htc_row(1) + "x" + htc_row(2) + "12.5" + htc_row(3) +
-                                           "nan" + htc_row(4).substr(1) + htc_row(5));
+    const std::string text = fmt::format("{}\n{}", kHtcHeader,
+                                         htc_row(1) + "x" + htc_row(2) + "12.5" + htc_row(3) +
+                                             "nan" + htc_row(4).substr(1) + htc_row(5));
+    EXPECT_EQ(read_text(text).error().message,
+              "gaze.csv:3: column 'time(100ns)': 'x2' is no whole number of 100 ns; 3 rows without "
+              "a readable time: dropped; mend the column, or --accept-repairs leaves "
+              "these rows out");
+    std::istringstream in(text);
+    const gaze::GazeTrace trace =
+        value_or_throw(read_trace(in, "gaze.csv", {.accept_repairs = true}));
     EXPECT_EQ(trace.samples.size(), 2U);
     EXPECT_EQ(trace.report.rows, 5U);
     EXPECT_EQ(trace.report.count(TraceFindingKind::BadTime).rows, 3U);
     EXPECT_EQ(findings(trace, TraceFindingKind::BadTime).front().line, 3U);
+}
+
+TEST(BadCells, LeaveTheClockOfWholeMilliseconds) {
+    const gaze::GazeTrace trace =
+        read_htc("6.38E+17;100" + htc_row(0).substr(4) + "6.38E+17;108" + htc_row(0).substr(4) +
+                 "6.38E+17;117" + htc_row(0).substr(4));
+    ASSERT_EQ(trace.samples.size(), 3U);
+    EXPECT_EQ(trace.samples[2].sampled.ns, 17'000'000);
+    EXPECT_THAT(told(trace, TraceFindingKind::BadTime),
+                ElementsAre("2: column 'time(100ns)': '6.38E+17' is no whole number of 100 ns, nor "
+                            "is it in any row: the times are those of 'time_stamp(ms)'"));
+}
+
+TEST(BadCells, AreNamedWhereSecondsStandForNanoseconds) {
+    std::string text = fmt::format("{}\n", kNativeHeader);
+    for (int i = 0; i < 20; ++i) {
+        text += fmt::format("{},5000.{:06}", i, 8'333 * i) + native_row(0, 0).substr(3);
+    }
+    EXPECT_THAT(read_text(text).error().message,
+                HasSubstr("gaze.csv:3: column 't_device_ns': '5000.008333' is no whole number of "
+                          "nanoseconds; 19 rows without a readable time"));
 }
 
 TEST(BadCells, LeaveASequenceOrArrivalUnknown) {

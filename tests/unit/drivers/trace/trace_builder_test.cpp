@@ -185,10 +185,100 @@ TEST(TraceBuilder, CountsWhatItsReaderFindsToo) {
                           .dropped = 1,
                           .span_ns = 0,
                           .text = "cut"});
-    const Expected<gaze::GazeTrace> trace = builder.finish({});
-    ASSERT_FALSE(trace.has_value());
-    EXPECT_THAT(trace.error().message,
-                HasSubstr("gaze.csv:10: 1 of 9 rows cannot be used (cut row 1)"));
+    const gaze::GazeTrace trace = value_or_throw(builder.finish({}));
+    EXPECT_EQ(trace.report.rows, 9U);
+    EXPECT_EQ(trace.report.rows_dropped(), 1U);
+}
+
+TEST(TraceBuilder, DoesNotRefuseForACutLineButForTheRest) {
+    const auto refusal_with = [](std::uint64_t cut, std::uint64_t repeats) {
+        TraceBuilder builder({"gaze.csv", "gazeloop", "a tracker", 1.0});
+        for (const TraceRow& row : good_rows(8)) {
+            builder.add(row);
+        }
+        builder.report().rows += cut + repeats;
+        builder.report().add({.kind = TraceFindingKind::CutRow,
+                              .line = 9,
+                              .rows = cut,
+                              .dropped = cut,
+                              .text = "cut"});
+        builder.report().add({.kind = TraceFindingKind::Repeat,
+                              .line = 4,
+                              .rows = repeats,
+                              .dropped = repeats,
+                              .text = "again"});
+        const Expected<gaze::GazeTrace> trace = builder.finish({});
+        return trace ? "accepted" : trace.error().message;
+    };
+    EXPECT_EQ(refusal_with(1, 0), "accepted");
+    EXPECT_THAT(refusal_with(1, 1),
+                StartsWith("gaze.csv:4: 1 of 9 rows cannot be used (repeat 1), the first"));
+}
+
+TEST(TraceBuilder, SaysWhatStandsInPlaceOfATime) {
+    const auto refusal_of = [](std::vector<TraceRow> rows, bool host) {
+        TraceBuilder builder({"gaze.csv", "gazeloop", "a tracker", 1.0});
+        builder.unread_time("column 't': 'x' is no whole number of nanoseconds");
+        builder.unread_time("column 't': 'y' is no whole number of nanoseconds");
+        for (TraceRow& row : rows) {
+            row.host_ns =
+                host ? std::optional{static_cast<std::int64_t>(row.line) * kMs} : std::nullopt;
+            builder.add(row);
+        }
+        const Expected<gaze::GazeTrace> trace = builder.finish({});
+        return trace ? trace->report.findings().at(0).text : trace.error().message;
+    };
+    auto rows = good_rows(10);
+    for (std::size_t i = 3; i < 10; ++i) {
+        rows[i].device_ticks.reset();
+    }
+    EXPECT_EQ(refusal_of(rows, false),
+              "gaze.csv:5: column 't': 'x' is no whole number of nanoseconds; 7 rows without a "
+              "readable time: dropped; mend the column, or --accept-repairs leaves these "
+              "rows out");
+    for (TraceRow& row : rows) {
+        row.device_ticks.reset();
+    }
+    EXPECT_EQ(refusal_of(rows, false),
+              "gaze.csv:2: no row has a readable time: column 't': 'x' is no whole number of "
+              "nanoseconds");
+    EXPECT_EQ(refusal_of(rows, true),
+              "column 't': 'x' is no whole number of nanoseconds, nor is it in any row: the times "
+              "are the host's");
+}
+
+TEST(TraceBuilder, TakesTheOtherClockWhereTheFirstIsUnreadable) {
+    const auto of = [](const std::vector<TraceRow>& rows) {
+        TraceBuilder builder({.file = "gaze.csv",
+                              .format = "f",
+                              .device = "d",
+                              .device_tick_ns = 100.0,
+                              .other_tick_ns = 1e6,
+                              .other_clock = "ms"});
+        builder.unread_time("column 't': 'x' is no whole number of 100 ns");
+        for (const TraceRow& row : rows) {
+            builder.add(row);
+        }
+        return builder.finish({});
+    };
+    auto rows = good_rows(50);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].device_ticks.reset();
+        rows[i].other_ticks = 70 + 8 * static_cast<std::int64_t>(i);
+    }
+    const gaze::GazeTrace trace = value_or_throw(of(rows));
+    ASSERT_EQ(trace.samples.size(), 50U);
+    EXPECT_EQ(trace.samples[49].sampled.ns, 49 * 8 * kMs);
+    ASSERT_EQ(trace.report.findings().size(), 1U);
+    EXPECT_EQ(trace.report.findings()[0].kind, TraceFindingKind::BadTime);
+    EXPECT_EQ(trace.report.findings()[0].dropped, 0U);
+    EXPECT_EQ(trace.report.findings()[0].text,
+              "column 't': 'x' is no whole number of 100 ns, nor is it in any row: the times are "
+              "those of 'ms'");
+    for (TraceRow& row : rows) {
+        row.other_ticks = -1;  // as SRanipal writes it where it has none
+    }
+    EXPECT_THAT(of(rows).error().message, HasSubstr("no row has a readable time"));
 }
 
 }  // namespace

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "drivers/trace/device_times.h"
+#include "drivers/trace/trace_row.h"
+#include "runtime/gaze/trace_report.h"
+
+namespace gazeloop::drivers {
+
+/// Finds reports that stand in the file again with later times (Repeat, nothing is dropped): for
+/// more than a second, where the tracker or its recorder stood still, and in a quarter of the rows
+/// or more, where the recorder polls faster than the tracker reports. A report with a number of its
+/// own, or without a valid eye, is another one. O(n).
+[[nodiscard]] std::vector<gaze::TraceFinding> standing_gaze(std::span<const TraceRow> rows,
+                                                            const DeviceTimes& times);
+
+}  // namespace gazeloop::drivers
