@@ -270,8 +270,10 @@ class Ordering {
         constexpr double kOff = 0.15;
         std::vector<double> off;
         for (std::size_t i = 1; i < order_.rows.size(); ++i) {
-            off.push_back(std::abs(
-                static_cast<double>(at(i) - at(i - 1)) / static_cast<double>(interval_ns_) - 1.0));
+            const auto step_ns = static_cast<double>(at(i) - at(i - 1));
+            if (step_ns != 0.0) {  // of a coarse clock's rows many share a reading
+                off.push_back(std::abs(step_ns / static_cast<double>(interval_ns_) - 1.0));
+            }
         }
         if (off.empty() || interval_ns_ == 0) {
             return false;

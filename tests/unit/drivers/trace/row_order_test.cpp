@@ -146,5 +146,16 @@ TEST(RowOrder, LeavesAStepBackOfAnEvenClockToOthers) {
     EXPECT_EQ(found.at_ns[400], *rows[400].device_ticks);
 }
 
+TEST(RowOrder, LeavesAStepBackOfACoarseClockToOthers) {
+    auto rows = good_rows(800);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].device_ticks = static_cast<std::int64_t>(i / 8) * kInterval;
+    }
+    move_times(rows, 400, 401, 2 * kInterval);
+    const Ordered found = ordered(rows);
+    EXPECT_THAT(found.order.findings, IsEmpty());
+    EXPECT_EQ(found.at_ns[400], *rows[400].device_ticks);
+}
+
 }  // namespace
 }  // namespace gazeloop::drivers
