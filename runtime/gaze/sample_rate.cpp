@@ -55,6 +55,7 @@ double sample_rate_hz(std::span<const GazeSample> samples) {
         }
     }
     std::vector<double> lengths_ns;
+    lengths_ns.reserve(intervals.size());
     for (const Interval& interval : intervals) {
         lengths_ns.push_back(interval.per_report_ns());
     }
