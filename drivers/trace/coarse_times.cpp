@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "drivers/trace/stood_times.h"
+#include "drivers/trace/time_text.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
@@ -47,21 +49,14 @@ std::size_t median_size(const std::vector<Group>& groups) {
     return *middle;
 }
 
-/// The median step of the host's clock; 0: too few are known.
-std::int64_t host_interval_ns(std::span<const TimedRow> rows) {
-    std::vector<std::int64_t> steps;
-    for (std::size_t i = 1; i < rows.size(); ++i) {
-        if (rows[i].host_ns && rows[i - 1].host_ns && *rows[i].host_ns > *rows[i - 1].host_ns) {
-            steps.push_back(
-                time::saturated(static_cast<__int128>(*rows[i].host_ns) - *rows[i - 1].host_ns));
-        }
+/// Of rows [first, end).
+std::vector<std::optional<std::int64_t>> host_times(std::span<const TimedRow> rows,
+                                                    std::size_t first, std::size_t end) {
+    std::vector<std::optional<std::int64_t>> host_ns;
+    for (std::size_t i = first; i < end; ++i) {
+        host_ns.push_back(rows[i].host_ns);
     }
-    if (steps.empty()) {
-        return 0;
-    }
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>((steps.size() - 1) / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
+    return host_ns;
 }
 
 class Spreading {
@@ -81,7 +76,7 @@ class Spreading {
         }
         coarse_ = shared * kRowsPerShared > counted;
         if (tick_ns_ == 0) {
-            tick_ns_ = host_interval_ns(rows);
+            tick_ns_ = host_interval_ns(host_times(rows, 0, rows.size()));
         }
         spread_.interval_ns = coarse_ ? mean_interval_ns() : tick_ns_;
     }
@@ -95,8 +90,10 @@ class Spreading {
         for (const Group& group : groups_) {
             if (group.size() > longest_) {
                 go_on(group);
-            } else if (group.size() > 1) {
-                spread_evenly(group, std::min(tick_ns_, step_after(group)), tick_ns_);
+                continue;
+            }
+            spread_over_tick(group);
+            if (group.size() > 1) {
                 if (shared_rows_ == 0) {
                     first_line_ = rows_[group.first].line;
                 }
@@ -111,8 +108,8 @@ class Spreading {
                  .dropped = 0,
                  .span_ns = tick_ns_,
                  .text = fmt::format("{} rows share their time with others: spread, in their "
-                                     "order, over the clock's step of {} ms",
-                                     shared_rows_, static_cast<double>(tick_ns_) * 1e-6)});
+                                     "order, over the clock's step of {}",
+                                     shared_rows_, in_words(tick_ns_))});
         }
         return std::move(spread_);
     }
@@ -140,7 +137,20 @@ class Spreading {
         return followed ? rows_[group.end].step_ns : tick_ns_;
     }
 
-    void spread_evenly(const Group& group, std::int64_t over_ns, std::int64_t coarse_ns) {
+    /// A clock that counts in steps was read from within its first step on, and to within its last:
+    /// at the usual interval, the few rows in these do not fill them.
+    void spread_over_tick(const Group& group) {
+        const std::int64_t usual_ns = time::saturated(static_cast<__int128>(spread_.interval_ns) *
+                                                      static_cast<__int128>(group.size()));
+        constexpr std::int64_t kMeanIsOffByOneIn = 50;
+        const bool incomplete =
+            coarse_ && usual_ns <= tick_ns_ - spread_.interval_ns + tick_ns_ / kMeanIsOffByOneIn;
+        const bool followed = group.end < rows_.size() && !rows_[group.end].set;
+        const bool at_an_end = group.first == 0 || !followed;
+        std::int64_t over_ns = std::min(tick_ns_, step_after(group));
+        if (incomplete && at_an_end) {
+            over_ns = std::min(over_ns, usual_ns);
+        }
         const auto size = static_cast<__int128>(group.size());
         std::int64_t before = 0;
         for (std::size_t i = 0; i < group.size(); ++i) {
@@ -149,38 +159,34 @@ class Spreading {
                 spread_.step_ns[group.first + i] = since - before;
             }
             before = since;
-            spread_.coarse_ns[group.first + i] = coarse_ns;
+            spread_.coarse_ns[group.first + i] = coarse_ || group.size() > 1 ? tick_ns_ : 0;
         }
-        if (group.end < rows_.size() && !rows_[group.end].set) {
-            spread_.step_ns[group.end] = rows_[group.end].step_ns - before;
+        if (followed) {
+            const std::int64_t later_ns = group.first == 0 && incomplete ? tick_ns_ - usual_ns : 0;
+            spread_.step_ns[group.end] =
+                std::max<std::int64_t>(rows_[group.end].step_ns - later_ns, over_ns) - before;
         }
-    }
-
-    /// What went by on the host's clock from one row to another, if it did.
-    [[nodiscard]] std::optional<std::int64_t> host_step(std::size_t from, std::size_t to) const {
-        const auto& a = rows_[from].host_ns;
-        const auto& b = rows_[to].host_ns;
-        if (!a || !b || *b <= *a) {
-            return std::nullopt;
-        }
-        return time::saturated(static_cast<__int128>(*b) - *a);
     }
 
     /// The clock stood for the whole group.
     void go_on(const Group& group) {
         const bool followed = group.end < rows_.size();
         const std::size_t last = followed ? group.end : group.end - 1;
-        const std::int64_t usual = time::saturated(static_cast<__int128>(spread_.interval_ns) *
-                                                   static_cast<__int128>(last - group.first));
-        const std::int64_t elapsed = host_step(group.first, last).value_or(usual);
+        // A few more, to vouch for what the host's clock does at the end.
+        constexpr std::size_t kMore = 8;
+        const std::size_t end = std::min(group.end + kMore, rows_.size());
+        const StoodTimes times =
+            stood_times(host_times(rows_, group.first, end), spread_.interval_ns);
+        const std::int64_t elapsed = times.since_ns[last - group.first];
         const bool caught_up =
             followed && !rows_[group.end].set && rows_[group.end].step_ns >= elapsed / 2;
-        const auto steps = static_cast<__int128>(last - group.first);
         std::int64_t before = 0;
         for (std::size_t i = group.first + 1; i <= last; ++i) {
-            const std::int64_t over_ns = caught_up ? rows_[group.end].step_ns : elapsed;
-            const auto since = static_cast<std::int64_t>(
-                static_cast<__int128>(over_ns) * static_cast<__int128>(i - group.first) / steps);
+            std::int64_t since = times.since_ns[i - group.first];
+            if (caught_up && elapsed > 0) {
+                since = static_cast<std::int64_t>(static_cast<__int128>(rows_[group.end].step_ns) *
+                                                  since / elapsed);
+            }
             if (i < group.end || !rows_[i].set) {
                 spread_.step_ns[i] = since - before;
             }
@@ -199,11 +205,11 @@ class Spreading {
              .rows = group.size(),
              .dropped = 0,
              .span_ns = elapsed,
-             .text = fmt::format("{} rows of one time: {}", group.size(),
-                                 caught_up ? "spread up to the next"
-                                 : host_step(group.first, last)
-                                     ? "they follow the host's clock"
-                                     : "they follow one another at the usual interval")});
+             .text =
+                 fmt::format("{} rows of one time: {}", group.size(),
+                             caught_up       ? "spread up to the next"
+                             : times.by_host ? "they follow the host's clock"
+                                             : "they follow one another at the usual interval")});
     }
 
     std::span<const TimedRow> rows_;

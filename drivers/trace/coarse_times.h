@@ -32,10 +32,11 @@ struct SpreadTimes {
 
 /// Tells rows that share a time apart. As many as usually share one, up to four times that, are of
 /// a clock that counts in steps: they are spread evenly over its step (`tick_ns`, or less if the
-/// next reading comes sooner), in their order. More of them, 8 at least, are of a clock that stood.
-/// If its next reading has caught up, they are spread up to that. Else they follow the host's
-/// clock, or the usual interval, and so does the next reading. `tick_ns` is the usual step between
-/// readings that differ; 0 if none do.
+/// next reading comes sooner), in their order; those of the first and last step, which was not
+/// seen from end to end, at the usual interval. More of them, 8 at least, are of a clock that
+/// stood. If its next reading has caught up, they are spread up to that. Else they follow the
+/// host's clock (stood_times.h), or the usual interval, and so does the next reading. `tick_ns` is
+/// the usual step between readings that differ; 0 if none do.
 [[nodiscard]] SpreadTimes spread(std::span<const TimedRow> rows, std::int64_t tick_ns);
 
 }  // namespace gazeloop::drivers

@@ -97,6 +97,17 @@ class DeviceClock {
                 ++bad.rows;
             }
         }
+        times_.by_host = by_host_ && !used_.empty();
+        if (times_.by_host) {
+            times_.findings.push_back(
+                {.kind = TraceFindingKind::BadTime,
+                 .line = rows_.front().line,
+                 .rows = used_.size(),
+                 .dropped = 0,
+                 .span_ns = 0,
+                 .text = "no row has a readable time of the device's clock: times are the host's, "
+                         "at arrival"});
+        }
         if (bad.rows > 0) {
             bad.dropped = bad.rows;
             bad.text = fmt::format("{} {} without a readable time: dropped", bad.rows,

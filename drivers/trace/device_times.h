@@ -29,6 +29,8 @@ struct DeviceTimes {
     std::vector<std::size_t> sets;
     /// The usual time from one row to the next; 0: a single row.
     std::int64_t interval_ns = 0;
+    /// Whether the readings are the host's, since no row has one of the device's clock.
+    bool by_host = false;
     std::vector<gaze::TraceFinding> findings;
 };
 
@@ -44,7 +46,8 @@ struct DeviceTimes {
 /// clock or the usual interval where the clock stood.
 ///
 /// A tick is `tick_ns` (> 0) long. Rows without device_ticks are not used (BadTime), unless no row
-/// has any: then the host's clock is taken for the device's. O(n log n); any readings are safe.
+/// has any: then the host's clock is taken for the device's (BadTime). O(n log n); any readings are
+/// safe.
 [[nodiscard]] DeviceTimes device_times(std::span<const TraceRow> rows, double tick_ns);
 
 }  // namespace gazeloop::drivers

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <deque>
+#include <numeric>
 #include <utility>
 
 #include "drivers/trace/clock_chain.h"
 #include "drivers/trace/counter_wrap.h"
+#include "drivers/trace/lag_steps.h"
 #include "drivers/trace/time_text.h"
 #include "runtime/time/clock_fit.h"
 #include "runtime/time/span.h"
@@ -23,6 +24,8 @@ constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kSecond_ns = 1000 * kMillisecond_ns;
 /// What ClockFit's line rests on, without gaps; it is best in the middle.
 constexpr std::int64_t kWindow_ns = 16 * kSecond_ns;
+/// Gaps not counted. What a shorter stretch shows as a slope is as likely the last bit of jitter.
+constexpr std::int64_t kShortestOfASlope_ns = 5 * kSecond_ns;
 /// After a longer gap ClockFit begins anew.
 constexpr std::int64_t kFitForgets_ns = 120 * kSecond_ns;
 
@@ -69,25 +72,35 @@ class Fitting {
         : device_(device), host_ns_(host_ns), lines_(lines) {}
 
     HostFit run() {
+        fit_.time_ns = device_.time_ns;
+        fit_.delay_ns.assign(device_.time_ns.size(), std::nullopt);
+        if (device_.by_host) {
+            fit_.text = "the host's; no row has a reading of the device's clock";
+            return std::move(fit_);
+        }
         for (std::size_t i = 0; i < host_ns_.size(); ++i) {
             if (host_ns_[i]) {
                 used_.push_back(i);
             }
         }
+        leave_out_standing();
         leave_out_outliers();
-        fit_.time_ns = device_.time_ns;
-        fit_.delay_ns.assign(device_.time_ns.size(), std::nullopt);
         if (used_.size() < 2) {
-            fit_.text =
-                used_.empty() ? "the device's; no host times" : "the device's; one host time";
-            if (!used_.empty()) {
+            fit_.text = stood_          ? "the device's; the host's stood still"
+                        : used_.empty() ? "the device's; no host times"
+                                        : "the device's; one host time";
+            if (!used_.empty() && !stood_) {
                 fit_.delay_ns[used_.front()] = 0;
             }
             return std::move(fit_);
         }
+        take_lags();
+        if (!rates_agree()) {
+            return std::move(fit_);
+        }
         find_stretches();
         for (std::size_t s = 0; s < stretches_.size(); ++s) {
-            lines_of_stretches_.push_back(line_of(s));  // may split the stretch
+            lines_of_stretches_.push_back(line_of(s));
         }
         settle_lines();
         lay_out();
@@ -110,6 +123,54 @@ class Fitting {
         constexpr std::int64_t kIntervals = 8;
         return std::max(time::saturated(static_cast<Wide>(kIntervals) * device_.interval_ns),
                         50 * kMillisecond_ns);
+    }
+
+    /// Host times that stay the same while the device's clock goes on say nothing, but for the
+    /// first. Where reports waited and were read all at once, the last of them is in time.
+    void leave_out_standing() {
+        std::vector<std::size_t> left;
+        const auto end_of_run = [&](std::size_t from) {
+            std::size_t end = from;
+            while (end < used_.size() && host_ns_[used_[end]] == host_ns_[used_[from]]) {
+                ++end;
+            }
+            return end;
+        };
+        for (std::size_t i = 0; i < used_.size();) {
+            const std::size_t end = end_of_run(i);
+            const std::size_t first = used_[i];
+            const std::size_t last = used_[end - 1];
+            const std::int64_t over_ns = device_.time_ns[last] - device_.time_ns[first];
+            bool stood = over_ns > jitter_ns();
+            if (stood && !left.empty()) {
+                stood = excess(left.back(), last) < -static_cast<Wide>(jitter_ns());
+            } else if (stood && end < used_.size()) {
+                stood = excess(last, used_[end_of_run(end) - 1]) > jitter_ns();
+            }
+            if (stood) {
+                left.push_back(first);
+                report_stand(first, end - i, over_ns);
+            } else {
+                left.insert(left.end(), used_.begin() + static_cast<std::ptrdiff_t>(i),
+                            used_.begin() + static_cast<std::ptrdiff_t>(end));
+            }
+            i = end;
+        }
+        used_ = std::move(left);
+    }
+
+    void report_stand(std::size_t row, std::size_t count, std::int64_t over_ns) {
+        stood_ = true;
+        fit_.findings.push_back(
+            {.kind = TraceFindingKind::ClockStoodStill,
+             .line = lines_[row],
+             .rows = count,
+             .dropped = 0,
+             .span_ns = over_ns,
+             .text = fmt::format("the host's clock stood still for {}, {} rows of one host time: "
+                                 "they go by the device's clock, and how long they took to the "
+                                 "host is unknown",
+                                 in_words(over_ns), count)});
     }
 
     void leave_out_outliers() {
@@ -157,91 +218,96 @@ class Fitting {
         return is_set_in(before, after) || elapsed(before, after) < -static_cast<Wide>(jitter_ns());
     }
 
-    /// The least lag of some rows that follow one another, as some come and others go.
-    class Lowest {
-      public:
-        void add(std::int64_t device_ns, Wide lag_ns) {
-            while (!rising_.empty() && rising_.back().lag_ns >= lag_ns) {
-                rising_.pop_back();
-            }
-            rising_.push_back({device_ns, lag_ns});
-            ++count_;
+    void take_lags() {
+        for (std::size_t i = 0; i < used_.size(); ++i) {
+            lags_.push_back({device_.time_ns[used_[i]], lag(used_[i]),
+                             i > 0 && is_cut(used_[i - 1], used_[i])});
         }
-        /// Forgets rows that are more than 10 s away.
-        void forget_far_from(std::int64_t device_ns) {
-            while (std::abs(rising_.front().device_ns - device_ns) > kAround_ns) {
-                rising_.pop_front();
-            }
-        }
-        void clear() {
-            rising_.clear();
-            count_ = 0;
-        }
-        [[nodiscard]] bool rests_on_many() const { return count_ >= kMany; }
-        [[nodiscard]] Wide lag_ns() const { return rising_.front().lag_ns; }
-
-      private:
-        static constexpr std::int64_t kAround_ns = 10 * kSecond_ns;
-        static constexpr std::size_t kMany = 8;
-        struct Row {
-            std::int64_t device_ns;
-            Wide lag_ns;
-        };
-        std::deque<Row> rising_;
-        std::size_t count_ = 0;  ///< since it was cleared
-    };
-
-    struct After {
-        Wide lag_ns = 0;  ///< the least of 10 s from here on
-        bool many = false;
-    };
-
-    [[nodiscard]] std::vector<After> lowest_after() const {
-        std::vector<After> after(used_.size());
-        Lowest lowest;
-        for (std::size_t i = used_.size(); i-- > 0;) {
-            if (i + 1 < used_.size() && is_cut(used_[i], used_[i + 1])) {
-                lowest.clear();
-            }
-            lowest.add(device_.time_ns[used_[i]], lag(used_[i]));
-            lowest.forget_far_from(device_.time_ns[used_[i]]);
-            after[i] = {lowest.lag_ns(), lowest.rests_on_many()};
-        }
-        return after;
+        trend_ = lag_trend(lags_);
     }
 
-    /// Where lags are lower, or higher, from some row on than they were before, a clock was set. A
-    /// host that is late is in time again sooner or later.
+    /// Whether the clocks go at one rate, as two crystals do. Else the device's is taken alone.
+    bool rates_agree() {
+        constexpr double kGreatest = 1000e-6;
+        if (const double ratio = rough_ratio(); ratio < 0.5 || ratio > 2.0) {
+            fit_.host_per_device = ratio;
+        } else if (trend_.known && std::abs(trend_.slope) > kGreatest + trend_.uncertainty) {
+            fit_.host_per_device = 1.0 + trend_.slope;
+        } else {
+            return true;
+        }
+        const double ratio = fit_.host_per_device;
+        const std::string faster =
+            ratio < 0.5 || ratio > 2.0
+                ? (ratio > 1.0 ? fmt::format("{:.0f} times as fast as", ratio)
+                               : fmt::format("1 / {:.0f} times as fast as", 1.0 / ratio))
+                : fmt::format("{:.2g} % {} than", std::abs(ratio - 1.0) * 100.0,
+                              ratio > 1.0 ? "faster" : "slower");
+        fit_.text = fmt::format("the device's; the host's goes {} it", faster);
+        fit_.findings.push_back(
+            {.kind = TraceFindingKind::ClockRates,
+             .line = lines_[used_.front()],
+             .rows = used_.size(),
+             .dropped = 0,
+             .span_ns = device_.time_ns.back(),
+             .text = fmt::format("the host's clock goes {} the device's, and no crystals differ by "
+                                 "so much: times are the device's alone; give the times of both "
+                                 "clocks in nanoseconds",
+                                 faster)});
+        return false;
+    }
+
+    /// What goes by on the host's clock while 1 ns does on the device's: the median over quarters
+    /// of the rows. 1 where these do not agree.
+    [[nodiscard]] double rough_ratio() const {
+        constexpr std::size_t kFewest = 64;
+        if (used_.size() < kFewest) {
+            return 1.0;
+        }
+        const std::size_t apart = used_.size() / 4;
+        std::vector<double> ratios;
+        for (std::size_t i = apart; i < used_.size(); ++i) {
+            const std::int64_t device_ns =
+                device_.time_ns[used_[i]] - device_.time_ns[used_[i - apart]];
+            ratios.push_back(static_cast<double>(elapsed(used_[i - apart], used_[i])) /
+                             static_cast<double>(device_ns));
+        }
+        std::sort(ratios.begin(), ratios.end());
+        const double middle = ratios[ratios.size() / 2];
+        const double lower = ratios[ratios.size() / 8];
+        const double upper = ratios[ratios.size() - 1 - ratios.size() / 8];
+        constexpr double kAgree = 1.25;
+        return lower > 0.0 && upper < kAgree * lower ? middle : 1.0;
+    }
+
+    /// The steps in which the clocks count, where these are seen.
+    [[nodiscard]] double resolution_ns() const {
+        constexpr std::int64_t kFine_ns = kMillisecond_ns / 10;
+        std::int64_t host_ns = 0;
+        bool repeats = false;
+        std::vector<std::int64_t> device_ns{device_.step_ns[used_.front()]};
+        for (std::size_t i = 1; i < used_.size(); ++i) {
+            const Wide step = elapsed(used_[i - 1], used_[i]);
+            host_ns = std::gcd(host_ns, time::saturated(step < 0 ? -step : step));
+            repeats |= step == 0;
+            device_ns.push_back(device_.step_ns[used_[i]]);
+        }
+        const auto middle = device_ns.begin() + static_cast<std::ptrdiff_t>(device_ns.size() / 2);
+        std::nth_element(device_ns.begin(), middle, device_ns.end());
+        const bool counts = host_ns >= kFine_ns && (repeats || host_ns < device_.interval_ns);
+        return static_cast<double>(counts ? host_ns : 0) + static_cast<double>(*middle);
+    }
+
+    /// Cuts the rows where a clock was set.
     void find_stretches() {
-        constexpr std::int64_t kShortest_ns = 10 * kMillisecond_ns;
         std::vector<Stretch> stretches;
         stretches.reserve(device_.sets.size());
         for (const std::size_t set : device_.sets) {
             stretches.push_back({set, 0, true});
         }
-        const std::vector<After> after = lowest_after();
-        Lowest lowest;
-        for (std::size_t i = 0; i < used_.size(); ++i) {
-            const std::size_t now = used_[i];
-            const std::int64_t now_ns = device_.time_ns[now];
-            if (i > 0) {
-                const std::size_t before = used_[i - 1];
-                const std::int64_t went_on_ns = now_ns - device_.time_ns[before];
-                const bool many = lowest.rests_on_many() && after[i].many;
-                const std::int64_t tolerance_ns =
-                    (many ? kShortest_ns : 2 * jitter_ns()) + went_on_ns / 1000;
-                const auto is_more = [&](Wide ns) {
-                    return ns > tolerance_ns || ns < -static_cast<Wide>(tolerance_ns);
-                };
-                if (is_more(excess(before, now)) && is_more(after[i].lag_ns - lowest.lag_ns())) {
-                    note_step(before, now, after[i].lag_ns - lowest.lag_ns(), stretches);
-                    lowest.clear();
-                } else if (is_cut(before, now)) {
-                    lowest.clear();
-                }
-            }
-            lowest.add(now_ns, lag(now));
-            lowest.forget_far_from(now_ns);
+        for (const LagStep& step :
+             lag_steps(lags_, trend_, resolution_ns(), 2.0 * static_cast<double>(jitter_ns()))) {
+            note_step(used_[step.at - 1], used_[step.at], step.by_ns, stretches);
         }
         std::sort(stretches.begin(), stretches.end(),
                   [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
@@ -260,8 +326,12 @@ class Fitting {
                 stretch.by_host &= stretch.first <= before || stretch.first > now;
             }
             report_host_set(now, by_ns);
+        } else if (const auto row = device_step_near(now, by_ns)) {
+            stretches.push_back({*row, 0, true});
+            report_device_set(*row, -by_ns);
         } else {
-            stretches.push_back({now, 0, report_step(before, now, by_ns)});
+            stretches.push_back({now, 0, false});
+            report_host_set(now, by_ns);
         }
     }
 
@@ -284,7 +354,7 @@ class Fitting {
                                  by < 0 ? "back" : "ahead", in_words(by))});
     }
 
-    /// Fits the stretch, and splits it where the fit sees that a clock was set.
+    /// Fits the stretch.
     Line line_of(std::size_t s) {
         const std::size_t first_row = stretches_[s].first;
         const auto from = std::lower_bound(used_.begin(), used_.end(), first_row);
@@ -309,6 +379,7 @@ class Fitting {
 
         time::ClockFit fit;
         std::int64_t window_from_ns = device_.time_ns[fed.front()];
+        std::int64_t went_on_ns = 0;
         std::optional<Knot> last;
         double last_slope = 0.0;
         const auto lag_of_fit = [&](std::int64_t device_ns) {
@@ -320,19 +391,12 @@ class Fitting {
             const std::int64_t device_ns = device_.time_ns[fed[i]];
             // As the fit has it, host times are those since the stretch's first.
             const std::int64_t arrived_ns = time::saturated(lag(fed[i]) - line.base_ns + device_ns);
-            if (i > 0 && device_ns - device_.time_ns[fed[i - 1]] > kFitForgets_ns) {
-                window_from_ns = device_ns;
+            if (i > 0) {
+                const std::int64_t step_ns = device_ns - device_.time_ns[fed[i - 1]];
+                window_from_ns = step_ns > kFitForgets_ns ? device_ns : window_from_ns;
+                went_on_ns += step_ns < kSecond_ns ? step_ns : 0;
             }
             const time::ClockReading reading = fit.add(device_ns, arrived_ns);
-            if (reading.stepped) {
-                if (const std::size_t at = step_in(fed, i); at > 0) {
-                    const bool device_set =
-                        report_step(fed[at - 1], fed[at], excess(fed[at - 1], fed[at]));
-                    split_at(s, fed[at], device_set);
-                    ++fit_.steps;
-                    break;
-                }
-            }
             if (reading.verdict == time::ClockVerdict::Unusable) {
                 continue;
             }
@@ -366,56 +430,82 @@ class Fitting {
                 [](const Knot& a, const Knot& b) { return a.lag_ns < b.lag_ns; });
             // Twice, for two knots; and a long trace has many, of which the odd one is off.
             constexpr double kNone_ns = 50e3;
-            line.steep = most->lag_ns - least->lag_ns >
-                         std::max(2.0 * static_cast<double>(line.within_ns), kNone_ns);
+            const double change_ns = most->lag_ns - least->lag_ns;
+            line.steep =
+                change_ns > std::max(2.0 * static_cast<double>(line.within_ns), kNone_ns) &&
+                went_on_ns >= kShortestOfASlope_ns;
+            if (line.steep && !is_gradual(fed)) {
+                line.steep = false;
+                line.within_ns = std::max<std::int64_t>(line.within_ns, std::llround(change_ns));
+            }
         }
         return line;
     }
 
-    /// Of the rows fed up to the `now`th: where the lag jumps most among the last few, which is
-    /// where a clock was set. 0: nowhere.
-    [[nodiscard]] std::size_t step_in(const std::vector<std::size_t>& fed, std::size_t now) const {
-        constexpr std::size_t kLast = 12;
-        std::size_t at = 0;
-        Wide most = 0;
-        for (std::size_t i = now; i > 0 && now - i < kLast; --i) {
-            const Wide more = excess(fed[i - 1], fed[i]);
-            const Wide jump = more < 0 ? -more : more;
-            if (jump > most) {
-                most = jump;
-                at = i;
+    /// Whether the lowest lags of quarters of the rows lie on a line, rather than on both sides of
+    /// a step too short to be told from noise where it is.
+    [[nodiscard]] bool is_gradual(const std::vector<std::size_t>& rows) const {
+        constexpr std::size_t kParts = 4;
+        if (rows.size() < 2 * kParts) {
+            return true;
+        }
+        std::vector<std::size_t> lowest;
+        for (std::size_t part = 0; part < kParts; ++part) {
+            const auto at = [&](std::size_t end) {
+                return rows.begin() + static_cast<std::ptrdiff_t>(rows.size() * end / kParts);
+            };
+            lowest.push_back(
+                *std::min_element(at(part), at(part + 1),
+                                  [&](std::size_t a, std::size_t b) { return lag(a) < lag(b); }));
+        }
+        const auto apart = [&](std::size_t from, std::size_t to) {
+            return static_cast<double>(device_.time_ns[to] - device_.time_ns[from]);
+        };
+        const auto total = static_cast<double>(excess(lowest.front(), lowest.back()));
+        const double slope = total / apart(lowest.front(), lowest.back());
+        for (std::size_t i = 1; i < lowest.size(); ++i) {
+            const double off = static_cast<double>(excess(lowest[i - 1], lowest[i])) -
+                               slope * apart(lowest[i - 1], lowest[i]);
+            if (std::abs(off) > std::abs(total) / 2.0) {
+                return false;
             }
         }
-        return at;
+        return true;
     }
 
-    /// The clock that was set is the one whose step is less usual; a gap is none that was set.
-    /// Whether it is the device's.
-    bool report_step(std::size_t before, std::size_t now, Wide by_ns) {
-        constexpr Wide kGapIntervals = 8;
-        const auto off = [&](Wide step_ns) {
-            const Wide off_ns = step_ns - device_.interval_ns;
-            return off_ns < 0 ? -off_ns : off_ns;
-        };
-        const Wide went_on_ns = device_.time_ns[now] - device_.time_ns[before];
-        const auto rows = static_cast<Wide>(now - before);
-        const bool device_set = went_on_ns <= (kGapIntervals + rows) * device_.interval_ns &&
-                                off(went_on_ns) > off(elapsed(before, now));
-        if (!device_set) {
-            report_host_set(now, by_ns);
-            return false;
+    /// Where the lag's step can be seen in the steps of the device's own readings, while the
+    /// host's clock went on as usual.
+    [[nodiscard]] std::optional<std::size_t> device_step_near(std::size_t row, Wide by_ns) const {
+        constexpr std::size_t kNear = 12;
+        const auto magnitude = [](Wide ns) { return ns < 0 ? -ns : ns; };
+        std::optional<std::size_t> found;
+        Wide least = magnitude(by_ns) / 2;
+        const std::size_t end = std::min(row + kNear + 1, device_.time_ns.size());
+        for (std::size_t i = row > kNear ? row - kNear : 1; i < end; ++i) {
+            const Wide off = static_cast<Wide>(device_.time_ns[i]) - device_.time_ns[i - 1] -
+                             device_.interval_ns;
+            const bool host_went_on =
+                !host_ns_[i] || !host_ns_[i - 1] ||
+                2 * magnitude(elapsed(i - 1, i) - device_.interval_ns) < magnitude(off);
+            if (host_went_on && !device_.reckoned[i] && magnitude(off + by_ns) < least) {
+                least = magnitude(off + by_ns);
+                found = i;
+            }
         }
-        const std::int64_t by = time::saturated(-by_ns);
+        return found;
+    }
+
+    void report_device_set(std::size_t row, Wide by_ns) {
+        const std::int64_t by = time::saturated(by_ns);
         fit_.findings.push_back(
             {.kind = TraceFindingKind::DeviceClockSet,
-             .line = lines_[now],
+             .line = lines_[row],
              .rows = 1,
              .dropped = 0,
              .span_ns = by,
              .text = fmt::format("the device's clock steps {} by {}: times go on by the host's "
                                  "clock",
                                  by < 0 ? "back" : "ahead", in_words(by))});
-        return true;
     }
 
     /// Stretches too short to show a skew get that of the longest that does. All lines end up below
@@ -533,6 +623,9 @@ class Fitting {
     std::span<const std::optional<std::int64_t>> host_ns_;
     std::span<const std::uint64_t> lines_;
     std::vector<std::size_t> used_;  ///< rows whose host time is used
+    bool stood_ = false;             ///< the host's clock
+    std::vector<LagRow> lags_;       ///< of used_
+    LagTrend trend_;
     std::vector<Stretch> stretches_;
     std::vector<Line> lines_of_stretches_;
     HostFit fit_;

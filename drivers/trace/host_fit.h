@@ -23,6 +23,8 @@ struct HostFit {
     std::int64_t within_ns = 0;  ///< uncertainty of the line
     std::uint64_t steps = 0;     ///< of either clock
     std::uint64_t outliers = 0;  ///< host times that are left out
+    /// How much faster the host's clock goes; other than 1 only where no two crystals differ so.
+    double host_per_device = 1.0;
     std::vector<gaze::TraceFinding> findings;
     /// One line for the report: "fitted to the host's clock: +148 ppm, within 0.02 ms, 1 step".
     std::string text;
@@ -33,12 +35,14 @@ struct HostFit {
 /// arrival, `lines` its line in the file.
 ///
 /// Where the device's clock was set, times go on by the host's; where the host's was set or slept,
-/// by the device's (HostClockSet). A host time that neither neighbour agrees with is left out. A
+/// by the device's (HostClockSet; lag_steps.h). A host time that neither neighbour agrees with is
+/// left out, and so are those of a clock that stood, but for the first (ClockStoodStill). A
 /// line is fitted to 16 s at a time, and between these the offset is interpolated; what was before
 /// the first line settled gets its times by that line. A skew that is less than the uncertainty of
 /// the line, from end to end, is taken for none: times are then the device's, unchanged.
 ///
-/// Without two host times all times are the device's. O(n).
+/// Without two host times all times are the device's. So they are, without delays, where the rates
+/// differ by more than 1000 ppm (ClockRates). O(n).
 [[nodiscard]] HostFit fit_to_host(const DeviceTimes& device,
                                   std::span<const std::optional<std::int64_t>> host_ns,
                                   std::span<const std::uint64_t> lines);

@@ -227,6 +227,11 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
         lines.push_back(rows[row].line);
     }
     HostFit fit = fit_to_host(times, host_ns, lines);
+    if ((fit.host_per_device < 0.5 || fit.host_per_device > 2.0) && !options.accept_repairs) {
+        return bad_input(fmt::format("{}:{}: {}, or --accept-repairs plays them as they are",
+                                     trace.file, fit.findings.back().line,
+                                     fit.findings.back().text));
+    }
     move_to(fit.findings, report);
     report.clock = std::move(fit.text);
 

@@ -16,7 +16,7 @@ enum class TraceFindingKind : std::uint8_t {
     // Rows or eyes that are not used.
     TimeOutlier,   ///< a time that neither neighbour agrees with: the row is dropped
     Repeat,        ///< the same report once more: the row is dropped
-    BadTime,       ///< a row without a readable time: it is dropped
+    BadTime,       ///< a row without a readable time: it is dropped, or the host's time is taken
     BadCells,      ///< a cell of a valid eye that is no number: that eye of that row is invalid
     CutRow,        ///< a last line that was not finished: it is dropped
     RefusedByBit,  ///< an eye that the tracker's own validity bits do not vouch for
@@ -24,7 +24,8 @@ enum class TraceFindingKind : std::uint8_t {
     CounterWrapped,   ///< a clock of limited width began anew from 0: it is counted on
     DeviceClockSet,   ///< the device's clock was set: times go on by the host's clock or the rate
     HostClockSet,     ///< the host's clock was set, or slept: the clocks are fitted anew
-    ClockStoodStill,  ///< the device's clock stood: times go on by the host's clock or the rate
+    ClockStoodStill,  ///< a clock stood: times go on by the other one or the rate
+    ClockRates,       ///< the clocks go at rates that are no two crystals': a unit may be wrong
     CoarseTimes,      ///< several rows with one time: spread over the clock's step, in their order
     OutOfOrder,       ///< rows in another order than their times: put in order
     SequenceRestarted,  ///< the sequence number wrapped or began anew
@@ -36,7 +37,7 @@ enum class TraceFindingKind : std::uint8_t {
     // The file.
     Text,  ///< quotes, 'sep=', decimal commas and the like, that were read all the same
 };
-inline constexpr std::array<std::string_view, 18> kTraceFindingNames{"time outlier",
+inline constexpr std::array<std::string_view, 19> kTraceFindingNames{"time outlier",
                                                                      "repeat",
                                                                      "bad time",
                                                                      "bad cells",
@@ -46,6 +47,7 @@ inline constexpr std::array<std::string_view, 18> kTraceFindingNames{"time outli
                                                                      "device clock set",
                                                                      "host clock set",
                                                                      "clock stood still",
+                                                                     "clock rates",
                                                                      "coarse times",
                                                                      "out of order",
                                                                      "sequence restarted",

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -173,7 +174,10 @@ TEST(DeviceTimes, ReportRowsWithoutATime) {
     for (TraceRow& row : rows) {
         row.device_ticks.reset();
     }
-    expect_good_but(device_times(rows, 1.0), 100, {});
+    const DeviceTimes by_host = device_times(rows, 1.0);
+    expect_good_but(by_host, 100, {});
+    EXPECT_TRUE(by_host.by_host);
+    expect_one(by_host, TraceFindingKind::BadTime, 2, 0);
 }
 
 // ---- Clocks that wrap or are set ----------------------------------------------------------------
@@ -454,6 +458,81 @@ TEST(DeviceTimes, FollowTheHostWhereAllTimesAreEqual) {
         row.host_ns.reset();
     }
     EXPECT_EQ(device_times(rows, 1.0).interval_ns, 0);
+}
+
+/// 1200 rows at 120 Hz of which the device's clock stands at 7, with host times that jitter.
+std::vector<TraceRow> stood_rows() {
+    auto rows = with_host(good_rows(1200), 90 * kSecond);
+    std::mt19937 random(4);
+    std::exponential_distribution<double> late(1e-6);
+    for (TraceRow& row : rows) {
+        row.device_ticks = 7;
+        *row.host_ns += std::llround(late(random));
+    }
+    return rows;
+}
+
+void expect_near_truth(const DeviceTimes& times, std::size_t gap_at, std::int64_t gap_ns) {
+    ASSERT_EQ(times.time_ns.size(), 1200U);
+    for (std::size_t i = 0; i < 1200; ++i) {
+        const std::int64_t truth =
+            static_cast<std::int64_t>(i) * kInterval + (i >= gap_at ? gap_ns : 0);
+        ASSERT_NEAR(static_cast<double>(times.time_ns[i]), static_cast<double>(truth), 0.3e6) << i;
+    }
+}
+
+TEST(DeviceTimes, FollowTheHostsUsualIntervalWhereTheClockStands) {
+    expect_near_truth(device_times(stood_rows(), 1.0), 1200, 0);
+    for (const std::int64_t late : {400 * kMs, 3600 * kSecond, -3600 * kSecond}) {
+        auto rows = stood_rows();
+        *rows.back().host_ns += late;
+        expect_near_truth(device_times(rows, 1.0), 1200, 0);
+        rows.back().host_ns.reset();
+        expect_near_truth(device_times(rows, 1.0), 1200, 0);
+        *rows[600].host_ns += late;
+        expect_near_truth(device_times(rows, 1.0), 1200, 0);
+    }
+}
+
+TEST(DeviceTimes, FollowTheHostOverAGapWhereTheClockStands) {
+    auto rows = stood_rows();
+    for (std::size_t i = 500; i < 1200; ++i) {
+        *rows[i].host_ns += 5 * kSecond;
+    }
+    expect_near_truth(device_times(rows, 1.0), 500, 5 * kSecond);
+    rows = stood_rows();
+    for (std::size_t i = 500; i < 1200; ++i) {
+        *rows[i].host_ns -= 5 * kSecond;
+    }
+    expect_near_truth(device_times(rows, 1.0), 1200, 0);
+}
+
+TEST(DeviceTimes, FollowAHostThatReadsInBatchesWhereTheClockStands) {
+    auto rows = stood_rows();
+    for (std::size_t i = 0; i < 1200; ++i) {
+        rows[i].host_ns = rows[i / 4 * 4 + 3].host_ns;
+    }
+    const DeviceTimes times = device_times(rows, 1.0);
+    expect_near_truth(times, 1200, 0);
+    EXPECT_NEAR(static_cast<double>(times.interval_ns), static_cast<double>(kInterval), 0.2e6);
+}
+
+TEST(DeviceTimes, BeginAndEndACoarseClockWithinItsSteps) {
+    for (const std::int64_t start : {0, 3, 13}) {
+        for (const std::size_t count : {2'990U, 2'997U, 3'000U}) {
+            auto rows = without_sequence(good_rows(count, start * kMs, kMs));
+            for (TraceRow& row : rows) {
+                row.device_ticks = *row.device_ticks / (16 * kMs) * (16 * kMs);
+            }
+            const DeviceTimes times = device_times(rows, 1.0);
+            ASSERT_EQ(times.rows.size(), count);
+            for (std::size_t i = 0; i < count; ++i) {
+                ASSERT_NEAR(static_cast<double>(times.time_ns[i]),
+                            static_cast<double>(i) * static_cast<double>(kMs), 0.4e6)
+                    << start << ' ' << count << ' ' << i;
+            }
+        }
+    }
 }
 
 // ---- Few rows, absurd rows ----------------------------------------------------------------------

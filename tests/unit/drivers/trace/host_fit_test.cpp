@@ -236,5 +236,166 @@ TEST(HostFit, UsesWhatHostTimesThereAre) {
     EXPECT_TRUE(fit.delay_ns[3].has_value());
 }
 
+// ---- A host's clock that stands -----------------------------------------------------------------
+
+void expect_stand(const std::vector<gaze::TraceFinding>& findings, std::uint64_t line,
+                  std::uint64_t rows) {
+    ASSERT_THAT(findings, SizeIs(1));
+    EXPECT_EQ(findings[0].kind, TraceFindingKind::ClockStoodStill);
+    EXPECT_EQ(findings[0].line, line);
+    EXPECT_EQ(findings[0].rows, rows);
+    EXPECT_THAT(findings[0].text, HasSubstr("the host's clock stood still for "));
+}
+
+TEST(HostFit, GoesByTheDeviceWhereTheHostsClockStands) {
+    Recording recording = recorded(2'000, 0.0);
+    for (TraceRow& row : recording.rows) {
+        row.host_ns = 0;
+    }
+    const auto [device, fit] = fitted(recording.rows);
+    EXPECT_EQ(fit.time_ns, device.time_ns);
+    EXPECT_EQ(fit.delay_ns, std::vector<std::optional<std::int64_t>>(2'000));
+    EXPECT_EQ(fit.text, "the device's; the host's stood still");
+    expect_stand(fit.findings, 2, 2'000);
+}
+
+TEST(HostFit, LeavesOutHostTimesOfAStandButForTheFirst) {
+    for (const std::size_t end : {1'200U, 2'000U}) {
+        Recording recording = recorded(2'000, 0.0);
+        for (std::size_t i = 1'000; i < end; ++i) {
+            recording.rows[i].host_ns = recording.rows[1'000].host_ns;
+        }
+        const auto [device, fit] = fitted(recording.rows);
+        EXPECT_EQ(fit.time_ns, device.time_ns);
+        EXPECT_EQ(fit.steps, 0U);
+        expect_stand(fit.findings, 1'002, end - 1'000);
+        for (std::size_t i = 0; i < 2'000; ++i) {
+            EXPECT_EQ(fit.delay_ns[i].has_value(), i <= 1'000 || i >= end) << i;
+        }
+        EXPECT_LT(errors(fit, recording).delay_ms, 0.1);
+    }
+}
+
+TEST(HostFit, TakesTicksAndBatchesForNoStand) {
+    for (const std::size_t batch : {1U, 4U, 30U}) {
+        Recording recording = recorded(2'000, 0.0);
+        for (std::size_t i = 0; i < 2'000; ++i) {
+            const std::size_t last = std::min<std::size_t>(1'999, i / batch * batch + batch - 1);
+            std::int64_t& host_ns = *recording.rows[i].host_ns;
+            host_ns =
+                batch == 1 ? host_ns / (16 * kMs) * (16 * kMs) : *recording.rows[last].host_ns;
+        }
+        const HostFit fit = fitted(recording.rows).fit;
+        EXPECT_THAT(fit.findings, IsEmpty()) << batch;
+        EXPECT_TRUE(std::all_of(fit.delay_ns.begin(), fit.delay_ns.end(),
+                                [](const auto& delay) { return delay.has_value(); }));
+    }
+}
+
+// ---- Short steps --------------------------------------------------------------------------------
+
+TEST(HostFit, FindsAShortStepOfTheHostsClockOnceAndAtItsRow) {
+    for (const std::int64_t by : {-66 * kMs, -20 * kMs, -8 * kMs, -5 * kMs, 4 * kMs, 5 * kMs,
+                                  8 * kMs, 12 * kMs, 50 * kMs}) {
+        Recording recording = recorded(3'000, 0.0);
+        for (std::size_t i = 1'500; i < 3'000; ++i) {
+            *recording.rows[i].host_ns += by;
+        }
+        const HostFit fit = fitted(recording.rows).fit;
+        ASSERT_THAT(fit.findings, SizeIs(1)) << by;
+        EXPECT_EQ(fit.findings[0].kind, TraceFindingKind::HostClockSet);
+        EXPECT_NEAR(static_cast<double>(fit.findings[0].line), 1'502.0, 4.0) << by;
+        EXPECT_NEAR(static_cast<double>(fit.findings[0].span_ns), static_cast<double>(by), 0.2e6);
+        EXPECT_EQ(fit.steps, 1U);
+        EXPECT_EQ(fit.skew_ppm, 0.0);
+        EXPECT_LT(errors(fit, recording).time_ms, 0.01);
+    }
+}
+
+TEST(HostFit, FindsAStepBackAmongLateReports) {
+    Recording recording = recorded(3'000, 0.0);
+    for (std::size_t i = 0; i < 3'000; i += 47) {
+        *recording.rows[i].host_ns += 30 * kMs;
+        recording.late_ns[i] += 30 * kMs;
+    }
+    for (std::size_t i = 1'500; i < 3'000; ++i) {
+        *recording.rows[i].host_ns -= 50 * kMs;
+    }
+    const HostFit fit = fitted(recording.rows).fit;
+    ASSERT_THAT(fit.findings, SizeIs(1));
+    EXPECT_NEAR(static_cast<double>(fit.findings[0].line), 1'502.0, 4.0);
+    EXPECT_LT(errors(fit, recording).delay_ms, 0.2);
+}
+
+TEST(HostFit, TakesAStepTooShortToFindForNoSkew) {
+    Recording recording = recorded(3'000, 0.0);
+    for (std::size_t i = 1'500; i < 3'000; ++i) {
+        *recording.rows[i].host_ns += 3 * kMs / 2;
+    }
+    const HostFit fit = fitted(recording.rows).fit;
+    EXPECT_EQ(fit.skew_ppm, 0.0);
+    EXPECT_GT(fit.within_ns, kMs);
+}
+
+TEST(HostFit, FindsNothingInTwoShortStretchesWithAGapBetween) {
+    for (const std::int64_t interval_ns : {kMs, kMs / 2}) {
+        for (const std::int64_t gap_ns : {std::int64_t{0}, 2 * kSecond, 8'500 * kMs}) {
+            for (const double jitter_ms : {0.3, 1.0, 3.0}) {
+                Recording recording = recorded(3'000, 0.0, jitter_ms, interval_ns);
+                for (std::size_t i = 1'500; i < 3'000; ++i) {
+                    *recording.rows[i].host_ns += gap_ns;
+                }
+                move_times(recording.rows, 1'500, 3'000, gap_ns);
+                const HostFit fit = fitted(recording.rows).fit;
+                EXPECT_THAT(fit.findings, IsEmpty()) << gap_ns << ' ' << jitter_ms;
+                EXPECT_EQ(fit.skew_ppm, 0.0) << gap_ns << ' ' << jitter_ms;
+            }
+        }
+    }
+}
+
+// ---- Rates --------------------------------------------------------------------------------------
+
+TEST(HostFit, SaysWhereRatesAreNoCrystals) {
+    for (const double ratio : {1000.0, 1e6, 0.001, 1.02, 0.997}) {
+        Recording recording = recorded(3'000, 0.0);
+        for (TraceRow& row : recording.rows) {
+            row.device_ticks =
+                std::llround(static_cast<double>(*row.device_ticks - 3 * kSecond) / ratio);
+        }
+        DeviceTimes device;
+        std::vector<std::optional<std::int64_t>> host_ns;
+        std::vector<std::uint64_t> lines;
+        for (const TraceRow& row : recording.rows) {
+            const std::int64_t before = device.time_ns.empty() ? -1 : device.time_ns.back();
+            device.time_ns.push_back(std::max(before + 1, *row.device_ticks));
+            host_ns.push_back(row.host_ns);
+            lines.push_back(row.line);
+        }
+        device.interval_ns = std::max<std::int64_t>(1, device.time_ns[1]);
+        device.step_ns.assign(3'000, 0);
+        device.reckoned.assign(3'000, false);
+        const HostFit fit = fit_to_host(device, host_ns, lines);
+        ASSERT_THAT(fit.findings, SizeIs(1)) << ratio;
+        EXPECT_EQ(fit.findings[0].kind, TraceFindingKind::ClockRates);
+        EXPECT_EQ(fit.time_ns, device.time_ns);
+        EXPECT_FALSE(fit.delay_ns[1].has_value());
+        if (ratio < 1e5) {  // else the device's ticks are coarser than its intervals
+            EXPECT_NEAR(fit.host_per_device / ratio, 1.0, 1e-3);
+        }
+    }
+}
+
+TEST(HostFit, HasNoDelaysWhereTimesAreTheHosts) {
+    auto rows = recorded(100, 0.0).rows;
+    for (TraceRow& row : rows) {
+        row.device_ticks.reset();
+    }
+    const auto [device, fit] = fitted(rows);
+    EXPECT_EQ(fit.time_ns, device.time_ns);
+    EXPECT_FALSE(fit.delay_ns[50].has_value());
+    EXPECT_EQ(fit.text, "the host's; no row has a reading of the device's clock");
+}
+
 }  // namespace
 }  // namespace gazeloop::drivers

@@ -281,5 +281,30 @@ TEST(TraceBuilder, TakesTheOtherClockWhereTheFirstIsUnreadable) {
     EXPECT_THAT(of(rows).error().message, HasSubstr("no row has a readable time"));
 }
 
+TEST(TraceBuilder, KeepsAGapWhereTheDevicesClockStands) {
+    auto rows = with_host(good_rows(1800), kSecond);
+    rows.erase(rows.begin() + 500, rows.begin() + 1100);
+    for (TraceRow& row : rows) {
+        row.device_ticks = 7;
+    }
+    const gaze::GazeTrace trace = value_or_throw(built(rows));
+    EXPECT_EQ(trace.report.lost_by_tracker, 600U);
+    EXPECT_NEAR(static_cast<double>(trace.report.longest_gap_ns), 601 * 8'333'333.0, 1e6);
+}
+
+TEST(TraceBuilder, RefusesTimesOfAWrongUnit) {
+    auto rows = with_host(good_rows(500), kSecond);
+    for (TraceRow& row : rows) {
+        *row.device_ticks /= 1000;
+    }
+    EXPECT_THAT(refusal(rows), HasSubstr("gaze.csv:2: the host's clock goes 1000 times as fast as "
+                                         "the device's"));
+    EXPECT_THAT(refusal(rows), HasSubstr("give the times of both clocks in nanoseconds"));
+    ReadOptions options;
+    options.accept_repairs = true;
+    EXPECT_EQ(value_or_throw(built(rows, options)).report.count(TraceFindingKind::ClockRates).times,
+              1U);
+}
+
 }  // namespace
 }  // namespace gazeloop::drivers
