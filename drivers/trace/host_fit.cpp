@@ -240,7 +240,7 @@ class Fitting {
         const std::string faster =
             ratio < 0.5 || ratio > 2.0
                 ? (ratio > 1.0 ? fmt::format("{:.0f} times as fast as", ratio)
-                               : fmt::format("1 / {:.0f} times as fast as", 1.0 / ratio))
+                               : fmt::format("{:.0f} times slower than", 1.0 / ratio))
                 : fmt::format("{:.2g} % {} than", std::abs(ratio - 1.0) * 100.0,
                               ratio > 1.0 ? "faster" : "slower");
         fit_.text = fmt::format("the device's; the host's goes {} it", faster);

@@ -15,6 +15,10 @@ constexpr std::int64_t kLong_ns = 10 * kSecond_ns;
 /// However far apart rows are.
 constexpr std::size_t kFewestOfAWindow = 24;
 constexpr std::size_t kMany = 8;
+/// Where a step is searched for around the row that shows it.
+constexpr std::size_t kNear = 24;
+/// What of it must be seen there.
+constexpr double kWhole = 0.9;
 
 double median(std::vector<double>& values) {
     if (values.empty()) {
@@ -115,13 +119,16 @@ class StepSearch {
 
     std::vector<LagStep> run() {
         look_ahead();
+        before_.resize(rows_.size());
         std::size_t falls_at = 0;  // 0: nowhere
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             if (falls_at > 0 && (rows_[i].cut || !falls(i))) {
-                begin_at(falls_at, i);
+                begin_at(best_fall(falls_at), i);
                 falls_at = 0;
             }
+            before_[i] = side(before_long_);
             if (rises(i)) {
+                i = best_rise(i);
                 begin_at(i, i);
             } else if (falls(i)) {
                 falls_at = i;
@@ -138,7 +145,7 @@ class StepSearch {
             before_long_.add(i);
         }
         if (falls_at > 0) {
-            begin_at(falls_at, rows_.size());
+            begin_at(best_fall(falls_at), rows_.size());
         }
         measure();
         return std::move(steps_);
@@ -199,6 +206,39 @@ class StepSearch {
         return sign * rise(before.row, after.row) > least_ns;
     }
 
+    /// Rows that are late by more than the least step may stand next to it on the side that is
+    /// lower. So of the next few rows, the first from which on all are as high as from any.
+    [[nodiscard]] std::size_t best_rise(std::size_t row) const {
+        const std::size_t before = before_short_.row();
+        std::size_t end = row + 1;
+        while (end < rows_.size() && end - row < kNear && !rows_[end].cut &&
+               after_long_[end].count >= kMany) {
+            ++end;
+        }
+        double most_ns = 0.0;
+        for (std::size_t i = row; i < end; ++i) {
+            most_ns = std::max(most_ns, rise(before, after_long_[i].row));
+        }
+        while (rise(before, after_long_[row].row) < kWhole * most_ns) {
+            ++row;
+        }
+        return row;
+    }
+    /// The same of a fall: of the last few rows, the last up to which all are as high.
+    [[nodiscard]] std::size_t best_fall(std::size_t row) const {
+        const std::size_t after = after_short_[row].row;
+        const std::size_t earliest =
+            std::max(steps_.empty() ? 0 : steps_.back().at, row > kNear ? row - kNear : 0);
+        double most_ns = 0.0;
+        for (std::size_t i = row; i > earliest && before_[i].count >= kMany; --i) {
+            most_ns = std::max(most_ns, rise(after, before_[i].row));
+        }
+        while (row > earliest + 1 && rise(after, before_[row].row) < kWhole * most_ns) {
+            --row;
+        }
+        return row;
+    }
+
     /// Notes a step, and looks back no further than to it; the rows up to `now` are known already.
     void begin_at(std::size_t row, std::size_t now) {
         steps_.push_back({row, 0});
@@ -237,6 +277,7 @@ class StepSearch {
     double few_rows_ns_;
     std::vector<Side> after_short_;
     std::vector<Side> after_long_;
+    std::vector<Side> before_;  ///< long, as it was at each row
     Lowest before_short_;
     Lowest before_long_;
     std::vector<LagStep> steps_;

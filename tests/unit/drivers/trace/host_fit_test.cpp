@@ -312,6 +312,23 @@ TEST(HostFit, FindsAShortStepOfTheHostsClockOnceAndAtItsRow) {
     }
 }
 
+TEST(HostFit, FindsAStepNextToALateReport) {
+    for (const std::int64_t by : {-12 * kMs, 12 * kMs}) {
+        Recording recording = recorded(3'000, 0.0);
+        for (const std::size_t late : {1'498U, 1'499U, 1'500U, 1'501U}) {
+            *recording.rows[late].host_ns += 5 * kMs;
+            recording.late_ns[late] += 5 * kMs;
+        }
+        for (std::size_t i = 1'500; i < 3'000; ++i) {
+            *recording.rows[i].host_ns += by;
+        }
+        const HostFit fit = fitted(recording.rows).fit;
+        ASSERT_THAT(fit.findings, SizeIs(1)) << by;
+        EXPECT_EQ(fit.findings[0].line, 1'502U);
+        EXPECT_LT(errors(fit, recording).delay_ms, 0.2);
+    }
+}
+
 TEST(HostFit, FindsAStepBackAmongLateReports) {
     Recording recording = recorded(3'000, 0.0);
     for (std::size_t i = 0; i < 3'000; i += 47) {
