@@ -386,8 +386,8 @@ class DeviceClock {
                 report_wrap(used_[i], *range);
                 epoch_ns += *range;
                 timed[i].step_ns = time::saturated(step_ns + *range);
-            } else if (step_ns < 0 ||
-                       (step_ns > longest_joined_ns(i - 1, i) && host_objects(i - 1, i))) {
+            } else if (step_ns < 0 || (step_ns > longest_joined_ns(i - 1, i) &&
+                                       host_objects(i - 1, i) && !catches_up(i))) {
                 timed[i].set = true;
                 timed[i].step_ns = time::saturated(step_over_set(i));
                 report_set(i, step_ns - timed[i].step_ns);
@@ -420,6 +420,15 @@ class DeviceClock {
             times_.time_ns.push_back(time::saturated(at));
         }
         times_.rows = std::move(used_);
+    }
+
+    /// Whether the clock stood before, and has gone on by now as the host's clock did meanwhile.
+    [[nodiscard]] bool catches_up(std::size_t position) const {
+        std::size_t first = position - 1;
+        while (first > 0 && step(first - 1, first) == 0) {
+            --first;
+        }
+        return first + 1 < position && host_agrees(first, position);
     }
 
     /// What went by while the device's clock was set.

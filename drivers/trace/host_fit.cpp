@@ -307,7 +307,11 @@ class Fitting {
         }
         for (const LagStep& step :
              lag_steps(lags_, trend_, resolution_ns(), 2.0 * static_cast<double>(jitter_ns()))) {
-            note_step(used_[step.at - 1], used_[step.at], step.by_ns, stretches);
+            const std::size_t before = used_[step.at - 1];
+            const std::size_t now = used_[step.at];
+            if (!is_set_in(before, now) || is_step_over_set(before, now)) {
+                note_step(before, now, step.by_ns, stretches);
+            }
         }
         std::sort(stretches.begin(), stretches.end(),
                   [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
@@ -316,6 +320,15 @@ class Fitting {
         for (const Stretch& stretch : stretches) {
             split_at(stretches_.size() - 1, stretch.first, stretch.by_host);
         }
+    }
+
+    /// Where the device's clock was set, its times go on by the two host times there, late as these
+    /// may be. So what is left is no step, unless it shows in these two.
+    [[nodiscard]] bool is_step_over_set(std::size_t before, std::size_t now) const {
+        const std::int64_t most_ns =
+            10 * kMillisecond_ns + (device_.time_ns[now] - device_.time_ns[before]) / 1000;
+        const Wide more = excess(before, now);
+        return more > most_ns || more < -static_cast<Wide>(most_ns);
     }
 
     void note_step(std::size_t before, std::size_t now, Wide by_ns,

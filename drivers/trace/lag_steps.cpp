@@ -153,7 +153,12 @@ class StepSearch {
 
   private:
     [[nodiscard]] bool rises(std::size_t row) const {
-        return exceeds(side(before_short_), after_long_[row], 1.0);
+        const Side before = side(before_short_);
+        const Side& after = after_long_[row];
+        // Who knows whether the last few rows are only late.
+        const bool lasts = after.count >= kMany ||
+                           (before.count > 0 && rise(before.row, after.row) > double{kLong_ns});
+        return lasts && exceeds(before, after, 1.0);
     }
     [[nodiscard]] bool falls(std::size_t row) const {
         return exceeds(side(before_long_), after_short_[row], -1.0);

@@ -46,7 +46,8 @@ struct LagStep {
 ///
 /// A step is one of more than 2 ms and `resolution_ns` (the steps in which the clocks count) and
 /// what the trend leaves open. Where one side has less than 8 rows it is more than
-/// `few_rows_ns`. Ascending by row. O(n).
+/// `few_rows_ns`, and more than 10 s for a rise at the end, where rows may only be late. Ascending
+/// by row. O(n).
 [[nodiscard]] std::vector<LagStep> lag_steps(std::span<const LagRow> rows, const LagTrend& trend,
                                              double resolution_ns, double few_rows_ns);
 

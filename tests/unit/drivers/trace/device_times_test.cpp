@@ -507,6 +507,21 @@ TEST(DeviceTimes, FollowTheHostOverAGapWhereTheClockStands) {
     expect_near_truth(device_times(rows, 1.0), 1200, 0);
 }
 
+TEST(DeviceTimes, CatchUpWithAGapThatWasWithinAStand) {
+    auto rows = with_host(good_rows(1400), kSecond);
+    rows.erase(rows.begin() + 700, rows.begin() + 1300);
+    for (std::size_t i = 600; i < 750; ++i) {
+        rows[i].device_ticks = rows[600].device_ticks;
+    }
+    const DeviceTimes times = device_times(rows, 1.0);
+    expect_one(times, TraceFindingKind::ClockStoodStill, 602, 0);
+    EXPECT_THAT(times.sets, IsEmpty());
+    for (std::size_t i = 0; i < 800; ++i) {
+        const std::int64_t truth = static_cast<std::int64_t>(i < 700 ? i : i + 600) * kInterval;
+        ASSERT_NEAR(static_cast<double>(times.time_ns[i]), static_cast<double>(truth), 1e5) << i;
+    }
+}
+
 TEST(DeviceTimes, FollowAHostThatReadsInBatchesWhereTheClockStands) {
     auto rows = stood_rows();
     for (std::size_t i = 0; i < 1200; ++i) {

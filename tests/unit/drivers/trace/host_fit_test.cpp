@@ -329,6 +329,26 @@ TEST(HostFit, FindsAStepNextToALateReport) {
     }
 }
 
+TEST(HostFit, TakesALateLastRowForNoStep) {
+    Recording recording = recorded(2'000, 0.0);
+    *recording.rows.back().host_ns += 400 * kMs;
+    const HostFit fit = fitted(recording.rows).fit;
+    EXPECT_THAT(fit.findings, IsEmpty());
+    EXPECT_NEAR(static_cast<double>(*fit.delay_ns.back()),
+                static_cast<double>(recording.late_ns.back() + 400 * kMs), 0.1e6);
+}
+
+TEST(HostFit, FindsNoStepOfTheHostWhereTheDeviceIsSet) {
+    Recording recording = recorded(3'000, 0.0);
+    *recording.rows[1'500].host_ns += 6 * kMs;
+    recording.late_ns[1'500] += 6 * kMs;
+    move_times(recording.rows, 1'500, 3'000, -700 * kSecond);
+    const auto [device, fit] = fitted(recording.rows);
+    EXPECT_THAT(fit.findings, IsEmpty());
+    EXPECT_LT(errors(fit, recording).time_ms, 0.1);
+    EXPECT_LT(errors(fit, recording).delay_ms, 0.1);
+}
+
 TEST(HostFit, FindsAStepBackAmongLateReports) {
     Recording recording = recorded(3'000, 0.0);
     for (std::size_t i = 0; i < 3'000; i += 47) {
