@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <deque>
+#include <numbers>
 #include <utility>
 
 namespace gazeloop::drivers {
@@ -261,8 +262,8 @@ class StepSearch {
             const std::size_t at = steps_[s].at;
             Lowest before(rows_, trend_.slope, kShort_ns);
             const std::size_t earliest = s == 0 ? 0 : steps_[s - 1].at;
-            for (std::size_t i = at; i-- > earliest && is_near(i, at - 1);) {
-                before.add(i);
+            for (std::size_t i = at; i > earliest && is_near(i - 1, at - 1); --i) {
+                before.add(i - 1);
             }
             Lowest after(rows_, trend_.slope, kShort_ns);
             const std::size_t end = s + 1 < steps_.size() ? steps_[s + 1].at : rows_.size();
@@ -326,8 +327,8 @@ LagTrend lag_trend(std::span<const LagRow> rows) {
         const std::size_t least = lowest[seconds.of_row[i]];
         heights.push_back(rise(least, i) - trend.slope * apart(least, i));
     }
-    constexpr double kMeanOverMedian = 1.443;  // of an exponential distribution
-    trend.height_ns = std::max(0.0, kMeanOverMedian * median(heights));
+    // The mean over the median of an exponential distribution is 1 / ln 2.
+    trend.height_ns = std::max(0.0, std::numbers::log2e * median(heights));
     if (trend.known) {
         trend.uncertainty = kDrift + trend.noise_ns / (static_cast<double>(reach) *
                                                        static_cast<double>(kSecond_ns));

@@ -57,6 +57,7 @@ class Following {
         if (interval_ns_ <= 0.0) {
             interval_ns_ = static_cast<double>(usual_ns);
         }
+        interval_ns_ = std::min(interval_ns_, kDay_ns);
         tolerance_ns_ = std::max(50.0 * kMillisecond_ns, 8.0 * interval_ns_);
     }
 
@@ -75,8 +76,9 @@ class Following {
         double jumped_ns = 0.0;
         for (std::size_t i = 0; i < host_ns_.size(); ++i) {
             jumped_ns += jumps[i].went_by_ns;
-            times.since_ns.push_back(
-                std::llround(static_cast<double>(i) * interval_ns_ + jumped_ns));
+            constexpr double kLongest_ns = 9e18;
+            times.since_ns.push_back(std::llround(
+                std::min(static_cast<double>(i) * interval_ns_ + jumped_ns, kLongest_ns)));
         }
         return times;
     }
@@ -167,7 +169,8 @@ class Following {
         const auto last = std::min_element(late.end() - quarter, late.end());
         const std::size_t from = used_[static_cast<std::size_t>(first - late.begin())];
         const std::size_t to = used_[static_cast<std::size_t>(last - late.begin())];
-        interval_ns_ += (*last - *first) / static_cast<double>(to - from);
+        interval_ns_ = std::clamp(interval_ns_ + (*last - *first) / static_cast<double>(to - from),
+                                  0.0, kDay_ns);
     }
 
     HostTimes host_ns_;

@@ -434,5 +434,19 @@ TEST(HostFit, HasNoDelaysWhereTimesAreTheHosts) {
     EXPECT_EQ(fit.text, "the host's; no row has a reading of the device's clock");
 }
 
+TEST(HostFit, BearsAnyTimes) {
+    std::mt19937_64 random(3);
+    for (const bool stands : {false, true}) {
+        auto rows = good_rows(500);
+        for (TraceRow& row : rows) {
+            row.host_ns = static_cast<std::int64_t>(random());
+            row.device_ticks = stands ? 7 : *row.device_ticks;
+        }
+        const auto [device, fit] = fitted(rows);
+        EXPECT_EQ(fit.time_ns.size(), 500U);
+        EXPECT_TRUE(increases(fit.time_ns));
+    }
+}
+
 }  // namespace
 }  // namespace gazeloop::drivers
