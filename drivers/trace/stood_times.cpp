@@ -49,17 +49,18 @@ double median_interval_ns(HostTimes host_ns, const std::vector<std::size_t>& row
     return *middle;
 }
 
+double interval_or(double interval_ns, std::int64_t usual_ns) {
+    return std::min(interval_ns > 0.0 ? interval_ns : static_cast<double>(usual_ns), kDay_ns);
+}
+
 /// Rows that a line at one interval lies below.
 class Following {
   public:
-    Following(HostTimes host_ns, std::int64_t usual_ns) : host_ns_(host_ns), used_(known(host_ns)) {
-        interval_ns_ = median_interval_ns(host_ns, used_);
-        if (interval_ns_ <= 0.0) {
-            interval_ns_ = static_cast<double>(usual_ns);
-        }
-        interval_ns_ = std::min(interval_ns_, kDay_ns);
-        tolerance_ns_ = std::max(50.0 * kMillisecond_ns, 8.0 * interval_ns_);
-    }
+    Following(HostTimes host_ns, std::int64_t usual_ns)
+        : host_ns_(host_ns),
+          used_(known(host_ns)),
+          interval_ns_(interval_or(median_interval_ns(host_ns, used_), usual_ns)),
+          tolerance_ns_(std::max(50.0 * kMillisecond_ns, 8.0 * interval_ns_)) {}
 
     StoodTimes run(std::int64_t usual_ns) {
         leave_out_outliers();
@@ -175,8 +176,8 @@ class Following {
 
     HostTimes host_ns_;
     std::vector<std::size_t> used_;
-    double interval_ns_ = 0.0;
-    double tolerance_ns_ = 0.0;
+    double interval_ns_;
+    double tolerance_ns_;
 };
 
 }  // namespace
