@@ -170,28 +170,21 @@ double TraceBuilder::choose_clock() {
                             [](const TraceRow& row) { return row.device_ticks.has_value(); })) {
         return origin_.device_tick_ns;
     }
-    const auto add = [&](std::string text) {
-        trace_.report.add({.kind = TraceFindingKind::BadTime,
-                           .line = rows_.front().line,
-                           .rows = rows_.size(),
-                           .text = std::move(text)});
-    };
     const auto differs = [&](const TraceRow& row) {
         return row.other_ticks && row.other_ticks != rows_.front().other_ticks;
     };
-    if (std::ranges::any_of(rows_, differs)) {
-        for (TraceRow& row : rows_) {
-            row.device_ticks = row.other_ticks;
-        }
-        add(fmt::format("{}, nor is it in any row: the times are those of '{}'", unread_time_,
-                        origin_.other_clock));
-        return origin_.other_tick_ns;
+    if (std::ranges::none_of(rows_, differs)) {
+        return origin_.device_tick_ns;
     }
-    if (!unread_time_.empty() &&
-        std::ranges::any_of(rows_, [](const TraceRow& row) { return row.host_ns.has_value(); })) {
-        add(unread_time_ + ", nor is it in any row: the times are the host's");
+    for (TraceRow& row : rows_) {
+        row.device_ticks = row.other_ticks;
     }
-    return origin_.device_tick_ns;
+    trace_.report.add({.kind = TraceFindingKind::BadTime,
+                       .line = rows_.front().line,
+                       .rows = rows_.size(),
+                       .text = fmt::format("{}, nor is it in any row: the times are those of '{}'",
+                                           unread_time_, origin_.other_clock)});
+    return origin_.other_tick_ns;
 }
 
 Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {

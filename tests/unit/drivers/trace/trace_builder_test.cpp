@@ -242,9 +242,10 @@ TEST(TraceBuilder, SaysWhatStandsInPlaceOfATime) {
     EXPECT_EQ(refusal_of(rows, false),
               "gaze.csv:2: no row has a readable time: column 't': 'x' is no whole number of "
               "nanoseconds");
-    EXPECT_EQ(refusal_of(rows, true),
-              "column 't': 'x' is no whole number of nanoseconds, nor is it in any row: the times "
-              "are the host's");
+    EXPECT_EQ(
+        refusal_of(rows, true),
+        "column 't': 'x' is no whole number of nanoseconds; no row has a readable time of the "
+        "device's clock: times are the host's, at arrival");
 }
 
 TEST(TraceBuilder, TakesTheOtherClockWhereTheFirstIsUnreadable) {
