@@ -12,7 +12,8 @@ namespace gazeloop::drivers {
 
 std::vector<gaze::TraceFinding> standing_gaze(std::span<const TraceRow> rows,
                                               const DeviceTimes& times) {
-    constexpr std::int64_t kStill_ns = 1'000'000'000;
+    constexpr std::int64_t kStill_ns = 2'000'000'000;
+    constexpr std::size_t kMostPolls = 7;
     constexpr std::size_t kRowsPerRepeat = 4;
     constexpr std::size_t kFewest = 8;
     const std::size_t count = times.rows.size();
@@ -27,6 +28,14 @@ std::vector<gaze::TraceFinding> standing_gaze(std::span<const TraceRow> rows,
                 ++end;
             }
         }
+        if (end - first == count && times.time_ns.back() - times.time_ns.front() > kStill_ns) {
+            return {{.kind = gaze::TraceFindingKind::Text,
+                     .line = row(first).line,
+                     .rows = 0,
+                     .dropped = 0,
+                     .span_ns = 0,
+                     .text = "the gaze is the same in all rows"}};
+        }
         const std::size_t repeats = end - first - 1;
         const std::int64_t span_ns = times.time_ns[end - 1] - times.time_ns[first];
         if (repeats > 0 && span_ns > kStill_ns) {
@@ -39,7 +48,7 @@ std::vector<gaze::TraceFinding> standing_gaze(std::span<const TraceRow> rows,
                  .text = fmt::format("the same report for {}, while times go on: the tracker or "
                                      "its recorder stood still; played as it is",
                                      in_words(span_ns))});
-        } else if (repeats > 0) {
+        } else if (repeats > 0 && repeats <= kMostPolls) {
             first_polled = polled == 0 ? first + 1 : first_polled;
             polled += repeats;
         }

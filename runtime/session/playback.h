@@ -24,7 +24,8 @@ struct PlaybackEnd {
 ///
 ///     on_hidden   for changes from this frame on, or from an earlier one that the file lacks
 ///     on_origin   likewise
-///     on_sample   for what the frame consumed, and what frames that the file lacks consumed, in the
+///     on_sample   for what the frame consumed, and what frames that the file lacks consumed, in
+///     the
 ///                 order of arrival
 ///     on_event    in the order of the run; see below
 ///     on_frame

@@ -50,6 +50,27 @@ TEST(StandingGaze, IsNoneWhereNumbersCountOnOrEyesAreShut) {
     EXPECT_THAT(of(shut), IsEmpty());
 }
 
+TEST(StandingGaze, IsNoneInFixationsWithoutNoise) {
+    auto rows = good_rows(600);
+    for (std::size_t i = 0; i < 600; ++i) {
+        rows[i].eyes = rows[i / 96 * 96].eyes;  // .8 s each
+        rows[i].sequence.reset();
+    }
+    EXPECT_THAT(of(rows), IsEmpty());
+}
+
+TEST(StandingGaze, IsNoWarningWhereItIsTheWholeFile) {
+    auto rows = good_rows(600);
+    for (TraceRow& row : rows) {
+        row.eyes = rows[0].eyes;
+        row.sequence.reset();
+    }
+    const auto findings = of(rows);
+    ASSERT_THAT(findings, SizeIs(1));
+    EXPECT_EQ(findings[0].kind, gaze::TraceFindingKind::Text);
+    EXPECT_EQ(findings[0].line, 2U);
+}
+
 TEST(StandingGaze, SaysThatARecorderPolls) {
     auto rows = good_rows(600);
     for (std::size_t i = 1; i < 600; i += 2) {
