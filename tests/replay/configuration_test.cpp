@@ -3,10 +3,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <tuple>
 
 #include "tests/support/comma_locale.h"
@@ -59,15 +61,23 @@ std::vector<std::string> with_etc(const std::string& etc) {
             "-c",      "mount --bind '" + etc + "' /etc && exec \"$@\"",
             "sh"};
 }
-bool can_replace_etc() {
-    return std::system(
-               "unshare --map-root-user --mount sh -c "
-               "'mount --bind /tmp /etc' >/dev/null 2>&1") == 0;
+/// Why it does not let us, in the words of whoever forbids it; empty: it does.
+std::string cannot_replace_etc() {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> tried(
+        popen("unshare --map-root-user --mount sh -c 'mount --bind /tmp /etc' 2>&1 || "
+              "echo \"exit code $?\"",
+              "r"),
+        pclose);
+    std::string said;
+    for (int c = tried ? std::fgetc(tried.get()) : EOF; c != EOF; c = std::fgetc(tried.get())) {
+        said += c == '\n' ? ' ' : static_cast<char>(c);
+    }
+    return said;
 }
 
 TEST_F(Configuration, LaterLayersWin) {
-    if (!can_replace_etc()) {
-        GTEST_SKIP() << "no mount namespaces here, so that /etc cannot be replaced";
+    if (const std::string why = cannot_replace_etc(); !why.empty()) {
+        GTEST_SKIP() << "/etc cannot be replaced in a mount namespace here: " << why;
     }
     const std::string etc = folder_.file("etc");
     std::filesystem::create_directories(etc + "/gazeloop");
@@ -185,7 +195,8 @@ TEST_F(Configuration, AFileThatMayNotBeReadIsSaid) {
             options.wrapper = {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
             if (std::system("setpriv --reuid=65534 --regid=65534 --clear-groups "
                             "test -x '" GAZELOOP_BINARY_DIR "/gazeloop'") != 0) {
-                GTEST_SKIP() << "another user than root cannot reach " GAZELOOP_BINARY_DIR;
+                GTEST_SKIP() << "another user than root cannot reach " GAZELOOP_BINARY_DIR
+                                ": build in a folder that others may enter";
             }
         }
         const ProgramResult forbidden = print({}, options);
