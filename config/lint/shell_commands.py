@@ -58,22 +58,26 @@ class ShellCommands:
             return self._text.index("))", at) + 2
         return self._read(at + 2, len(self._text), nested=True)
 
+    def _passed(self, at):
+        """Behind the character at `at`, or behind the quotes or the substitution that begin there."""
+        char = self._text[at]
+        if char == "'":
+            return self._text.index("'", at + 1) + 1
+        if char == '"':
+            return self._quoted(at + 1)
+        if self._text.startswith("$(", at):
+            return self._substituted(at)
+        if self._text.startswith("${", at):
+            return self._parameter(at)
+        return at + (2 if char == "\\" else 1)
+
     def _word(self, at):
         """The end of the word at `at`, and the word, None if it is more than plain text."""
         begin, plain = at, True
         while at < len(self._text) and self._text[at] not in " \t\n;&|()<>":
             char = self._text[at]
             plain = plain and char not in "'\"$`\\*?~"
-            if char == "'":
-                at = self._text.index("'", at + 1) + 1
-            elif char == '"':
-                at = self._quoted(at + 1)
-            elif self._text.startswith("$(", at):
-                at = self._substituted(at)
-            elif self._text.startswith("${", at):
-                at = self._parameter(at)
-            else:
-                at += 2 if char == "\\" else 1
+            at = self._passed(at)
         return at, self._text[begin:at] if plain else None
 
     def _array(self, at):
@@ -175,15 +179,5 @@ class ShellCommands:
     def _condition(self, at):
         """The end of the [[...]] whose brackets stand before `at`."""
         while not self._text.startswith("]]", at):
-            char = self._text[at]
-            if char == "'":
-                at = self._text.index("'", at + 1) + 1
-            elif char == '"':
-                at = self._quoted(at + 1)
-            elif self._text.startswith("$(", at):
-                at = self._substituted(at)
-            elif self._text.startswith("${", at):
-                at = self._parameter(at)
-            else:
-                at += 2 if char == "\\" else 1
+            at = self._passed(at)
         return at + 2
