@@ -35,11 +35,10 @@ struct HostFit {
 /// arrival, `lines` its line in the file.
 ///
 /// Where the device's clock was set, times go on by the host's; where the host's was set or slept,
-/// by the device's (HostClockSet; lag_steps.h). A host time that neither neighbour agrees with is
-/// left out, and so are those of a clock that stood, but for the first (ClockStoodStill). A
-/// line is fitted to 16 s at a time, and between these the offset is interpolated; what was before
-/// the first line settled gets its times by that line. A skew that is less than the uncertainty of
-/// the line, from end to end, is taken for none: times are then the device's, unchanged.
+/// by the device's (HostClockSet; lag_steps.h). Which host times count is host_times.h's, the line
+/// of a stretch lag_line.h's, between whose knots the offset is interpolated. A skew that is less
+/// than the uncertainty of the line, from end to end, is taken for none: times are then the
+/// device's, unchanged.
 ///
 /// Without two host times all times are the device's. So they are, without delays, where the rates
 /// differ by more than 1000 ppm (ClockRates). O(n).

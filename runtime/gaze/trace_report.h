@@ -24,6 +24,7 @@ enum class TraceFindingKind : std::uint8_t {
     CounterWrapped,   ///< a clock of limited width began anew from 0: it is counted on
     DeviceClockSet,   ///< the device's clock was set: times go on by the host's clock or the rate
     HostClockSet,     ///< the host's clock was set, or slept: the clocks are fitted anew
+    HostTimeOutlier,  ///< a host time that neither neighbour agrees with: it is left out
     ClockStoodStill,  ///< a clock stood: times go on by the other one or the rate
     ClockRates,       ///< the clocks go at rates that are no two crystals': a unit may be wrong
     CoarseTimes,      ///< several rows with one time: spread over the clock's step, in their order
@@ -37,7 +38,7 @@ enum class TraceFindingKind : std::uint8_t {
     // The file.
     Text,  ///< quotes, 'sep=', decimal commas and the like, that were read all the same
 };
-inline constexpr std::array<std::string_view, 19> kTraceFindingNames{"time outlier",
+inline constexpr std::array<std::string_view, 20> kTraceFindingNames{"time outlier",
                                                                      "repeat",
                                                                      "bad time",
                                                                      "bad cells",
@@ -46,6 +47,7 @@ inline constexpr std::array<std::string_view, 19> kTraceFindingNames{"time outli
                                                                      "counter wrapped",
                                                                      "device clock set",
                                                                      "host clock set",
+                                                                     "host time outlier",
                                                                      "clock stood still",
                                                                      "clock rates",
                                                                      "coarse times",
@@ -57,6 +59,8 @@ inline constexpr std::array<std::string_view, 19> kTraceFindingNames{"time outli
                                                                      "new origin",
                                                                      "text"};
 inline constexpr std::size_t kTraceFindingKinds = kTraceFindingNames.size();
+static_assert(kTraceFindingNames[static_cast<std::size_t>(TraceFindingKind::Text)] == "text" &&
+              kTraceFindingKinds == static_cast<std::size_t>(TraceFindingKind::Text) + 1);
 
 /// One thing that was found, perhaps in many rows.
 struct TraceFinding {

@@ -217,7 +217,10 @@ TEST(HostFit, LeavesHostTimesOutThatNoNeighbourAgreesWith) {
             EXPECT_EQ(fit.outliers, 1U) << by << ' ' << at;
             EXPECT_FALSE(fit.delay_ns[at].has_value());
             EXPECT_EQ(fit.time_ns, device.time_ns);
-            EXPECT_THAT(fit.findings, IsEmpty());
+            ASSERT_THAT(fit.findings, SizeIs(1));
+            EXPECT_EQ(fit.findings[0].kind, TraceFindingKind::HostTimeOutlier);
+            EXPECT_EQ(fit.findings[0].line, at + 2);
+            EXPECT_EQ(fit.findings[0].rows, 1U);
             EXPECT_THAT(fit.text, HasSubstr(", 1 host time left out"));
         }
     }
