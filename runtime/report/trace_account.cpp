@@ -9,9 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "runtime/report/wrapped_row.h"
-
 #include "runtime/frame/event.h"
+#include "runtime/report/wrapped_row.h"
 
 namespace gazeloop::report {
 namespace {
@@ -21,6 +20,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kRows = "rows ";
 constexpr std::string_view kDirections = "directions: ";
+constexpr std::string_view kClock = "clock: ";
 constexpr std::string_view kDropped = "dropped as ";
 constexpr std::string_view kOutOfOrder = "out of order";
 constexpr std::string_view kLost = "lost by the tracker";
@@ -100,6 +100,9 @@ std::vector<std::string> trace_events(const gaze::TraceReport& report) {
         return {};
     }
     std::vector<std::string> events{counts_text(report)};
+    if (!report.clock.empty()) {
+        events.push_back(fmt::format("{}{}", kClock, report.clock));
+    }
     if (!report.axes.empty()) {
         events.push_back(fmt::format("{}{}", kDirections, report.axes));
     }
@@ -126,7 +129,8 @@ std::vector<std::string> trace_events(const gaze::TraceReport& report) {
 }
 
 bool is_finding(std::string_view event) {
-    return !event.starts_with(kRows) && !event.starts_with(kDirections);
+    return !event.starts_with(kRows) && !event.starts_with(kClock) &&
+           !event.starts_with(kDirections);
 }
 
 std::string at_file(const std::string& file, std::string_view event) {
@@ -140,11 +144,12 @@ std::string at_line(std::string_view event) {
 
 void TraceAccount::take(std::string_view kind, std::string_view text) {
     if (kind == frame::kAxesEvent.name) {
-        directions_ = text;
-        in_doubt_ = true;
+        directions_ = text;  // a summary's "what happened" has it, too
     } else if ((kind == frame::kTraceEvent.name || kind == frame::kTrackerEvent.name) &&
                text.starts_with(kDirections)) {
         directions_ = text.substr(kDirections.size());
+    } else if (kind == frame::kTraceEvent.name && text.starts_with(kClock)) {
+        clock_ = text.substr(kClock.size());
     } else if (kind == frame::kTraceEvent.name && !is_finding(text)) {
         counts_ = text;
     } else if (kind == frame::kTraceEvent.name) {
@@ -154,14 +159,20 @@ void TraceAccount::take(std::string_view kind, std::string_view text) {
 
 std::string TraceAccount::text() const {
     std::string text = counts_.empty() ? "" : wrapped_row("trace", counts_);
+    if (!clock_.empty()) {
+        text += wrapped_row("", fmt::format("{}{}", kClock, clock_));
+    }
     for (const std::string& finding : findings_) {
         text += wrapped_row("", at_line(finding));
     }
-    return text + (in_doubt_ ? wrapped_row("axes", directions_) : "");
+    return text;
 }
 
 void TraceAccount::add_to(Json& summary) const {
     summary["trace"] = counts_.empty() ? Json(nullptr) : trace_json(counts_, findings_);
+    if (!clock_.empty()) {
+        summary["trace"]["clock"] = clock_;
+    }
     summary["directions"] = directions_.empty() ? Json(nullptr) : Json(directions_);
 }
 

@@ -12,10 +12,10 @@
 namespace gazeloop::report {
 
 /// What a trace's reader says of it, as the texts of events (frame::kTraceEvent): counts ("rows
-/// 800, used 799, ..."), what the directions were found to be ("directions: ..."), each finding
-/// that was kept
-/// ("302: time outlier: ...", the line first; without one, the file as a whole), and of each kind
-/// how many more there are. Empty for a trace of no file.
+/// 800, used 799, ..."), how its clocks were tied ("clock: ..."), what the directions were found to
+/// be ("directions: ..."), each finding that was kept ("302: time outlier: ...", the line first;
+/// without one, the file as a whole), and of each kind how many more there are. Empty for a trace
+/// of no file.
 [[nodiscard]] std::vector<std::string> trace_events(const gaze::TraceReport& report);
 
 /// One of these texts, for the log: with the file, and the line where there is one.
@@ -41,8 +41,8 @@ class TraceAccount {
   private:
     std::string counts_;
     std::vector<std::string> findings_;
+    std::string clock_;
     std::string directions_;
-    bool in_doubt_ = false;  ///< of a live source
 };
 
 /// Passes events on to an account.

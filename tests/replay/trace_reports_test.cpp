@@ -84,12 +84,17 @@ TEST_F(TraceReports, WarnOfMirroredGazeEverywhere) {
     EXPECT_TRUE(has(result.err, "warning: " + mirrored_ + ": axes: the eyes' rays diverge"))
         << result.err;
     EXPECT_TRUE(has(result.err, "--axes -x makes it agree")) << result.err;
-    EXPECT_TRUE(has(result.out, "trace    rows 60, used 60\n         axes: the eyes' rays diverge"))
+    EXPECT_TRUE(has(result.out,
+                    "trace    rows 60, used 60\n         clock: the device's; no host times\n"
+                    "         axes: the eyes' rays diverge"))
         << result.out;
     const ProgramResult report = run_gazeloop({"report", session});
-    EXPECT_TRUE(has(report.out, "trace    rows 60, used 60\n         axes: the eyes' rays diverge"))
+    EXPECT_TRUE(has(report.out,
+                    "trace    rows 60, used 60\n         clock: the device's; no host times\n"
+                    "         axes: the eyes' rays diverge"))
         << report.out;
     const auto json = nlohmann::json::parse(run_gazeloop({"report", session, "--json", "-"}).out);
+    EXPECT_EQ(json["trace"]["clock"], "the device's; no host times");
     EXPECT_EQ(json["trace"]["findings"].size(), 1U) << json["trace"];
     EXPECT_EQ(json["trace"]["findings"][0]["kind"], "axes");
     // What was played is what the session holds.

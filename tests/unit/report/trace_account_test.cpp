@@ -22,6 +22,7 @@ gaze::TraceReport example_report() {
     gaze::TraceReport report;
     report.rows = 800;
     report.lost_by_tracker = 3;
+    report.clock = "fitted to the host's clock: +148 ppm, within 0.20 ms";
     report.axes = "agree with anatomy (median vergence 2.4 deg)";
     report.add({.kind = TraceFindingKind::TimeOutlier,
                 .line = 302,
@@ -47,6 +48,7 @@ TEST(TraceEvents, SayCountsDirectionsAndFindings) {
         trace_events(example_report()),
         ElementsAre("rows 800, used 799, dropped as time outlier 1, out of order 12, lost by "
                     "the tracker 3",
+                    "clock: fitted to the host's clock: +148 ppm, within 0.20 ms",
                     "directions: agree with anatomy (median vergence 2.4 deg)",
                     "302: time outlier: 2.5 s ahead: of the rows beside it; dropped",
                     "410: out of order (12 rows): put in order", "text: decimal commas"));
@@ -72,6 +74,7 @@ TEST(TraceEvents, NameFileAndLineForTheLog) {
     EXPECT_EQ(at_file("g.csv", "302: time outlier: x"), "g.csv:302: time outlier: x");
     EXPECT_EQ(at_file("g.csv", "text: decimal commas"), "g.csv: text: decimal commas");
     EXPECT_FALSE(is_finding("rows 800, used 799"));
+    EXPECT_FALSE(is_finding("clock: the device's"));
     EXPECT_FALSE(is_finding("directions: agree"));
     EXPECT_TRUE(is_finding("302: time outlier: x"));
 }
@@ -81,6 +84,7 @@ TEST(TraceAccount, IsTextForPeople) {
         account_of(example_report()).text(),
         "trace    rows 800, used 799, dropped as time outlier 1, out of order 12, lost by the "
         "tracker 3\n"
+        "         clock: fitted to the host's clock: +148 ppm, within 0.20 ms\n"
         "         line 302: time outlier: 2.5 s ahead: of the rows beside it; dropped\n"
         "         line 410: out of order (12 rows): put in order\n"
         "         text: decimal commas\n");
@@ -95,6 +99,7 @@ TEST(TraceAccount, IsJsonForPrograms) {
     EXPECT_EQ(json["trace"]["dropped"].dump(), R"({"time outlier":1})");
     EXPECT_EQ(json["trace"]["out_of_order"], 12);
     EXPECT_EQ(json["trace"]["lost_by_tracker"], 3);
+    EXPECT_EQ(json["trace"]["clock"], "fitted to the host's clock: +148 ppm, within 0.20 ms");
     ASSERT_EQ(json["trace"]["findings"].size(), 3U);
     EXPECT_EQ(json["trace"]["findings"][0].dump(),
               R"({"line":302,"kind":"time outlier","text":"2.5 s ahead: of the rows beside it; )"
@@ -120,13 +125,16 @@ TEST(TraceAccount, BearsAnyText) {
     EXPECT_THAT(account.text(), HasSubstr("rows 8"));
 }
 
-TEST(TraceAccount, SaysWhenALiveSourcesDirectionsAreInDoubt) {
+TEST(TraceAccount, HoldsWhatALiveSourcesDirectionsAreLike) {
     TraceAccount account;
     account.take("tracker", "plugged in");
     account.take("tracker", "directions: agree with anatomy");
     EXPECT_EQ(account.text(), "");
     account.take("axes", "the eyes' rays diverge (median -2.4 deg)");
-    EXPECT_EQ(account.text(), "axes     the eyes' rays diverge (median -2.4 deg)\n");
+    EXPECT_EQ(account.text(), "") << "it is among what happened";
+    nlohmann::ordered_json json;
+    account.add_to(json);
+    EXPECT_EQ(json["directions"], "the eyes' rays diverge (median -2.4 deg)");
 }
 
 TEST(TraceAccount, KeepsToAHundredColumns) {
