@@ -7,7 +7,7 @@
 #include <string>
 
 #include "drivers/trace/bad_cells.h"
-#include "drivers/trace/csv_table.h"
+#include "drivers/trace/text/csv_table.h"
 #include "runtime/gaze/eye.h"
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/trace_report.h"

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "drivers/trace/axes_correction.h"
-#include "drivers/trace/csv_table.h"
 #include "drivers/trace/htc_vive_pro.h"
 #include "drivers/trace/native_trace.h"
+#include "drivers/trace/text/csv_table.h"
 #include "drivers/trace/trace_format.h"
 #include "runtime/gaze/new_origins.h"
 

@@ -8,11 +8,11 @@
 #include <span>
 #include <utility>
 
-#include "drivers/trace/device_times.h"
-#include "drivers/trace/host_fit.h"
-#include "drivers/trace/sequence_numbers.h"
-#include "drivers/trace/standing_gaze.h"
-#include "drivers/trace/time_text.h"
+#include "drivers/trace/clock/device_times.h"
+#include "drivers/trace/clock/host_fit.h"
+#include "drivers/trace/clock/sequence_numbers.h"
+#include "drivers/trace/clock/standing_gaze.h"
+#include "drivers/trace/clock/time_text.h"
 #include "runtime/gaze/sample_rate.h"
 #include "runtime/time/span.h"
 

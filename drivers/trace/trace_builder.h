@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/trace/clock/trace_row.h"
 #include "drivers/trace/read_options.h"
-#include "drivers/trace/trace_row.h"
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_trace.h"
 

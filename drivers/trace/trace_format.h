@@ -3,8 +3,8 @@
 #include <span>
 #include <string_view>
 
-#include "drivers/trace/csv_table.h"
 #include "drivers/trace/read_options.h"
+#include "drivers/trace/text/csv_table.h"
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_trace.h"
 

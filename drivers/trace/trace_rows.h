@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "drivers/trace/bad_cells.h"
-#include "drivers/trace/csv_table.h"
+#include "drivers/trace/clock/trace_row.h"
 #include "drivers/trace/eye_cells.h"
 #include "drivers/trace/read_options.h"
+#include "drivers/trace/text/csv_table.h"
 #include "drivers/trace/trace_builder.h"
-#include "drivers/trace/trace_row.h"
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_trace.h"
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <ranges>
 
+#include "runtime/gaze/direction.h"
+
 namespace gazeloop::tests {
 namespace {
 

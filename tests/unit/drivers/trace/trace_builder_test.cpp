@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/unit/drivers/trace/trace_rows.h"
+#include "tests/unit/drivers/trace/clock/trace_rows.h"
 
 namespace gazeloop::drivers {
 namespace {

@@ -1,0 +1,39 @@
+#include "drivers/trace/clock/counter_wrap.h"
+
+#include <algorithm>
+#include <array>
+
+namespace gazeloop::drivers {
+namespace {
+
+/// Counters whose range is less than so many steps are not told from clocks that were set.
+constexpr std::int64_t kFewestSteps = 8;
+/// Nearer to the end than this share of the range, and than a second.
+constexpr std::int64_t kShare = 64;
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+}  // namespace
+
+std::optional<Wide> wrapped_range(Wide before, Wide after, std::int64_t step_ns) {
+    constexpr std::array<std::uint32_t, 4> kBits{32, 31, 24, 16};
+    constexpr std::array<std::int64_t, 4> kTicks_ns{1'000, 1'000'000, 100, 1};
+    if (after >= before) {
+        return std::nullopt;
+    }
+    for (const std::uint32_t bits : kBits) {
+        for (const std::int64_t tick_ns : kTicks_ns) {
+            const Wide range = static_cast<Wide>(tick_ns) << bits;
+            const Wide near = std::max<Wide>(step_ns, std::min<Wide>(range / kShare, kSecond_ns));
+            const bool fits = before - after < range && after + range - before <= near &&
+                              range / kFewestSteps >= step_ns;
+            const bool from_zero = after >= 0 && before < range;
+            const bool with_sign = after >= -range / 2 && before < range / 2;
+            if (fits && (from_zero || with_sign)) {
+                return range;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "drivers/trace/clock/device_times.h"
+#include "drivers/trace/clock/trace_row.h"
+#include "runtime/gaze/trace_report.h"
+
+namespace gazeloop::drivers {
+
+/// The numbers of a trace's samples.
+struct SequenceNumbers {
+    /// Of each used row. Those of the file where it counts up, and counted on where it begins anew;
+    /// a gap is what the tracker lost, never a row that was left out here.
+    std::vector<std::uint64_t> numbers;
+    std::uint64_t lost = 0;
+    std::vector<gaze::TraceFinding> findings;
+};
+
+/// Judges the sequence by both neighbours. A number that only its neighbours' agreement rules out
+/// is an outlier (SequenceOutlier); one that goes back, or ahead by more than the time that went by
+/// has room for, begins anew (SequenceRestarted). It wrapped if it did so within 4 of 2^8, 2^16 or
+/// 2^32, or if the count over such a wrap is within a fifth, and 4, of what the time has room for;
+/// what was lost there counts too. Rows that were filed up to 256 late are not lost; they are
+/// numbered where they stand (SequenceOutlier). Where more than a tenth of the numbers do not
+/// follow, they count nothing (one SequenceOutlier). Then, without sequence numbers, or where all
+/// are the same, rows are numbered from 0. O(n log n).
+[[nodiscard]] SequenceNumbers sequence_numbers(std::span<const TraceRow> rows,
+                                               const DeviceTimes& times);
+
+}  // namespace gazeloop::drivers

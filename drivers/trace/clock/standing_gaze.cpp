@@ -1,0 +1,71 @@
+#include "drivers/trace/clock/standing_gaze.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "drivers/trace/clock/row_order.h"
+#include "drivers/trace/clock/time_text.h"
+
+namespace gazeloop::drivers {
+
+std::vector<gaze::TraceFinding> standing_gaze(std::span<const TraceRow> rows,
+                                              const DeviceTimes& times) {
+    constexpr std::int64_t kStill_ns = 2'000'000'000;
+    constexpr std::size_t kMostPolls = 7;
+    constexpr std::size_t kRowsPerRepeat = 4;
+    constexpr std::size_t kFewest = 8;
+    const std::size_t count = times.rows.size();
+    std::vector<gaze::TraceFinding> findings;
+    std::size_t polled = 0;
+    std::size_t first_polled = 0;
+    const auto row = [&](std::size_t i) -> const TraceRow& { return rows[times.rows[i]]; };
+    for (std::size_t first = 0; first < count;) {
+        std::size_t end = first + 1;
+        if (row(first).eyes[0].valid || row(first).eyes[1].valid) {
+            while (end < count && same_report(row(end), row(first))) {
+                ++end;
+            }
+        }
+        if (end - first == count && times.time_ns.back() - times.time_ns.front() > kStill_ns) {
+            return {{.kind = gaze::TraceFindingKind::Text,
+                     .line = row(first).line,
+                     .rows = 0,
+                     .dropped = 0,
+                     .span_ns = 0,
+                     .text = "the gaze is the same in all rows"}};
+        }
+        const std::size_t repeats = end - first - 1;
+        const std::int64_t span_ns = times.time_ns[end - 1] - times.time_ns[first];
+        if (repeats > 0 && span_ns > kStill_ns) {
+            findings.push_back(
+                {.kind = gaze::TraceFindingKind::Repeat,
+                 .line = row(first + 1).line,
+                 .rows = repeats,
+                 .dropped = 0,
+                 .span_ns = span_ns,
+                 .text = fmt::format("the same report for {}, while times go on: the tracker or "
+                                     "its recorder stood still; played as it is",
+                                     in_words(span_ns))});
+        } else if (repeats > 0 && repeats <= kMostPolls) {
+            first_polled = polled == 0 ? first + 1 : first_polled;
+            polled += repeats;
+        }
+        first = end;
+    }
+    if (polled >= kFewest && polled * kRowsPerRepeat >= count) {
+        findings.push_back(
+            {.kind = gaze::TraceFindingKind::Repeat,
+             .line = row(first_polled).line,
+             .rows = polled,
+             .dropped = 0,
+             .span_ns = 0,
+             .text = fmt::format("{} of {} rows repeat the report before, with later times: the "
+                                 "recorder polls faster than the tracker reports; played as it is",
+                                 polled, count)});
+    }
+    return findings;
+}
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,108 @@
+#include "drivers/trace/text/cell_number.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace gazeloop::drivers {
+namespace {
+
+/// C has no plus before a number; some programs write one.
+std::string_view without_plus(std::string_view cell) {
+    const bool plus = cell.size() > 1 && cell[0] == '+' && cell[1] != '-' && cell[1] != '+';
+    return plus ? cell.substr(1) : cell;
+}
+
+/// The whole cell as a number, none where it is not one.
+std::optional<double> parsed(std::string_view cell) {
+    double value{};
+    const char* const end = cell.data() + cell.size();
+    const auto [stop, error] = std::from_chars(cell.data(), end, value);
+    if (error != std::errc{} || stop != end) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+/// A number with a comma for its point.
+std::optional<double> parsed_with_comma(std::string_view cell) {
+    std::array<char, 64> copy{};
+    const auto comma = std::find(cell.begin(), cell.end(), ',');
+    if (comma == cell.end() || cell.size() > copy.size()) {
+        return std::nullopt;
+    }
+    std::copy(cell.begin(), cell.end(), copy.begin());
+    copy.at(static_cast<std::size_t>(comma - cell.begin())) = '.';
+    return parsed({copy.data(), cell.size()});
+}
+
+template <typename Whole>
+std::optional<Whole> parsed_whole(std::string_view cell, NumberSpelling& seen) {
+    cell = without_plus(cell);
+    Whole value{};
+    const char* const end = cell.data() + cell.size();
+    const auto [stop, error] = std::from_chars(cell.data(), end, value);
+    if (error != std::errc{}) {
+        return std::nullopt;
+    }
+    if (stop == end) {
+        return value;
+    }
+    const bool zeros_follow = (*stop == '.' || *stop == ',') &&
+                              std::all_of(stop + 1, end, [](char c) { return c == '0'; });
+    if (!zeros_follow) {
+        return std::nullopt;
+    }
+    seen.whole_as_real = true;
+    seen.decimal_comma = seen.decimal_comma || *stop == ',';
+    return value;
+}
+
+}  // namespace
+
+std::optional<double> real_number(std::string_view cell, NumberSpelling& seen) {
+    cell = without_plus(cell);
+    std::optional<double> value = parsed(cell);
+    if (!value) {
+        value = parsed_with_comma(cell);
+        seen.decimal_comma = seen.decimal_comma || value;
+    }
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<std::int64_t> whole_number(std::string_view cell, NumberSpelling& seen) {
+    return parsed_whole<std::int64_t>(cell, seen);
+}
+
+std::optional<std::uint64_t> count_number(std::string_view cell, NumberSpelling& seen) {
+    return parsed_whole<std::uint64_t>(cell, seen);
+}
+
+bool says_no_number(std::string_view cell) {
+    constexpr std::size_t kLongest = 9;  // "-nan(ind)"
+    if (cell.empty()) {
+        return true;
+    }
+    if (cell.size() > kLongest) {
+        return false;
+    }
+    std::array<char, kLongest> lower{};
+    std::transform(cell.begin(), cell.end(), lower.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    std::string_view word{lower.data(), cell.size()};
+    // "-1.#IND" is how Microsoft's libraries wrote it.
+    constexpr std::array<std::string_view, 4> kWords{"n/a", "na", "null", "none"};
+    if (word == "-" || word == "." ||
+        std::find(kWords.begin(), kWords.end(), word) != kWords.end()) {
+        return true;
+    }
+    if (word.front() == '-' || word.front() == '+') {
+        word.remove_prefix(1);
+    }
+    return word.starts_with("nan") || word == "inf" || word == "infinity" ||
+           word.starts_with("1.#");
+}
+
+}  // namespace gazeloop::drivers
