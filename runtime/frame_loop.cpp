@@ -155,6 +155,7 @@ class FrameLoop {
         record.stamps.latch = timeline_->latch();
         read_gaze(record.stamps.latch.ns);
         record.fovea = parts_.gaze.latch(record.stamps.latch, planned_.head, planned_.views);
+        record.stamps.filtered = timeline_->now();
         if (planned_.should_render) {
             finish(record);
         }

@@ -76,6 +76,8 @@ void VirtualTimeline::settle(frame::FrameGpuRecord& record) {
     const std::int64_t submit = static_cast<std::int64_t>(record.index) * model_.period_ns;
     record.gpu_begin = {submit, time::StampKind::Modelled};
     record.gpu_end = {submit + model_.gpu_ns, time::StampKind::Modelled};
+    record.pass_starts = {};  // the passes took real time, which has no place in the model's
+    record.clock_deviation_ns.reset();
 }
 
 RecordedTimeline::RecordedTimeline(const session::OpenSession& session, std::uint64_t frames)
@@ -124,6 +126,8 @@ void RecordedTimeline::settle(frame::FrameGpuRecord& record) {
     const frame::FrameGpuRecord& gpu = frame_at(finished_, record.index).gpu;
     record.gpu_begin = gpu.gpu_begin;
     record.gpu_end = gpu.gpu_end;
+    record.pass_starts = {};  // of this run's passes, which ran at no time of the recording
+    record.clock_deviation_ns = gpu.clock_deviation_ns;
 }
 
 }  // namespace gazeloop

@@ -16,10 +16,12 @@ struct FrameStamps {
     time::Stamp wake_up;    ///< the runtime let the loop go on
     time::Stamp begin;      ///< the frame was begun
     time::Stamp latch;      ///< the gaze was read for the last time
+    time::Stamp filtered;   ///< the foveae were computed from it
     time::Stamp submit;     ///< the last pass was handed to the GPU
     time::Stamp end_frame;  ///< the frame was handed to the compositor
     time::Stamp gpu_begin;  ///< the first pass began on the GPU, in host time
     time::Stamp gpu_end;    ///< the last pass ended on the GPU, in host time
+    time::Stamp present;    ///< the compositor handed it to the display, where the runtime tells
     time::Stamp display;    ///< announced middle of the display's emission
 };
 
@@ -42,7 +44,11 @@ struct FrameGpuRecord {
     std::uint64_t index = 0;
     time::Stamp gpu_begin;
     time::Stamp gpu_end;
-    PassTimes passes;                         ///< by their places in the run's PassList
+    PassTimes passes;       ///< by their places in the run's PassList
+    PassTimes pass_starts;  ///< from gpu_begin to the begin of each pass's first part
+    /// How far off host times of the GPU may be, either way, as its driver states. Unknown where
+    /// its clock is not related to the host's.
+    std::optional<std::int64_t> clock_deviation_ns;
     std::optional<std::uint64_t> pixel_hash;  ///< of both eyes' pictures
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "runtime/frame/name_list.h"
@@ -16,8 +17,8 @@ inline constexpr std::size_t kMostPasses = 12;
 /// timed stretch of GPU work. At most kMostPasses.
 using PassList = NameList;
 
-/// How long each pass of one frame took, by its place in the run's PassList. A pass that did not
-/// run has no duration, and all begin without one: unknown is never 0.
+/// A time of each pass of one frame, by its place in the run's PassList: how long it took, or when
+/// it began. A pass that did not run has none, and all begin without one: unknown is never 0.
 class PassTimes {
   public:
     PassTimes() { ns_.fill(kDidNotRun); }
@@ -34,7 +35,7 @@ class PassTimes {
     friend bool operator==(const PassTimes&, const PassTimes&) = default;
 
   private:
-    static constexpr std::int64_t kDidNotRun = -1;
+    static constexpr std::int64_t kDidNotRun = std::numeric_limits<std::int64_t>::min();
     std::array<std::int64_t, kMostPasses> ns_{};
 };
 

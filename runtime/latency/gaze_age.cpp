@@ -22,6 +22,20 @@ ShownFrame shown_frame(const frame::FrameStamps& stamps, std::int64_t period_ns)
     return shown;
 }
 
+namespace {
+
+/// A method may draw before the gaze is read: what it then still does after the submit counts.
+time::Stamp gpu_start(const frame::FrameStamps& stamps) {
+    const time::Stamp& begin = stamps.gpu_begin;
+    const time::Stamp& submit = stamps.submit;
+    if (!begin.known() || !submit.known() || begin.ns >= submit.ns) {
+        return begin;
+    }
+    return submit;
+}
+
+}  // namespace
+
 GazeAge gaze_age(const gaze::FoveaPoint& fovea, const frame::FrameStamps& stamps,
                  const time::Stamp& shown, std::optional<std::int64_t> switching_ns,
                  std::optional<std::int64_t> row_ns) {
@@ -31,14 +45,16 @@ GazeAge gaze_age(const gaze::FoveaPoint& fovea, const frame::FrameStamps& stamps
     if (fovea.uncertainty_ns && age.at_display.known()) {
         age.uncertainty = {*fovea.uncertainty_ns, time::StampKind::Profile};
     }
-    age.stages = {time::between(fovea.sampled, fovea.ready.known() ? fovea.ready : fovea.arrived),
-                  time::between(fovea.ready, fovea.arrived),
-                  time::between(fovea.arrived, stamps.latch),
-                  time::between(stamps.latch, stamps.submit),
-                  time::between(stamps.submit, stamps.gpu_end),
-                  time::between(stamps.gpu_end, shown),
-                  time::Span{},
-                  time::Span{}};
+    age.stages = {
+        time::between(fovea.sampled, fovea.ready.known() ? fovea.ready : fovea.arrived),
+        time::between(fovea.ready, fovea.arrived),
+        time::between(fovea.arrived, stamps.latch),
+        time::between(stamps.latch, stamps.filtered),
+        time::between(stamps.filtered.known() ? stamps.filtered : stamps.latch, stamps.submit),
+        time::between(gpu_start(stamps), stamps.gpu_end),
+        time::between(stamps.gpu_end, shown),
+        time::Span{},
+        time::Span{}};
     const auto add = [&age](Stage stage, std::optional<std::int64_t> delay_ns) {
         if (delay_ns) {
             age.stages[static_cast<std::size_t>(stage)] = {*delay_ns, time::StampKind::Profile};

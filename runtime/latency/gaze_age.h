@@ -12,26 +12,31 @@
 
 namespace gazeloop::latency {
 
-/// Where the time from the eye to the photon goes. Each stage begins where the one before ends.
+/// Where the time from the eye to the photon goes. Each stage begins where the one before ends, but
+/// for Gpu: between the submit and the first pass nobody stamps anything, and that time is
+/// unaccounted.
 enum class Stage : std::size_t {
     Tracker,    ///< the eye was seen -> the host could have had the sample at the earliest
     Delivery,   ///< -> the host had it; where the earliest is unknown, Tracker has this time too
     Queue,      ///< -> the gaze was latched
+    Filter,     ///< -> the foveae were computed; where that is unknown, Submit has this time too
     Submit,     ///< -> the last pass was handed to the GPU
-    Gpu,        ///< -> the last pass ended
+    Gpu,        ///< the first pass began, after the submit or at it -> the last pass ended
     Wait,       ///< -> the middle of the display's emission
     Row,        ///< -> the emission of the fovea's row, earlier above the middle; of the display
     Switching,  ///< -> the pixels have switched, a constant of the display
 };
-inline constexpr std::size_t kStageCount = 8;
+inline constexpr std::size_t kStageCount = 9;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "tracker", "delivery",         "queue",       "submit",
+    "tracker", "delivery",         "queue",       "filter",   "submit",
     "gpu",     "wait for display", "scan to row", "switching"};
 
 /// Whether a stage is left out where it is unknown. These are Delivery, which is then part of
-/// Tracker, and Row, because the summary says once that the display's lighting of rows is unknown.
+/// Tracker, Filter, which is then part of Submit, and Row, because the summary says once that the
+/// display's lighting of rows is unknown.
 [[nodiscard]] constexpr bool shown_only_if_known(std::size_t stage) {
     return stage == static_cast<std::size_t>(Stage::Delivery) ||
+           stage == static_cast<std::size_t>(Stage::Filter) ||
            stage == static_cast<std::size_t>(Stage::Row);
 }
 

@@ -1,5 +1,6 @@
 #include "runtime/latency/latency_summary.h"
 
+#include "runtime/latency/frame_account.h"
 #include "runtime/time/milliseconds.h"
 
 #include <algorithm>
@@ -75,11 +76,7 @@ void LatencySummary::add(const frame::FrameRecord& record) {
     if (!record.should_render) {
         return;
     }
-    std::optional<frame::FrameRecord>& slot = pending_[record.index % kPendingFrames];
-    if (slot) {
-        complete(*slot);
-    }
-    slot = record;
+    pending_.add(record, [this](const FinishedFrame& finished) { complete(finished); });
 }
 
 void LatencySummary::add(const frame::FrameGpuRecord& record) {
@@ -88,49 +85,31 @@ void LatencySummary::add(const frame::FrameGpuRecord& record) {
             passes_[pass].add({*ns, time::StampKind::Measured});
         }
     }
-    std::optional<frame::FrameRecord>& slot = pending_[record.index % kPendingFrames];
-    if (!slot || slot->index != record.index) {
-        return;
-    }
-    if (config_.clock == LoopClock::Wall && record.gpu_end.known()) {
-        slot->stamps.gpu_begin = record.gpu_begin;
-        slot->stamps.gpu_end = record.gpu_end;
-    }
-    complete(*slot);
-    slot.reset();
+    pending_.add(record, [this](const FinishedFrame& finished) { complete(finished); });
 }
 
-void LatencySummary::complete(const frame::FrameRecord& record) {
+void LatencySummary::complete(const FinishedFrame& finished) {
     ++frames_.rendered;
-    samples_ += record.samples;
+    samples_ += finished.frame.samples;
 
-    const std::int64_t period_ns = record.period_ns > 0 ? record.period_ns : period_in_force_ns();
-    const ShownFrame shown = shown_frame(record.stamps, period_ns);
+    const std::int64_t period_ns = period_in_force_ns();
+    const FrameAccount of_profile =
+        account_of(finished, period_ns,
+                   {.switching_ns = config_.switching_ns, .rolling_ns = config_.rolling_ns});
+    const FrameAccount of_unknown = account_of(finished, period_ns, {});
+    const ShownFrame& shown = of_profile.shown;
     frames_.in_time_unknown += shown.in_time_known ? 0 : 1;
-    frames_.display_unknown += record.stamps.display.known() ? 0 : 1;
+    frames_.display_unknown += finished.frame.stamps.display.known() ? 0 : 1;
     frames_.missed += shown.periods_missed > 0 ? 1 : 0;
     frames_.periods_missed += shown.periods_missed;
-
-    const gaze::FoveaState state = std::max(record.fovea.eyes[0].state, record.fovea.eyes[1].state);
-    ++frames_.by_state[static_cast<std::size_t>(state)];
-    const GazeAge of_profile =
-        frame_gaze_age(record, record.stamps, shown.at, config_.switching_ns, config_.rolling_ns);
-    const GazeAge of_unknown =
-        frame_gaze_age(record, record.stamps, shown.at, std::nullopt, std::nullopt);
-    switch (state) {
-        case gaze::FoveaState::Tracking:
-        case gaze::FoveaState::OtherEye:
-            add_tracking(of_unknown);
-            of_profile_.add_tracking(of_profile);
-            of_unknown_.add_tracking(of_unknown);
-            break;
-        case gaze::FoveaState::Held:
-        case gaze::FoveaState::Returning:
-            of_profile_.held_gaze_age.add(of_profile.at_display);
-            of_unknown_.held_gaze_age.add(of_unknown.at_display);
-            break;
-        case gaze::FoveaState::Ahead:
-            break;  // the picture rests on no gaze: there is no age
+    ++frames_.by_state[static_cast<std::size_t>(of_profile.state)];
+    if (of_profile.with_gaze()) {
+        add_tracking(of_unknown.age);
+        of_profile_.add_tracking(of_profile.age);
+        of_unknown_.add_tracking(of_unknown.age);
+    } else if (of_profile.state != gaze::FoveaState::Ahead) {
+        of_profile_.held_gaze_age.add(of_profile.age.at_display);
+        of_unknown_.held_gaze_age.add(of_unknown.age.at_display);
     }
 }
 
@@ -162,11 +141,7 @@ void LatencySummary::AtDisplay::add_tracking(const GazeAge& age) {
 
 SummaryReport LatencySummary::report() const {
     LatencySummary finished = *this;
-    for (std::optional<frame::FrameRecord>& slot : finished.pending_) {
-        if (slot) {
-            finished.complete(*slot);
-        }
-    }
+    finished.pending_.finish([&finished](const FinishedFrame& frame) { finished.complete(frame); });
     return finished.report_of_complete();
 }
 

@@ -14,6 +14,7 @@
 #include "runtime/latency/commonest_period.h"
 #include "runtime/latency/gaze_age.h"
 #include "runtime/latency/happenings.h"
+#include "runtime/latency/pending_frames.h"
 #include "runtime/latency/sample_counter.h"
 #include "runtime/latency/span_series.h"
 
@@ -131,7 +132,6 @@ class LatencySummary {
     [[nodiscard]] SummaryReport report() const;
 
   private:
-    static constexpr std::size_t kPendingFrames = 16;
     struct Neighbour {
         std::uint64_t index;
         time::Stamp wake_up;
@@ -149,7 +149,7 @@ class LatencySummary {
         void add_tracking(const GazeAge& age);
     };
 
-    void complete(const frame::FrameRecord& record);
+    void complete(const FinishedFrame& finished);
     void add_tracking(const GazeAge& age);
     [[nodiscard]] std::int64_t period_in_force_ns() const {
         return periods_.ns().value_or(config_.period_ns);
@@ -160,8 +160,7 @@ class LatencySummary {
     CommonestPeriod periods_;
     Happenings happenings_;
     std::optional<time::Stamp> began_;
-    std::array<std::optional<frame::FrameRecord>, kPendingFrames>
-        pending_;  ///< by index modulo size
+    PendingFrames pending_;
     std::optional<Neighbour> before_;
     SpanSeries gaze_age_at_latch_;
     SpanSeries gaze_age_uncertainty_;

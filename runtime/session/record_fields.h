@@ -22,10 +22,10 @@ namespace gazeloop::session {
 static_assert(sizeof(gaze::GazeSample) == 304, "a new member: see above");
 static_assert(sizeof(gaze::FoveaPoint) == 136, "a new member: see above");
 static_assert(sizeof(gaze::EyeView) == 96, "a new member: see above");
-static_assert(sizeof(frame::FrameStamps) == 128, "a new member: see above");
+static_assert(sizeof(frame::FrameStamps) == 160, "a new member: see above");
 static_assert(sizeof(frame::GridCounts) == 40, "a new member: see above");
-static_assert(sizeof(frame::FrameRecord) == 1040, "a new member: see above");
-static_assert(sizeof(frame::FrameGpuRecord) == 152, "a new member: see above");
+static_assert(sizeof(frame::FrameRecord) == 1072, "a new member: see above");
+static_assert(sizeof(frame::FrameGpuRecord) == 264, "a new member: see above");
 static_assert(sizeof(gaze::OriginChange) == 72, "a new member: see above");
 
 /// By place in the run's lists of grids and passes, which meta keeps.
@@ -136,12 +136,24 @@ void visit_samples(Visitor& visit, Samples& samples) {
     visit_count(visit, "pixels_hidden", "", true, samples.pixels_hidden);
 }
 
+/// When the foveae were computed: of the kind of the latch. `present` is not of the file: who reads
+/// a runtime's own times adds it.
+template <typename Visitor, typename Stamps>
+void visit_filtered(Visitor& visit, Stamps& stamps) {
+    auto ns = stamps.filtered.known() ? std::optional(stamps.filtered.ns) : std::nullopt;
+    visit("filtered", "_ns", ns);
+    if constexpr (!std::is_const_v<Stamps>) {
+        stamps.filtered = ns ? time::Stamp{*ns, stamps.latch.kind} : time::Stamp{};
+    }
+}
+
 template <typename Visitor, typename Record>
 void visit_frame(Visitor& visit, Record& record) {
     visit("number", "", record.index);
     visit_stamp(visit, "wake_up", record.stamps.wake_up);
     visit_stamp(visit, "begin", record.stamps.begin);
     visit_stamp(visit, "latch", record.stamps.latch);
+    visit_filtered(visit, record.stamps);
     visit_stamp(visit, "submit", record.stamps.submit);
     visit_stamp(visit, "end_frame", record.stamps.end_frame);
     visit_stamp(visit, "gpu_begin", record.stamps.gpu_begin);
@@ -169,6 +181,14 @@ void visit_gpu(Visitor& visit, Record& record) {
         }
     }
     visit("pixel_hash", "", record.pixel_hash);
+    for (std::size_t pass = 0; pass < frame::kMostPasses; ++pass) {
+        std::optional<std::int64_t> ns = record.pass_starts[pass];
+        visit(kPassColumns[pass], "_start_ns", ns);
+        if constexpr (!std::is_const_v<Record>) {
+            record.pass_starts.set(pass, ns);
+        }
+    }
+    visit("gpu_deviation", "_ns", record.clock_deviation_ns);
 }
 
 template <typename Visitor, typename Frame, typename Eye, typename View>

@@ -158,7 +158,21 @@ CREATE TABLE frame (
     pass_9_ns               INTEGER,
     pass_10_ns              INTEGER,
     pass_11_ns              INTEGER,
-    pixel_hash              INTEGER
+    pixel_hash              INTEGER,
+    filtered_ns             INTEGER,
+    pass_0_start_ns         INTEGER,
+    pass_1_start_ns         INTEGER,
+    pass_2_start_ns         INTEGER,
+    pass_3_start_ns         INTEGER,
+    pass_4_start_ns         INTEGER,
+    pass_5_start_ns         INTEGER,
+    pass_6_start_ns         INTEGER,
+    pass_7_start_ns         INTEGER,
+    pass_8_start_ns         INTEGER,
+    pass_9_start_ns         INTEGER,
+    pass_10_start_ns        INTEGER,
+    pass_11_start_ns        INTEGER,
+    gpu_deviation_ns        INTEGER
 ) STRICT;
 
 CREATE TABLE view (

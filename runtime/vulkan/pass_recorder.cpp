@@ -103,11 +103,18 @@ void PassRecorder::collect(GpuClock& clock, frame::FrameGpuRecord& record) const
             const double ns = clock.elapsed_ns(ticks_[2 * segment], ticks_[2 * segment + 1]);
             // A pass that is recorded in parts takes the sum of them.
             record.passes.set(*pass, record.passes[*pass].value_or(0) + std::llround(ns));
+            if (!record.pass_starts[*pass]) {
+                record.pass_starts.set(
+                    *pass, std::llround(clock.elapsed_ns(ticks_[0], ticks_[2 * segment])));
+            }
         }
     }
     if (last_timed) {
         record.gpu_begin = clock.host_time(ticks_[0]);
         record.gpu_end = clock.host_time(ticks_[2 * *last_timed + 1]);
+        if (record.gpu_end.known()) {
+            record.clock_deviation_ns = static_cast<std::int64_t>(clock.max_deviation_ns());
+        }
     }
 }
 

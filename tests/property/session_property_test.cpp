@@ -23,8 +23,8 @@ using Bits = std::vector<std::uint64_t>;
 
 // A new member is drawn and compared below, or it is not tested.
 static_assert(sizeof(gaze::GazeSample) == 304 && sizeof(gaze::FoveaPoint) == 136 &&
-              sizeof(gaze::EyeView) == 96 && sizeof(frame::FrameRecord) == 1040 &&
-              sizeof(frame::FrameGpuRecord) == 152);
+              sizeof(gaze::EyeView) == 96 && sizeof(frame::FrameRecord) == 1072 &&
+              sizeof(frame::FrameGpuRecord) == 264);
 
 /// Draws any content of a record from a seed. Not-a-number is the quiet one, which is what a
 /// session keeps of it.
@@ -52,7 +52,19 @@ class AnyRecord {
         frame::FrameRecord frame;
         frame.index = index;
         auto& stamps = frame.stamps;
-        stamps = {stamp(), stamp(), stamp(), stamp(), stamp(), stamp(), stamp(), stamp()};
+        stamps = {.wake_up = stamp(),
+                  .begin = stamp(),
+                  .latch = stamp(),
+                  .filtered = {},
+                  .submit = stamp(),
+                  .end_frame = stamp(),
+                  .gpu_begin = stamp(),
+                  .gpu_end = stamp(),
+                  .present = {},
+                  .display = stamp()};
+        if (stamps.latch.known() && coin()) {
+            stamps.filtered = {signed_integer(), stamps.latch.kind};
+        }
         frame.period_ns = signed_integer();
         frame.should_render = coin();
         frame.scene_time_s = real();
@@ -90,9 +102,13 @@ class AnyRecord {
         gpu.gpu_end = stamp();
         for (std::size_t pass = 0; pass < frame::kMostPasses; ++pass) {
             gpu.passes.set(pass, coin() ? std::optional(signed_integer()) : std::nullopt);
+            gpu.pass_starts.set(pass, coin() ? std::optional(signed_integer()) : std::nullopt);
         }
         if (coin()) {
             gpu.pixel_hash = integer();
+        }
+        if (coin()) {
+            gpu.clock_deviation_ns = signed_integer();
         }
         return gpu;
     }
@@ -244,7 +260,7 @@ Bits bits_of(const frame::FrameRecord& frame) {
     const frame::FrameStamps& stamps = frame.stamps;
     for (const time::Stamp& stamp :
          {stamps.wake_up, stamps.begin, stamps.latch, stamps.submit, stamps.end_frame,
-          stamps.gpu_begin, stamps.gpu_end, stamps.display, frame.fovea.latched}) {
+          stamps.gpu_begin, stamps.gpu_end, stamps.display, stamps.filtered, frame.fovea.latched}) {
         append(bits, stamp);
     }
     append(bits, frame.period_ns);
@@ -292,7 +308,11 @@ Bits bits_of(const frame::FrameGpuRecord& gpu) {
     for (std::size_t pass = 0; pass < frame::kMostPasses; ++pass) {
         append(bits, std::uint64_t{gpu.passes[pass].has_value()});
         append(bits, gpu.passes[pass].value_or(0));
+        append(bits, std::uint64_t{gpu.pass_starts[pass].has_value()});
+        append(bits, gpu.pass_starts[pass].value_or(0));
     }
+    append(bits, std::uint64_t{gpu.clock_deviation_ns.has_value()});
+    append(bits, gpu.clock_deviation_ns.value_or(0));
     append(bits, std::uint64_t{gpu.pixel_hash.has_value()});
     append(bits, gpu.pixel_hash.value_or(0));
     return bits;

@@ -96,6 +96,7 @@ class GazeAgeOfAFrame : public ::testing::Test {
         fovea.arrived = measured(6'000);
         stamps.latch = measured(8'000);
         stamps.submit = measured(9'500);
+        stamps.gpu_begin = measured(9'500);
         stamps.gpu_end = measured(15'000);
         stamps.display = {20'000, time::StampKind::Predicted};
     }
@@ -136,6 +137,29 @@ TEST_F(GazeAgeOfAFrame, LeavesTheTimeAroundAnUnknownStampUnaccounted) {
     EXPECT_FALSE(stage(age, Stage::Wait).known());
     EXPECT_EQ(age.at_display.ns, 21'000);
     EXPECT_EQ(age.unaccounted.ns, 10'500);
+}
+
+TEST_F(GazeAgeOfAFrame, SplitsTheSubmitWhereTheFilterIsStamped) {
+    EXPECT_FALSE(stage(gaze_age(fovea, stamps, stamps.display, 2'000), Stage::Filter).known());
+    stamps.filtered = measured(8'100);
+    const GazeAge age = gaze_age(fovea, stamps, stamps.display, 2'000);
+    EXPECT_EQ(stage(age, Stage::Filter), (time::Span{100, time::StampKind::Measured}));
+    EXPECT_EQ(stage(age, Stage::Submit), (time::Span{1'400, time::StampKind::Measured}));
+    EXPECT_EQ(age.unaccounted, (time::Span{0, time::StampKind::Predicted}));
+}
+
+TEST_F(GazeAgeOfAFrame, ShowsTheTimeBeforeTheFirstPassAsUnaccounted) {
+    stamps.gpu_begin = measured(10'200);
+    const GazeAge age = gaze_age(fovea, stamps, stamps.display, 2'000);
+    EXPECT_EQ(stage(age, Stage::Gpu), (time::Span{4'800, time::StampKind::Measured}));
+    EXPECT_EQ(age.unaccounted, (time::Span{700, time::StampKind::Predicted}));
+}
+
+TEST_F(GazeAgeOfAFrame, CountsOfTheGpuWhatLiesAfterTheSubmit) {
+    stamps.gpu_begin = measured(3'000);  // drawn before the gaze was read
+    const GazeAge age = gaze_age(fovea, stamps, stamps.display, 2'000);
+    EXPECT_EQ(stage(age, Stage::Gpu), (time::Span{5'500, time::StampKind::Measured}));
+    EXPECT_EQ(age.unaccounted.ns, 0);
 }
 
 TEST_F(GazeAgeOfAFrame, IsUnknownWithoutASampleTime) {

@@ -158,6 +158,7 @@ TEST(LatencySummary, VirtualTimeUsesTheFramesOwnGpuStamps) {
     LatencySummary summary({.clock = LoopClock::Virtual, .period_ns = kExamplePeriodNs});
     for (std::uint64_t index = 0; index < 100; ++index) {
         frame::FrameRecord frame = example_frame(index, time::StampKind::Modelled);
+        frame.stamps.gpu_begin = frame.stamps.submit;
         frame.stamps.gpu_end = {frame.stamps.submit.ns + 5 * kMs, time::StampKind::Modelled};
         summary.add(frame);
         summary.add(example_gpu(index, 100));
