@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "runtime/latency/gaze_age.h"
+
+namespace gazeloop::latency {
+
+/// How old the gaze may be when its picture is seen, in all and by stage: config/budgets/NAME.toml.
+/// A part without a limit has none; it is never 0.
+struct LatencyBudget {
+    std::string name;
+    std::string description;
+    std::string source;                      ///< who says so: author, year, figure
+    std::optional<std::int64_t> total_ns{};  ///< of GazeAge::at_display
+    std::array<std::optional<std::int64_t>, kStageCount> stages_ns{};  ///< by Stage
+};
+
+}  // namespace gazeloop::latency
