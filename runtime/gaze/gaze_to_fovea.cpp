@@ -44,27 +44,6 @@ std::int64_t age_ns(const time::Stamp& sampled, const time::Stamp& arrived, std:
     return age;
 }
 
-/// A unit vector at a right angle to the unit vector v.
-glm::dvec3 perpendicular(const glm::dvec3& v) {
-    const glm::dvec3 up{0.0, 1.0, 0.0};
-    const glm::dvec3 right{1.0, 0.0, 0.0};
-    return glm::normalize(glm::cross(v, std::abs(v.y) < 0.9 ? up : right));
-}
-
-/// On the great circle from one unit vector to another; where they are opposite, on one of them.
-glm::dvec3 interpolate(const glm::dvec3& from, const glm::dvec3& to, double fraction) {
-    const glm::dvec3 normal = glm::cross(from, to);
-    const double sine = glm::length(normal);
-    const double cosine = glm::dot(from, to);
-    constexpr double kParallel = 1e-12;
-    if (sine < kParallel && cosine > 0.0) {
-        return to;
-    }
-    const glm::dvec3 axis = sine < kParallel ? perpendicular(from) : normal / sine;
-    const double angle = std::atan2(sine, cosine) * fraction;
-    return std::cos(angle) * from + std::sin(angle) * glm::cross(axis, from);
-}
-
 double smooth_step(double t) { return t * t * (3.0 - 2.0 * t); }
 
 }  // namespace

@@ -1,11 +1,12 @@
 #include "runtime/latency/duration_histogram.h"
 
-#include "runtime/time/milliseconds.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
+
+#include "runtime/latency/nearest_rank.h"
+#include "runtime/time/milliseconds.h"
 
 namespace gazeloop::latency {
 namespace {
@@ -20,10 +21,6 @@ constexpr int kCoarseLog2 = 3;
 constexpr std::size_t kExactBins = std::size_t{1} << kExactBits;
 constexpr std::size_t kFineEnd = kExactBins + (std::size_t{kCoarseFrom - kExactBits} << kFineLog2);
 constexpr std::size_t kBinsPerSign = kFineEnd + (std::size_t{64 - kCoarseFrom} << kCoarseLog2);
-
-// Percentages such as 99.9 are not binary fractions, so products with them are taken to be off by
-// this share. It is far below one sample in any count that fits a bin.
-constexpr double kRounding = 1e-12;
 
 std::uint64_t magnitude(std::int64_t value) {
     return value < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(value)
@@ -92,15 +89,12 @@ std::optional<double> DurationHistogram::mean_ms() const {
 }
 
 std::optional<double> DurationHistogram::percentile_ms(double percent) const {
-    const double count = static_cast<double>(count_);
-    if (!(percent > 0.0 && percent < 100.0) ||
-        count * (100.0 - percent) < 100.0 * (1.0 - kRounding)) {
+    const std::optional<std::uint64_t> rank = nearest_rank(percent, count_);
+    if (!rank) {
         return std::nullopt;
     }
-    const double rank = std::ceil(percent * count / 100.0 * (1.0 - kRounding));
-    const std::uint64_t wanted = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(rank));
     std::size_t bin = 0;
-    for (std::uint64_t seen = bins_[0]; seen < wanted; seen += bins_[bin]) {
+    for (std::uint64_t seen = bins_[0]; seen < *rank; seen += bins_[bin]) {
         ++bin;
     }
     const double value_ns = bin < kBinsPerSign ? -magnitude_of(kBinsPerSign - 1 - bin)

@@ -56,7 +56,7 @@ Json row_json(const latency::DurationRow& row) {
 Json summary_json(const latency::SummaryReport& report) {
     Json durations = Json::object();
     for (const NamedRow& named : rows_of(report)) {
-        durations[named.key] = row_json(*named.row);
+        durations[named.name.key] = row_json(*named.row);
     }
     const latency::SummaryConfig& config = report.config;
     const latency::FrameCounts& frames = report.frames;

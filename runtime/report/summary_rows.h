@@ -1,16 +1,15 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "runtime/latency/latency_summary.h"
+#include "runtime/report/row_names.h"
 
 namespace gazeloop::report {
 
 /// A row of a report with its names.
 struct NamedRow {
-    std::string key;    ///< for programs, e.g. "stage_wait_for_display"
-    std::string label;  ///< for people; stages are indented below their sum
+    RowName name;
     const latency::DurationRow* row;
 };
 

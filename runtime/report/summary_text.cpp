@@ -105,7 +105,7 @@ void append_table(std::string& text, const latency::SummaryReport& report) {
     bool mixed = false;
     for (const NamedRow& named : rows_of(report)) {
         const latency::DurationRow& row = *named.row;
-        fmt::format_to(out, kRow, named.label, kind_cell(row), count(row.count),
+        fmt::format_to(out, kRow, named.name.label, kind_cell(row), count(row.count),
                        milliseconds(row.min_ms), milliseconds(row.mean_ms),
                        milliseconds(row.p50_ms), milliseconds(row.p95_ms), milliseconds(row.p99_ms),
                        milliseconds(row.max_ms));
