@@ -3,13 +3,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/report/frame_csv.h"
 #include "runtime/report/output_file.h"
+#include "runtime/report/percentiles.h"
+#include "runtime/report/session_json.h"
 #include "runtime/report/session_summary.h"
+#include "runtime/report/session_text.h"
 #include "runtime/report/summary_json.h"
-#include "runtime/report/summary_text.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -17,6 +21,9 @@ namespace {
 struct ReportCommand {
     LogOptions log;
     std::string file;
+    std::string percentiles;
+    bool percentiles_given = false;
+    std::string csv;
     std::string json;
 };
 
@@ -34,15 +41,37 @@ std::string end_of(const session::SessionInfo& info, const session::PlaybackEnd&
     return text;
 }
 
-ExitCode report(const ReportCommand& command) {
-    if (!command.json.empty()) {
-        value_or_throw(report::check_output(command.json));
+/// One output takes stdout, and no two take the same file.
+void check_outputs(const ReportCommand& command) {
+    for (const std::string* const file : {&command.csv, &command.json}) {
+        if (!file->empty()) {
+            value_or_throw(report::check_output(*file));
+        }
     }
+    if (!command.csv.empty() && command.csv == command.json) {
+        throw SetupError(
+            ErrorKind::Usage,
+            fmt::format("--csv and --json both name {}: give each a file of its own", command.csv));
+    }
+}
+
+void write_csv(const std::string& file, const report::FrameLog& frames) {
+    report::OutputFile output = value_or_throw(report::OutputFile::open(file));
+    value_or_throw(report::write_frame_csv(
+        frames, [&output](std::string_view piece) { return output.write(piece); }));
+    value_or_throw(output.close());
+}
+
+ExitCode report(const ReportCommand& command) {
+    const report::Percentiles percentiles =
+        command.percentiles_given ? value_or_throw(report::Percentiles::parse(command.percentiles))
+                                  : report::Percentiles{};
+    check_outputs(command);
     const auto session = value_or_throw(session::OpenSession::open(command.file));
     const session::SessionInfo& info = session.info();
     const report::SessionSummary summary = value_or_throw(report::summarize(session));
-    if (command.json != "-" && !command.log.quiet) {
-        fmt::print("{}{}", report::summary_text(summary.report), summary.trace.text());
+    if (command.json != "-" && command.csv != "-" && !command.log.quiet) {
+        fmt::print("{}{}", report::session_text(summary, percentiles), summary.trace.text());
         if (!info.closed_cleanly) {
             fmt::print("{}\n", end_of(info, summary.end));
         }
@@ -54,10 +83,12 @@ ExitCode report(const ReportCommand& command) {
                        info.records_dropped);
         }
     }
+    if (!command.csv.empty()) {
+        write_csv(command.csv, *summary.frames);
+    }
     if (!command.json.empty()) {
-        nlohmann::ordered_json json = report::summary_json(summary.report);
-        summary.trace.add_to(json);
-        value_or_throw(report::write_text(command.json, report::json_text(json)));
+        value_or_throw(report::write_text(
+            command.json, report::json_text(report::session_json(summary, info, percentiles))));
     }
     return ExitCode::Ok;
 }
@@ -68,10 +99,17 @@ void add_report_command(Command program) {
     Command app = program.command("report", "where a session's latency went");
     const auto command = std::make_shared<ReportCommand>();
     app.option("file", command->file, "a session written by --record").required().type("SESSION");
+    const Option percentiles =
+        app.option("--percentiles", command->percentiles,
+                   "percents to show, separated by commas (default 50,90,95,99,99.9)")
+            .type("LIST");
+    app.option("--csv", command->csv, "write every frame as a line of CSV; - is stdout")
+        .type("FILE");
     app.option("--json", command->json, "write the report as JSON; - is stdout").type("FILE");
     command->log.add_to(app);
     app.does([=] {
         command->log.apply();
+        command->percentiles_given = percentiles.given();
         return report(*command);
     });
 }

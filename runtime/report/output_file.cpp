@@ -7,9 +7,9 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace gazeloop::report {
 namespace {
@@ -48,35 +48,14 @@ int write_all(int descriptor, std::string_view text) {
     return 0;
 }
 
-int write_and_close(int descriptor, std::string_view text) {
-    const int error = write_all(descriptor, text);
-    return ::close(descriptor) != 0 && error == 0 ? errno : error;
-}
-
-int write_in_place(const fs::path& file, std::string_view text) {
-    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    return descriptor < 0 ? errno : write_and_close(descriptor, text);
-}
-
-/// The system's error, 0 if none, or nothing where there can be no file beside this one.
-std::optional<int> replace(const fs::path& file, std::string_view text) {
-    const std::string beside = fmt::format("{}.partial-{}", file.string(), ::getpid());
+/// A new file beside this one, that may take its place.
+int open_beside(const fs::path& file, const std::string& beside) {
     const int descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0) {
-        return std::nullopt;
-    }
     struct stat before{};
-    if (::stat(file.c_str(), &before) == 0) {
+    if (descriptor >= 0 && ::stat(file.c_str(), &before) == 0) {
         ::fchmod(descriptor, before.st_mode & 0777U);
     }
-    int error = write_and_close(descriptor, text);
-    if (error == 0 && ::rename(beside.c_str(), file.c_str()) != 0) {
-        error = errno;
-    }
-    if (error != 0) {
-        ::unlink(beside.c_str());
-    }
-    return error;
+    return descriptor;
 }
 
 }  // namespace
@@ -101,29 +80,91 @@ Expected<void> check_output(const fs::path& file) {
     return {};
 }
 
-Expected<void> write_text(const fs::path& file, std::string_view text) {
+OutputFile::OutputFile(fs::path file, fs::path real, std::string beside, int descriptor)
+    : file_(std::move(file)),
+      real_(std::move(real)),
+      beside_(std::move(beside)),
+      descriptor_(descriptor) {}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : file_(std::move(other.file_)),
+      real_(std::move(other.real_)),
+      beside_(std::exchange(other.beside_, {})),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+OutputFile::~OutputFile() { abandon(); }
+
+Expected<OutputFile> OutputFile::open(const fs::path& file) {
     if (file == "-") {
-        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
-            return refuse(file, errno);
-        }
-        return {};
+        return OutputFile(file, file, {}, -1);
     }
     if (auto writable = check_output(file); !writable) {
-        return writable;
+        return std::unexpected(std::move(writable.error()));
     }
     const fs::path real = followed(file);
     std::error_code ignored;
-    std::optional<int> error;
     if (!fs::exists(real, ignored) || fs::is_regular_file(real, ignored)) {
-        error = replace(real, text);
+        std::string beside = fmt::format("{}.partial-{}", real.string(), ::getpid());
+        if (const int descriptor = open_beside(real, beside); descriptor >= 0) {
+            return OutputFile(file, real, std::move(beside), descriptor);
+        }
     }
-    if (!error) {
-        error = write_in_place(real, text);
+    const int descriptor = ::open(real.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor < 0) {
+        return refuse(file, errno);
     }
-    if (*error != 0) {
-        return refuse(file, *error);
+    return OutputFile(file, real, {}, descriptor);
+}
+
+Expected<void> OutputFile::write(std::string_view text) {
+    if (file_ == "-") {
+        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
+            return refuse(file_, errno);
+        }
+        return {};
+    }
+    if (const int error = write_all(descriptor_, text); error != 0) {
+        abandon();
+        return refuse(file_, error);
     }
     return {};
+}
+
+Expected<void> OutputFile::close() {
+    if (file_ == "-") {
+        return {};
+    }
+    int error = ::close(std::exchange(descriptor_, -1)) != 0 ? errno : 0;
+    if (error == 0 && !beside_.empty() && ::rename(beside_.c_str(), real_.c_str()) != 0) {
+        error = errno;
+    }
+    if (error != 0) {
+        abandon();
+        return refuse(file_, error);
+    }
+    beside_.clear();
+    return {};
+}
+
+void OutputFile::abandon() {
+    if (descriptor_ >= 0) {
+        ::close(std::exchange(descriptor_, -1));
+    }
+    if (!beside_.empty()) {
+        ::unlink(beside_.c_str());
+        beside_.clear();
+    }
+}
+
+Expected<void> write_text(const fs::path& file, std::string_view text) {
+    Expected<OutputFile> output = OutputFile::open(file);
+    if (!output) {
+        return std::unexpected(std::move(output.error()));
+    }
+    if (auto written = output->write(text); !written) {
+        return written;
+    }
+    return output->close();
 }
 
 }  // namespace gazeloop::report

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "runtime/error.h"
@@ -10,6 +11,37 @@ namespace gazeloop::report {
 /// Checks whether write_text() should succeed, so that a long run is not started for nothing.
 /// Creates and changes nothing. Errors (BadInput): file and reason are named.
 Expected<void> check_output(const std::filesystem::path& file);
+
+/// A file that is written piece by piece; "-" is stdout. An existing file is replaced at the end,
+/// by a complete new one. Where that is not possible (a device, a folder without write permission),
+/// it is written in place. Without close(), what was there before stays, unless it is written in
+/// place.
+class OutputFile {
+  public:
+    /// Errors (BadInput): file and reason are named, here and below.
+    static Expected<OutputFile> open(const std::filesystem::path& file);
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+    OutputFile(OutputFile&& other) noexcept;
+    OutputFile& operator=(OutputFile&&) = delete;
+    ~OutputFile();
+
+    /// Not after an error.
+    Expected<void> write(std::string_view text);
+    /// Once, after the last piece; not after an error.
+    Expected<void> close();
+
+  private:
+    OutputFile(std::filesystem::path file, std::filesystem::path real, std::string beside,
+               int descriptor);
+    /// Closes and removes what is unfinished.
+    void abandon();
+
+    std::filesystem::path file_;  ///< as it was named
+    std::filesystem::path real_;  ///< what it stands for
+    std::string beside_;          ///< becomes the file in the end; empty: written in place
+    int descriptor_;              ///< -1: closed
+};
 
 /// Writes a whole file; "-" is stdout. An existing file is replaced at the end, by a complete new
 /// one. Where that is not possible (a device, a folder without write permission), it is written in

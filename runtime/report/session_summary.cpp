@@ -1,6 +1,7 @@
 #include "runtime/report/session_summary.h"
 
 #include <array>
+#include <memory>
 #include <utility>
 
 #include "runtime/latency/summary_observer.h"
@@ -26,12 +27,17 @@ Expected<SessionSummary> summarize(const session::OpenSession& session) {
     latency::SummaryObserver observer(summary);
     TraceAccount trace;
     TraceObserver tracing(trace);
-    const std::array<frame::FrameObserver*, 2> observers{&observer, &tracing};
+    auto frames = std::make_unique<FrameLog>(config);
+    const std::array<frame::FrameObserver*, 3> observers{&observer, &tracing, frames.get()};
     auto end = session::play(session, observers);
     if (!end) {
         return std::unexpected(std::move(end.error()));
     }
-    return SessionSummary{summary.report(), std::move(trace), *std::move(end)};
+    frames->finish();
+    return SessionSummary{.report = summary.report(),
+                          .frames = std::move(frames),
+                          .trace = std::move(trace),
+                          .end = *std::move(end)};
 }
 
 }  // namespace gazeloop::report

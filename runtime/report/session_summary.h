@@ -1,8 +1,11 @@
 #pragma once
 
+#include <memory>
+
 #include "runtime/display/display_profile.h"
 #include "runtime/error.h"
 #include "runtime/latency/latency_summary.h"
+#include "runtime/report/frame_log.h"
 #include "runtime/report/trace_account.h"
 #include "runtime/session/playback.h"
 
@@ -14,6 +17,7 @@ latency::SummaryConfig summary_config(const display::DisplayProfile& display,
 /// What a recorded session shows once it has been played.
 struct SessionSummary {
     latency::SummaryReport report;  ///< the same as at the end of its run
+    std::unique_ptr<const FrameLog> frames;
     TraceAccount trace;
     session::PlaybackEnd end;
 };

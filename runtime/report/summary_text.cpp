@@ -6,33 +6,13 @@
 #include <optional>
 #include <string_view>
 
+#include "runtime/report/figures.h"
 #include "runtime/report/happenings_text.h"
 #include "runtime/report/summary_rows.h"
 #include "runtime/time/milliseconds.h"
 
 namespace gazeloop::report {
 namespace {
-
-/// A column holds 8 characters and a blank. Longer figures lose decimals, then digits.
-std::string milliseconds(const std::optional<double>& ms) {
-    if (!ms) {
-        return "-";
-    }
-    constexpr std::size_t kColumn = 8;
-    for (const int decimals : {2, 0}) {
-        std::string text = fmt::format("{:.{}f}", *ms, decimals);
-        if (text.size() <= kColumn) {
-            return text;
-        }
-    }
-    return fmt::format("{:.1e}", *ms);
-}
-
-std::string count(std::uint64_t value) {
-    constexpr std::uint64_t kWidest = 99'999'999;
-    return value <= kWidest ? fmt::format("{}", value)
-                            : fmt::format("{:.2e}", static_cast<double>(value));
-}
 
 std::string percent(std::uint64_t part, std::uint64_t whole) {
     return whole == 0 ? "-"
@@ -70,7 +50,7 @@ std::string pace(const latency::SummaryReport& report) {
             : std::nullopt;
     const std::optional<double> missed = report.missed_percent();
     const auto with_unit = [](const std::optional<double>& ms) {
-        return ms ? milliseconds(ms) + " ms" : "unknown";
+        return ms ? figure(ms) + " ms" : "unknown";
     };
     return fmt::format("median interval {}, display period {}, missed {}",
                        with_unit(report.frame_interval.p50_ms), with_unit(period_ms),
@@ -91,11 +71,6 @@ std::string verdict_line(const latency::SummaryReport& report) {
     return "no latency verdict: " + pace(report) + "\n";
 }
 
-/// The kind of a row: the least certain one of its frames, with '+' where there are better ones.
-std::string kind_cell(const latency::DurationRow& row) {
-    return std::string(time::name(row.kind())) + (row.mixed() ? "+" : "");
-}
-
 void append_table(std::string& text, const latency::SummaryReport& report) {
     auto out = std::back_inserter(text);
     constexpr std::string_view kRow = "{:<24}{:<11}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}\n";
@@ -105,10 +80,10 @@ void append_table(std::string& text, const latency::SummaryReport& report) {
     bool mixed = false;
     for (const NamedRow& named : rows_of(report)) {
         const latency::DurationRow& row = *named.row;
-        fmt::format_to(out, kRow, named.name.label, kind_cell(row), count(row.count),
-                       milliseconds(row.min_ms), milliseconds(row.mean_ms),
-                       milliseconds(row.p50_ms), milliseconds(row.p95_ms), milliseconds(row.p99_ms),
-                       milliseconds(row.max_ms));
+        fmt::format_to(out, kRow, named.name.label, kind_text(row.frames_by_kind),
+                       count_text(row.count), figure(row.min_ms), figure(row.mean_ms),
+                       figure(row.p50_ms), figure(row.p95_ms), figure(row.p99_ms),
+                       figure(row.max_ms));
         withheld = withheld || !row.p99_ms;
         mixed = mixed || row.mixed();
     }
@@ -118,6 +93,79 @@ void append_table(std::string& text, const latency::SummaryReport& report) {
     if (mixed) {
         text += "+: the least certain kind of several\n";
     }
+}
+
+/// "2 (0.1 %) by 3 periods, unknown of 4 frames".
+std::string missed(const latency::SummaryReport& report) {
+    const latency::FrameCounts& frames = report.frames;
+    const std::optional<double> percent_missed = report.missed_percent();
+    if (!percent_missed) {
+        return "unknown";
+    }
+    std::string text = fmt::format("{} ({:.1f} %) by {} periods", count_text(frames.missed),
+                                   *percent_missed, count_text(frames.periods_missed));
+    if (frames.in_time_unknown > 0) {
+        text += fmt::format(", unknown of {} frames", count_text(frames.in_time_unknown));
+    }
+    return text;
+}
+
+/// Said only where there is a mask.
+std::string hidden(const frame::SampleCounts& samples, std::uint64_t of_them) {
+    return samples.pixels_hidden > 0 ? fmt::format(", hidden {}", count_text(of_them)) : "";
+}
+
+void append_counts(std::string& text, const latency::SummaryReport& report) {
+    auto out = std::back_inserter(text);
+    const latency::FrameCounts& frames = report.frames;
+    fmt::format_to(out, "frames   {}, rendered {}\nmissed   {}", count_text(frames.total),
+                   count_text(frames.rendered), missed(report));
+    if (frames.display_unknown > 0) {
+        fmt::format_to(out, "\nshown    at an unknown time in {} of {} rendered frames",
+                       count_text(frames.display_unknown), count_text(frames.rendered));
+    }
+    text += "\ngaze    ";
+    for (std::size_t state = 0; state < frames.by_state.size(); ++state) {
+        fmt::format_to(out, "{} {} {}", state == 0 ? "" : ",", gaze::kFoveaStateNames[state],
+                       percent(frames.by_state[state], frames.rendered));
+    }
+    fmt::format_to(out, "\nsamples  received {}, invalid {}, lost {}, out of order {}\n",
+                   count_text(report.gaze.received), count_text(report.gaze.invalid),
+                   count_text(report.gaze.lost), count_text(report.gaze.out_of_order));
+    const frame::SampleCounts& samples = report.samples;
+    for (std::size_t grid = 0; grid < report.config.grids.size(); ++grid) {
+        const frame::GridCounts& counts = samples.grids[grid];
+        fmt::format_to(out, "{:<8} shaded {} of {}", report.config.grids[grid],
+                       count_text(counts.shaded), count_text(counts.planned));
+        if (counts.off_screen > 0) {
+            fmt::format_to(out, ", off screen {}", count_text(counts.off_screen));
+        }
+        if (counts.covered > 0) {
+            fmt::format_to(out, ", covered by another grid {}", count_text(counts.covered));
+        }
+        text += hidden(samples, counts.hidden) + "\n";
+    }
+    fmt::format_to(out, "pixels   {}{}\n", count_text(samples.pixels_output),
+                   hidden(samples, samples.pixels_hidden));
+    if (const std::optional<double> fewer = report.samples_saved_factor()) {
+        const std::string compared =
+            *fewer > 1.0   ? fmt::format("{:.1f}x fewer samples than", *fewer)
+            : *fewer < 1.0 ? fmt::format("{:.1f}x more samples than", 1.0 / *fewer)
+                           : "as many samples as";
+        text += "shading  " + compared + " full resolution\n";
+    }
+}
+
+}  // namespace
+
+std::string summary_head(const latency::SummaryReport& report) {
+    return report.verdict == latency::Verdict::NotRealTime
+               ? verdict_line(report) + share_line(report)
+               : share_line(report) + verdict_line(report);
+}
+
+std::string summary_notes(const latency::SummaryReport& report) {
+    std::string text;
     if (!report.config.switching_ns) {
         text += "The display's switching time is unknown and in none of these ages.\n";
     }
@@ -135,86 +183,22 @@ void append_table(std::string& text, const latency::SummaryReport& report) {
                        "Assumed, not published, in the display's profile: {}.\n",
                        report.config.assumed);
     }
-}
-
-/// "2 (0.1 %) by 3 periods, unknown of 4 frames".
-std::string missed(const latency::SummaryReport& report) {
-    const latency::FrameCounts& frames = report.frames;
-    const std::optional<double> percent_missed = report.missed_percent();
-    if (!percent_missed) {
-        return "unknown";
-    }
-    std::string text = fmt::format("{} ({:.1f} %) by {} periods", count(frames.missed),
-                                   *percent_missed, count(frames.periods_missed));
-    if (frames.in_time_unknown > 0) {
-        text += fmt::format(", unknown of {} frames", count(frames.in_time_unknown));
-    }
     return text;
 }
 
-/// Said only where there is a mask.
-std::string hidden(const frame::SampleCounts& samples, std::uint64_t of_them) {
-    return samples.pixels_hidden > 0 ? fmt::format(", hidden {}", count(of_them)) : "";
-}
-
-void append_counts(std::string& text, const latency::SummaryReport& report) {
-    auto out = std::back_inserter(text);
-    const latency::FrameCounts& frames = report.frames;
-    fmt::format_to(out, "frames   {}, rendered {}\nmissed   {}", count(frames.total),
-                   count(frames.rendered), missed(report));
-    if (frames.display_unknown > 0) {
-        fmt::format_to(out, "\nshown    at an unknown time in {} of {} rendered frames",
-                       count(frames.display_unknown), count(frames.rendered));
-    }
-    text += "\ngaze    ";
-    for (std::size_t state = 0; state < frames.by_state.size(); ++state) {
-        fmt::format_to(out, "{} {} {}", state == 0 ? "" : ",", gaze::kFoveaStateNames[state],
-                       percent(frames.by_state[state], frames.rendered));
-    }
-    fmt::format_to(out, "\nsamples  received {}, invalid {}, lost {}, out of order {}\n",
-                   count(report.gaze.received), count(report.gaze.invalid), count(report.gaze.lost),
-                   count(report.gaze.out_of_order));
-    const frame::SampleCounts& samples = report.samples;
-    for (std::size_t grid = 0; grid < report.config.grids.size(); ++grid) {
-        const frame::GridCounts& counts = samples.grids[grid];
-        fmt::format_to(out, "{:<8} shaded {} of {}", report.config.grids[grid],
-                       count(counts.shaded), count(counts.planned));
-        if (counts.off_screen > 0) {
-            fmt::format_to(out, ", off screen {}", count(counts.off_screen));
-        }
-        if (counts.covered > 0) {
-            fmt::format_to(out, ", covered by another grid {}", count(counts.covered));
-        }
-        text += hidden(samples, counts.hidden) + "\n";
-    }
-    fmt::format_to(out, "pixels   {}{}\n", count(samples.pixels_output),
-                   hidden(samples, samples.pixels_hidden));
-    if (const std::optional<double> fewer = report.samples_saved_factor()) {
-        const std::string compared =
-            *fewer > 1.0   ? fmt::format("{:.1f}x fewer samples than", *fewer)
-            : *fewer < 1.0 ? fmt::format("{:.1f}x more samples than", 1.0 / *fewer)
-                           : "as many samples as";
-        text += "shading  " + compared + " full resolution\n";
-    }
-}
-
-}  // namespace
-
-std::string summary_text(const latency::SummaryReport& report) {
+std::string summary_counts(const latency::SummaryReport& report) {
     std::string text;
-    if (report.verdict == latency::Verdict::NotRealTime) {
-        text += verdict_line(report) + share_line(report);
-    } else {
-        text += share_line(report) + verdict_line(report);
-    }
-    text += "\n";
-    append_table(text, report);
-    text += "\n";
     append_counts(text, report);
     if (const std::string happened = happenings_text(report); !happened.empty()) {
         text += "\n" + happened;
     }
     return text;
+}
+
+std::string summary_text(const latency::SummaryReport& report) {
+    std::string text = summary_head(report) + "\n";
+    append_table(text, report);
+    return text + summary_notes(report) + "\n" + summary_counts(report);
 }
 
 }  // namespace gazeloop::report

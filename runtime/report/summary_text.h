@@ -10,4 +10,13 @@ namespace gazeloop::report {
 /// not real time, the first line says so. The next line says how eye-to-photon was obtained.
 std::string summary_text(const latency::SummaryReport& report);
 
+// Its parts, for other texts of the same.
+
+/// The first two lines.
+std::string summary_head(const latency::SummaryReport& report);
+/// Below the table: what its ages do not know of the display.
+std::string summary_notes(const latency::SummaryReport& report);
+/// Frames, gaze, samples, and what happened.
+std::string summary_counts(const latency::SummaryReport& report);
+
 }  // namespace gazeloop::report

@@ -1,0 +1,117 @@
+#include "runtime/report/session_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "runtime/report/session_rows.h"
+#include "runtime/report/summary_json.h"
+
+namespace gazeloop::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kWorstFrames = 10;
+
+Json or_null(const auto& value) { return value ? Json(*value) : Json(nullptr); }
+
+std::string suffix(Unit unit) {
+    switch (unit) {
+        case Unit::Nanoseconds:
+            return "_ms";
+        case Unit::Microdegrees:
+            return "_degrees";
+        case Unit::Count:
+            break;
+    }
+    return "";
+}
+
+time::StampKind weakest(const SessionRow& row) {
+    time::StampKind kind = time::StampKind::Unknown;
+    for (std::size_t place = 1; place < time::kStampKindCount; ++place) {
+        kind = row.frames_by_kind[place] > 0 ? static_cast<time::StampKind>(place) : kind;
+    }
+    return kind;
+}
+
+Json row_json(const SessionRow& row, const Percentiles& percentiles) {
+    Json kinds = Json::object();
+    for (std::size_t kind = 0; kind < time::kStampKindCount; ++kind) {
+        kinds[std::string(time::kStampKindNames[kind])] = row.frames_by_kind[kind];
+    }
+    const std::string unit = suffix(row.unit);
+    Json json{{"frames", row.known},
+              {"kind", time::name(weakest(row))},
+              {"frames_by_kind", std::move(kinds)},
+              {"negative_frames", row.negative},
+              {"min" + unit, or_null(row.least)},
+              {"mean" + unit, or_null(row.mean)}};
+    const std::vector<std::string> names = percentiles.names();
+    for (std::size_t place = 0; place < names.size(); ++place) {
+        json[names[place] + unit] = or_null(row.percentiles[place]);
+    }
+    json["max" + unit] = or_null(row.greatest);
+    return json;
+}
+
+Json worst_json(const FrameLog& frames) {
+    Json worst = Json::array();
+    for (const std::size_t row : frames.worst(kWorstFrames)) {
+        const auto state = frames.state(row);
+        Json one{
+            {"frame", frames.number(row)},
+            {"wake_up_ns", or_null(frames.wake_up_ns(row))},
+            {"shown_ns", or_null(frames.shown_ns(row))},
+            {"gaze_state", state ? Json(gaze::kFoveaStateNames[static_cast<std::size_t>(*state)])
+                                 : Json(nullptr)}};
+        for (const DurationColumn& column : frames.columns()) {
+            const std::optional<std::int64_t> number = column.at(row);
+            const std::string key = column.key() + suffix(column.unit());
+            if (!number) {
+                one[key] = nullptr;
+            } else if (column.unit() == Unit::Count) {
+                one[key] = *number;
+            } else {
+                one[key] = shown(static_cast<double>(*number), column.unit());
+            }
+        }
+        worst.push_back(std::move(one));
+    }
+    return worst;
+}
+
+}  // namespace
+
+Json session_json(const SessionSummary& session, const session::SessionInfo& info,
+                  const Percentiles& percentiles) {
+    const FrameLog& frames = *session.frames;
+    Json json{{"schema_version", kReportSchemaVersion}};
+    json.update(summary_json(session.report));
+    Json durations = Json::object();
+    Json errors = Json::object();
+    for (const SessionRow& row : rows_of(frames, percentiles.percents())) {
+        if (row.unit == Unit::Nanoseconds) {
+            durations[row.name.key] = row_json(row, percentiles);
+        } else if (row.unit == Unit::Microdegrees) {
+            errors[row.name.key] = row_json(row, percentiles);
+        }
+    }
+    const latency::GazeErrorGaps& gaps = frames.gaze_error_gaps();
+    errors["unknown"] = {{"no_display_time", gaps.no_display_time},
+                         {"no_sample_near", gaps.no_sample_near},
+                         {"eye_lost", gaps.eye_lost},
+                         {"no_head", gaps.no_head}};
+    json["percentiles"] = percentiles.percents();
+    json["durations"] = std::move(durations);
+    json["gaze_error"] = std::move(errors);
+    json["worst_frames"] = worst_json(frames);
+    json["recording"] = {{"schema_version", info.schema_version},
+                         {"closed", info.closed_cleanly},
+                         {"records_dropped", info.records_dropped},
+                         {"last_frame", or_null(session.end.last_frame)},
+                         {"last_error", or_null(session.end.last_error)}};
+    session.trace.add_to(json);
+    return json;
+}
+
+}  // namespace gazeloop::report

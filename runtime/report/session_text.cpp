@@ -1,0 +1,151 @@
+#include "runtime/report/session_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+#include <vector>
+
+#include "runtime/report/figures.h"
+#include "runtime/report/row_names.h"
+#include "runtime/report/session_rows.h"
+#include "runtime/report/summary_text.h"
+
+namespace gazeloop::report {
+namespace {
+
+constexpr std::size_t kFigure = 6;  // characters; a column has a blank more
+constexpr std::size_t kWorstFrames = 10;
+
+void append_cells(std::string& line, const std::vector<std::string>& cells) {
+    for (const std::string& cell : cells) {
+        fmt::format_to(std::back_inserter(line), "{:>7}", cell);
+    }
+}
+
+std::string line_of(std::string_view label, std::string_view kind, std::string_view frames,
+                    const std::vector<std::string>& cells) {
+    std::string line = fmt::format("{:<22}{:<10}{:>9}", label, kind, frames);
+    append_cells(line, cells);
+    return line + "\n";
+}
+
+std::string line_of(const SessionRow& row) {
+    std::vector<std::string> cells{figure(row.least, kFigure), figure(row.mean, kFigure)};
+    std::ranges::transform(row.percentiles, std::back_inserter(cells),
+                           [](const auto& value) { return figure(value, kFigure); });
+    cells.push_back(figure(row.greatest, kFigure));
+    return line_of(row.name.label, kind_text(row.frames_by_kind), count_text(row.known), cells);
+}
+
+std::string head_line(std::string_view unit, const Percentiles& percentiles) {
+    std::vector<std::string> cells{"min", "mean"};
+    std::ranges::copy(percentiles.names(), std::back_inserter(cells));
+    cells.emplace_back("max");
+    return line_of(unit, "kind", "frames", cells);
+}
+
+std::string table(std::span<const SessionRow> rows, const Percentiles& percentiles) {
+    std::string text;
+    for (const auto& [unit, name] :
+         {std::pair{Unit::Nanoseconds, "milliseconds"}, std::pair{Unit::Microdegrees, "degrees"}}) {
+        text += head_line(name, percentiles);
+        for (const SessionRow& row : rows) {
+            text += row.unit == unit ? line_of(row) : "";
+        }
+    }
+    const bool withheld = std::ranges::any_of(rows, [](const SessionRow& row) {
+        return std::ranges::any_of(row.percentiles, [](const auto& one) { return !one; });
+    });
+    if (withheld) {
+        text += "-: unknown, or withheld because a percentile p needs 1 / (1 - p) frames\n";
+    }
+    if (std::ranges::any_of(rows, [](const SessionRow& row) {
+            return kind_text(row.frames_by_kind).ends_with('+');
+        })) {
+        text += "+: the least certain kind of several\n";
+    }
+    return text;
+}
+
+/// A stage that is negative says that a clock or a prediction was wrong there.
+std::string negative_lines(std::span<const SessionRow> rows) {
+    std::string text;
+    for (const SessionRow& row : rows) {
+        if (row.negative > 0) {
+            const std::size_t begin = row.name.label.find_first_not_of(' ');
+            text += fmt::format("NEGATIVE: {} in {} of {} frames: a stamp or a clock is wrong\n",
+                                row.name.label.substr(begin), row.negative, row.known);
+        }
+    }
+    return text;
+}
+
+std::string error_lines(const FrameLog& frames) {
+    const latency::GazeErrorGaps& gaps = frames.gaze_error_gaps();
+    std::string text;
+    const auto add = [&text](std::uint64_t of, std::string_view why) {
+        if (of > 0) {
+            text += fmt::format("{} {} {}", text.empty() ? "gaze error unknown:" : ",", of, why);
+        }
+    };
+    add(gaps.no_display_time, "without display time");
+    add(gaps.no_sample_near, "without a sample within 25 ms");
+    add(gaps.eye_lost, "with the eye lost");
+    add(gaps.no_head, "with poses for lack of them");
+    return text.empty() ? text : text + "\n";
+}
+
+std::string worst_frames(const FrameLog& frames) {
+    const std::vector<std::size_t> worst = frames.worst(kWorstFrames);
+    if (worst.empty()) {
+        return {};
+    }
+    std::vector<const DurationColumn*> columns;
+    std::vector<std::string> heads;
+    const auto add = [&](const std::string& key, const std::string& head) {
+        if (frames.at(key).known() > 0) {
+            columns.push_back(&frames.at(key));
+            heads.push_back(head);
+        }
+    };
+    add(kGazeAgeAtDisplay.key, "age");
+    for (std::size_t stage = 0; stage < latency::kStageCount; ++stage) {
+        constexpr std::array<const char*, latency::kStageCount> kShort{
+            "track", "deliv", "queue", "filter", "submit", "gpu", "wait", "row", "switch"};
+        add(stage_name(stage).key, kShort[stage]);
+    }
+    add(kUnaccounted.key, "unacc");
+    add(kGazeError.key, "error");
+    std::string text = fmt::format("{:<22}", "worst frames (ms, deg)");
+    append_cells(text, heads);
+    text += "\n";
+    for (const std::size_t row : worst) {
+        std::vector<std::string> cells;
+        for (const DurationColumn* const column : columns) {
+            const auto number = column->at(row);
+            cells.push_back(
+                figure(number ? std::optional(shown(static_cast<double>(*number), column->unit()))
+                              : std::nullopt,
+                       kFigure));
+        }
+        fmt::format_to(std::back_inserter(text), "{:<22}",
+                       fmt::format("{:>10}", frames.number(row)));
+        append_cells(text, cells);
+        text += "\n";
+    }
+    return text + "\n";
+}
+
+}  // namespace
+
+std::string session_text(const SessionSummary& session, const Percentiles& percentiles) {
+    const FrameLog& frames = *session.frames;
+    const std::vector<SessionRow> rows = rows_of(frames, percentiles.percents());
+    return summary_head(session.report) + "\n" + table(rows, percentiles) + negative_lines(rows) +
+           error_lines(frames) + summary_notes(session.report) + "\n" + worst_frames(frames) +
+           summary_counts(session.report);
+}
+
+}  // namespace gazeloop::report

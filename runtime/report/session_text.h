@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "runtime/report/percentiles.h"
+#include "runtime/report/session_summary.h"
+
+namespace gazeloop::report {
+
+/// The report of a session for people: that of its run, with exact percentiles, the gaze error in
+/// degrees and the worst frames. With the default percentiles at most 100 columns wide; every line
+/// ended by a newline.
+std::string session_text(const SessionSummary& session, const Percentiles& percentiles);
+
+}  // namespace gazeloop::report
