@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "runtime/frame/frame_gaze.h"
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/hidden_mesh.h"
@@ -36,6 +37,9 @@ class FrameObserver {
     virtual void on_frame(const FrameRecord&) {}
     /// The GPU has finished a frame.
     virtual void on_gpu(const FrameGpuRecord&) {}
+    /// In place of all on_sample, after the frame and its GPU part, where a session is played
+    /// without its samples.
+    virtual void on_gaze(const FrameGaze&) {}
     /// `kind` is one of frame/event.h, or what a recording holds.
     virtual void on_event(time::Stamp, std::string_view /*kind*/, std::string_view /*text*/) {}
 };

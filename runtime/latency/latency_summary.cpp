@@ -168,7 +168,7 @@ SummaryReport LatencySummary::report_of_complete() const {
     report.loop_time = loop_time_.row();
     report.passes = rows(passes_);
     report.frames = frames_;
-    report.gaze = gaze_.counts();
+    report.gaze = gaze_counts_.value_or(gaze_.counts());
     report.samples = samples_;
     report.happenings.assign(happenings_.list().begin(), happenings_.list().end());
     report.other_happenings = happenings_.others();

@@ -91,7 +91,7 @@ struct SummaryReport {
     /// the age.
     std::optional<std::array<double, time::kStampKindCount>> share_by_kind_percent;
     FrameCounts frames;
-    GazeCounts gaze;
+    frame::GazeCounts gaze;
     frame::SampleCounts samples;  ///< sums over the rendered frames
 
     std::vector<Happening> happenings;   ///< in the order of their first event
@@ -121,6 +121,8 @@ class LatencySummary {
 
     /// In the order of arrival.
     void add(const gaze::GazeSample& sample);
+    /// Of all samples so far, where these themselves are not added.
+    void set_gaze_counts(const frame::GazeCounts& counts) { gaze_counts_ = counts; }
     /// In the order of their index.
     void add(const frame::FrameRecord& record);
     /// To be added after its frame, and before 16 later frames; one that comes later counts only
@@ -173,6 +175,7 @@ class LatencySummary {
     std::array<SpanSeries, frame::kMostPasses> passes_;
     FrameCounts frames_;
     SampleCounter gaze_;
+    std::optional<frame::GazeCounts> gaze_counts_;  ///< in place of gaze_
     frame::SampleCounts samples_;
 };
 

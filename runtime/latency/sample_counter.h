@@ -2,20 +2,12 @@
 
 #include <cstdint>
 
+#include "runtime/frame/frame_gaze.h"
 #include "runtime/gaze/gaze_sample.h"
 
 namespace gazeloop::latency {
 
-/// What became of a tracker's samples on the way to the host.
-struct GazeCounts {
-    std::uint64_t received = 0;
-    std::uint64_t invalid = 0;  ///< the tracker vouches for neither eye
-    std::uint64_t lost = 0;     ///< by gaps in the sequence numbers
-    /// Repeated, overtaken by a higher sequence number, or sampled before its predecessor.
-    std::uint64_t out_of_order = 0;
-
-    friend bool operator==(const GazeCounts&, const GazeCounts&) = default;
-};
+using frame::GazeCounts;
 
 /// Counts samples in the order of arrival.
 class SampleCounter {

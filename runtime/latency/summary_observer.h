@@ -17,6 +17,7 @@ class SummaryObserver final : public frame::FrameObserver {
         summary_.add(record);
     }
     void on_gpu(const frame::FrameGpuRecord& record) override { summary_.add(record); }
+    void on_gaze(const frame::FrameGaze& gaze) override { summary_.set_gaze_counts(gaze.counts); }
     void on_event(time::Stamp time, std::string_view kind, std::string_view text) override {
         summary_.add_event(time, kind, text);
     }

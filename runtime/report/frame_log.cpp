@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <limits>
 #include <string>
 #include <utility>
@@ -27,8 +28,9 @@ time::Span counted(std::uint64_t count) {
     return {time::saturated(count), time::StampKind::Measured};
 }
 
-time::Span angle(const std::optional<double>& degrees, time::StampKind kind) {
-    return degrees ? time::Span{std::llround(*degrees * kMicrodegrees), kind} : time::Span{};
+time::Span angle(const std::optional<double>& radians, time::StampKind kind) {
+    return radians ? time::Span{std::llround(glm::degrees(*radians) * kMicrodegrees), kind}
+                   : time::Span{};
 }
 
 }  // namespace
@@ -76,12 +78,12 @@ FrameLog::FrameLog(const latency::SummaryConfig& config)
 
 void FrameLog::on_sample(const gaze::GazeSample& sample, std::uint64_t) {
     complete_last();
-    gaze_error_.add(sample);
+    gaze_errors_.add(sample);
 }
 
 void FrameLog::on_origin(const gaze::OriginChange& change) {
     complete_last();
-    gaze_error_.move_origin(change.new_in_old);
+    gaze_errors_.move_origin(change.new_in_old);
 }
 
 void FrameLog::on_frame(const frame::FrameRecord& record) {
@@ -98,10 +100,13 @@ void FrameLog::on_gpu(const frame::FrameGpuRecord& record) {
     }
 }
 
+void FrameLog::on_gaze(const frame::FrameGaze& gaze) { last_gaze_ = gaze; }
+
 void FrameLog::finish() {
     complete_last();
-    gaze_error_.finish();
+    gaze_errors_.finish();
     take_errors();
+    skip_errors();
     gather_columns();
 }
 
@@ -127,6 +132,7 @@ void FrameLog::complete_last() {
     }
     take_errors();
     last_.reset();
+    last_gaze_.reset();
 }
 
 void FrameLog::add_rendered(const latency::FinishedFrame& finished) {
@@ -144,7 +150,12 @@ void FrameLog::add_rendered(const latency::FinishedFrame& finished) {
         of_unknown_.add(latency::account_of(finished, period_ns, {}));
     }
     add_gaze(account);
-    gaze_error_.add(finished.frame, account.shown.at, account.with_gaze());
+    if (last_gaze_) {
+        add_error(last_gaze_->error);
+    } else {
+        gaze_errors_.add(finished.frame);
+        gaze_errors_.set_shown(finished.frame.index, account.shown.at);
+    }
     if (account.shown.in_time_known) {
         periods_missed_.add(counted(account.shown.periods_missed));
     } else {
@@ -181,22 +192,36 @@ void FrameLog::skip_rendered() {
     of_profile_.skip();
     of_unknown_.skip();
     add_gaze({});
-    gaze_error_.add(last_->frame, {}, false);
     periods_missed_.skip();
     samples_shaded_.skip();
     std::ranges::for_each(passes_, &DurationColumn::skip);
 }
 
 void FrameLog::take_errors() {
-    gaze_error_.take_decided([this](const latency::FrameGazeError& error) {
-        if (error.of_gaze) {
-            error_.add(angle(error.degrees, error.kind));
-            error_without_poses_.add(angle(error.without_poses_degrees, error.kind));
-        } else {
-            error_.skip();
-            error_without_poses_.skip();
-        }
-    });
+    gaze_errors_.take_decided(
+        [this](std::uint64_t, const std::optional<frame::GazeError>& error) { add_error(error); });
+}
+
+/// Of frames that were not rendered, up to the next one whose error is still to come.
+void FrameLog::skip_errors() {
+    while (error_.size() < states_.size() && states_[error_.size()] == kNotRendered) {
+        error_.skip();
+        error_without_poses_.skip();
+    }
+}
+
+void FrameLog::add_error(const std::optional<frame::GazeError>& error) {
+    skip_errors();
+    if (!error) {
+        error_.skip();
+        error_without_poses_.skip();
+        return;
+    }
+    error_.add(angle(error->radians, error->kind));
+    error_without_poses_.add(angle(error->without_poses_radians, error->kind));
+    if (error->gap != frame::GazeErrorGap::None) {
+        ++gaps_[static_cast<std::size_t>(error->gap)];
+    }
 }
 
 void FrameLog::gather_columns() {

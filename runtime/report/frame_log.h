@@ -11,7 +11,7 @@
 #include "runtime/frame/frame_observer.h"
 #include "runtime/latency/commonest_period.h"
 #include "runtime/latency/frame_account.h"
-#include "runtime/latency/gaze_error.h"
+#include "runtime/latency/gaze_errors.h"
 #include "runtime/latency/latency_summary.h"
 #include "runtime/report/duration_column.h"
 
@@ -33,6 +33,7 @@ class FrameLog final : public frame::FrameObserver {
     void on_origin(const gaze::OriginChange& change) override;
     void on_frame(const frame::FrameRecord& record) override;
     void on_gpu(const frame::FrameGpuRecord& record) override;
+    void on_gaze(const frame::FrameGaze& gaze) override;
     /// Once, after the last frame. Only then may anything below be asked.
     void finish();
 
@@ -57,7 +58,7 @@ class FrameLog final : public frame::FrameObserver {
     ///     held_gaze_age_at_display, frame_interval, loop_time,
     ///     pass_NAME (by the run's list),                      nanoseconds
     ///     gaze_error_at_display, gaze_error_without_poses,    microdegrees (see
-    ///     latency::GazeError) periods_missed, samples_shaded                      counts
+    ///     frame::GazeError) periods_missed, samples_shaded                      counts
     [[nodiscard]] std::span<const DurationColumn> columns() const { return columns_; }
     /// Null: there is none of this key.
     [[nodiscard]] const DurationColumn* column(std::string_view key) const;
@@ -69,8 +70,10 @@ class FrameLog final : public frame::FrameObserver {
     [[nodiscard]] std::vector<std::size_t> worst(std::size_t count) const;
 
     /// Of the frames whose gaze error is not known, why.
-    [[nodiscard]] const latency::GazeErrorGaps& gaze_error_gaps() const {
-        return gaze_error_.gaps();
+    /// By frame::GazeErrorGap; without None.
+    [[nodiscard]] const std::array<std::uint64_t, frame::kGazeErrorGapCount>& gaze_error_gaps()
+        const {
+        return gaps_;
     }
 
   private:
@@ -95,13 +98,17 @@ class FrameLog final : public frame::FrameObserver {
     void add_gaze(const latency::FrameAccount& account);
     void skip_rendered();
     void take_errors();
+    void skip_errors();
+    void add_error(const std::optional<frame::GazeError>& error);
     void gather_columns();
 
     latency::SummaryConfig config_;  ///< as the profile has it
     latency::CommonestPeriod periods_;
     std::optional<latency::FinishedFrame> last_;  ///< its GPU part may still come
     std::optional<Neighbour> before_;
-    latency::GazeError gaze_error_;
+    latency::GazeErrors gaze_errors_;
+    std::optional<frame::FrameGaze> last_gaze_;  ///< of last_, where a session says it
+    std::array<std::uint64_t, frame::kGazeErrorGapCount> gaps_{};
 
     NumberColumn numbers_;  ///< the bits of unsigned ones
     NumberColumn wake_up_;

@@ -96,11 +96,10 @@ Json session_json(const SessionSummary& session, const session::SessionInfo& inf
             errors[row.name.key] = row_json(row, percentiles);
         }
     }
-    const latency::GazeErrorGaps& gaps = frames.gaze_error_gaps();
-    errors["unknown"] = {{"no_display_time", gaps.no_display_time},
-                         {"no_sample_near", gaps.no_sample_near},
-                         {"eye_lost", gaps.eye_lost},
-                         {"no_head", gaps.no_head}};
+    Json& unknown = errors["unknown"] = Json::object();
+    for (std::size_t gap = 1; gap < frame::kGazeErrorGapCount; ++gap) {
+        unknown[std::string(frame::kGazeErrorGapNames[gap])] = frames.gaze_error_gaps()[gap];
+    }
     json["percentiles"] = percentiles.percents();
     json["durations"] = std::move(durations);
     json["gaze_error"] = std::move(errors);

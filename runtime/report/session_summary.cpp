@@ -29,7 +29,12 @@ Expected<SessionSummary> summarize(const session::OpenSession& session) {
     TraceObserver tracing(trace);
     auto frames = std::make_unique<FrameLog>(config);
     const std::array<frame::FrameObserver*, 3> observers{&observer, &tracing, frames.get()};
-    auto end = session::play(session, observers);
+    const Expected<bool> counted = session::has_gaze_counts(session);
+    if (!counted) {
+        return std::unexpected(counted.error());
+    }
+    auto end = session::play(session, observers,
+                             *counted ? session::PlayedGaze::Counts : session::PlayedGaze::Samples);
     if (!end) {
         return std::unexpected(std::move(end.error()));
     }

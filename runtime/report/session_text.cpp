@@ -83,17 +83,19 @@ std::string negative_lines(std::span<const SessionRow> rows) {
 }
 
 std::string error_lines(const FrameLog& frames) {
-    const latency::GazeErrorGaps& gaps = frames.gaze_error_gaps();
+    const auto gaps = [&frames](frame::GazeErrorGap gap) {
+        return frames.gaze_error_gaps()[static_cast<std::size_t>(gap)];
+    };
     std::string text;
     const auto add = [&text](std::uint64_t of, std::string_view why) {
         if (of > 0) {
             text += fmt::format("{} {} {}", text.empty() ? "gaze error unknown:" : ",", of, why);
         }
     };
-    add(gaps.no_display_time, "without display time");
-    add(gaps.no_sample_near, "without a sample within 25 ms");
-    add(gaps.eye_lost, "with the eye lost");
-    add(gaps.no_head, "with poses for lack of them");
+    add(gaps(frame::GazeErrorGap::NoDisplayTime), "without display time");
+    add(gaps(frame::GazeErrorGap::NoSampleNear), "without a sample within 25 ms");
+    add(gaps(frame::GazeErrorGap::EyeLost), "with the eye lost");
+    add(gaps(frame::GazeErrorGap::NoHead), "with poses for lack of them");
     return text.empty() ? text : text + "\n";
 }
 

@@ -42,6 +42,15 @@ ColumnNames frame_columns() {
     ColumnNames names;
     const frame::FrameRecord record;
     visit_frame(names, record);
+    const frame::GazeCounts counts;
+    visit_gaze_counts(names, counts);
+    return names;
+}
+
+ColumnNames gaze_error_columns() {
+    ColumnNames names;
+    const frame::GazeError error;
+    visit_gaze_error(names, error);
     return names;
 }
 
@@ -54,6 +63,8 @@ ColumnNames gpu_columns() {
 
 ColumnNames whole_frame_columns() {
     ColumnNames names = frame_columns();
+    const frame::GazeError error;
+    visit_gaze_error(names, error);
     const frame::FrameGpuRecord record;
     visit_gpu(names, record);
     return names;

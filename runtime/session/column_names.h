@@ -26,9 +26,10 @@ class ColumnNames {
 
 ColumnNames named_value_columns();  ///< of meta, config and device
 ColumnNames sample_columns();       ///< of gaze
-ColumnNames frame_columns();        ///< of frame, without the GPU part
+ColumnNames frame_columns();        ///< of frame, as it is inserted: its own, counts of samples
 ColumnNames gpu_columns();          ///< of frame, only the GPU part
-ColumnNames whole_frame_columns();  ///< both, in this order
+ColumnNames gaze_error_columns();   ///< of frame, what samples that come later tell
+ColumnNames whole_frame_columns();  ///< all of frame: its own, counts of samples, error, GPU part
 ColumnNames view_columns();
 ColumnNames fovea_columns();
 ColumnNames event_columns();

@@ -5,6 +5,7 @@
 
 #include "runtime/session/reading_error.h"
 #include "runtime/session/row_readers.h"
+#include "runtime/session/statement.h"
 
 namespace gazeloop::session {
 namespace {
@@ -32,13 +33,17 @@ class Ahead {
 
 class Player {
   public:
-    Player(const OpenSession& session, std::span<frame::FrameObserver* const> observers)
+    Player(const OpenSession& session, std::span<frame::FrameObserver* const> observers,
+           PlayedGaze gaze)
         : observers_(observers),
           frames_(session.database(), session.info().schema_version),
           hidden_(session),
           origins_(session),
-          samples_(session),
-          events_(session) {}
+          events_(session) {
+        if (gaze == PlayedGaze::Samples) {
+            samples_.emplace(session);
+        }
+    }
 
     PlaybackEnd run() {
         while (frames_.next()) {
@@ -48,6 +53,11 @@ class Player {
             tell([&](frame::FrameObserver& observer) { observer.on_frame(recorded.frame); });
             if (recorded.gpu_known) {
                 tell([&](frame::FrameObserver& observer) { observer.on_gpu(recorded.gpu); });
+            }
+            if (!samples_) {
+                const frame::FrameGaze gaze{index, recorded.gaze.value_or(frame::GazeCounts{}),
+                                            recorded.gaze_error};
+                tell([&](frame::FrameObserver& observer) { observer.on_gaze(gaze); });
             }
             end_.last_frame = index;
         }
@@ -73,10 +83,13 @@ class Player {
         origins_.tell_while(due, [this](const gaze::OriginChange& change) {
             tell([&](frame::FrameObserver& observer) { observer.on_origin(change); });
         });
-        samples_.tell_while(due, [this](const RecordedSample& one) {
-            tell(
-                [&](frame::FrameObserver& observer) { observer.on_sample(one.sample, one.frame); });
-        });
+        if (samples_) {
+            samples_->tell_while(due, [this](const RecordedSample& one) {
+                tell([&](frame::FrameObserver& observer) {
+                    observer.on_sample(one.sample, one.frame);
+                });
+            });
+        }
         events_.tell_while(
             [&](const RecordedEvent& event) {
                 return !event.time.known() || event.time.ns <= end_ns;
@@ -97,17 +110,36 @@ class Player {
     FrameRows frames_;
     Ahead<HiddenRows> hidden_;
     Ahead<OriginRows> origins_;
-    Ahead<SampleRows> samples_;
+    std::optional<Ahead<SampleRows>> samples_;
     Ahead<EventRows> events_;
     PlaybackEnd end_;
 };
 
 }  // namespace
 
-Expected<PlaybackEnd> play(const OpenSession& session,
-                           std::span<frame::FrameObserver* const> observers) {
+Expected<bool> has_gaze_counts(const OpenSession& session) {
     try {
-        return Player(session, observers).run();
+        const Database& database = session.database();
+        if (!has_table(database, "gaze") || !has_table(database, "frame") ||
+            !has_column(database, "frame", "gaze_received")) {
+            return false;
+        }
+        // Numbers of frames are unsigned, and positions count from 1.
+        Statement ask(database,
+                      "SELECT coalesce((SELECT max(position) FROM gaze), 0) = coalesce("
+                      "(SELECT gaze_received FROM frame WHERE number < 0 ORDER BY number DESC "
+                      "LIMIT 1), (SELECT gaze_received FROM frame ORDER BY number DESC LIMIT 1), "
+                      "0)");
+        return ask.next() && ask.integer(0) == 1;
+    } catch (...) {
+        return std::unexpected(reading_error(session.file()));
+    }
+}
+
+Expected<PlaybackEnd> play(const OpenSession& session,
+                           std::span<frame::FrameObserver* const> observers, PlayedGaze gaze) {
+    try {
+        return Player(session, observers, gaze).run();
     } catch (...) {
         return std::unexpected(reading_error(session.file()));
     }

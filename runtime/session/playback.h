@@ -18,6 +18,18 @@ struct PlaybackEnd {
     std::optional<std::string> last_error{};    ///< the text of the last event of the kind "error"
 };
 
+/// Whether a session's samples are told one by one, or what the recording has of them in each
+/// frame.
+enum class PlayedGaze : std::uint8_t {
+    Samples,
+    Counts,  ///< on_gaze in place of on_sample; many times faster
+};
+
+/// Whether the session has counts of all its samples. One lacks them that an older version has
+/// recorded, or that ends behind its last frame, because its recorder was killed.
+/// Errors (BadInput): a damaged session.
+Expected<bool> has_gaze_counts(const OpenSession& session);
+
 /// Calls observers as the loop did while the session was recorded, frame by frame in the order of
 /// their indices. The memory that this takes does not depend on the session's length. For each
 /// frame it calls, in this order:
@@ -30,6 +42,7 @@ struct PlaybackEnd {
 ///     on_event    in the order of the run; see below
 ///     on_frame
 ///     on_gpu      if the file has the frame's GPU part
+///     on_gaze     with PlayedGaze::Counts, and then no on_sample; precondition: has_gaze_counts
 ///
 /// Changes and samples of a frame that the file lacks come with the next frame that it has.
 ///
@@ -41,7 +54,8 @@ struct PlaybackEnd {
 /// Errors (BadInput): a damaged session (file, table and row named). Observers have then been told
 /// what lay before. What an observer throws passes through.
 Expected<PlaybackEnd> play(const OpenSession& session,
-                           std::span<frame::FrameObserver* const> observers);
+                           std::span<frame::FrameObserver* const> observers,
+                           PlayedGaze gaze = PlayedGaze::Samples);
 
 /// The same for a file. Errors: those of OpenSession::open too.
 Expected<PlaybackEnd> play(const std::filesystem::path& session,

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "runtime/frame/frame_gaze.h"
 #include "runtime/session/record.h"
 
 namespace gazeloop::session {
@@ -189,6 +190,25 @@ void visit_gpu(Visitor& visit, Record& record) {
         }
     }
     visit("gpu_deviation", "_ns", record.clock_deviation_ns);
+}
+
+/// What had become of the samples when the frame was recorded; none in older files.
+template <typename Visitor, typename Counts>
+void visit_gaze_counts(Visitor& visit, Counts& counts) {
+    visit("gaze_received", "", counts.received);
+    visit("gaze_invalid", "", counts.invalid);
+    visit("gaze_lost", "", counts.lost);
+    visit("gaze_out_of_order", "", counts.out_of_order);
+}
+
+/// The columns of `frame` that are NULL until samples from after its display have come, and for
+/// good where its foveae rest on no fresh sample.
+template <typename Visitor, typename Error>
+void visit_gaze_error(Visitor& visit, Error& error) {
+    visit("gaze_error_gap", "", error.gap);
+    visit("gaze_error_kind", "", error.kind);
+    visit("gaze_error_rad", "", error.radians);
+    visit("gaze_error_no_poses_rad", "", error.without_poses_radians);
 }
 
 template <typename Visitor, typename Frame, typename Eye, typename View>

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "runtime/frame/frame_gaze.h"
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/gaze_sample.h"
 
@@ -15,8 +17,10 @@ struct RecordedSample {
 
 struct RecordedFrame {
     frame::FrameRecord frame;
-    frame::FrameGpuRecord gpu;  ///< stamps unknown and no passes if !gpu_known
-    bool gpu_known = false;     ///< the file has the GPU part
+    frame::FrameGpuRecord gpu;                ///< stamps unknown and no passes if !gpu_known
+    bool gpu_known = false;                   ///< the file has the GPU part
+    std::optional<frame::GazeCounts> gaze{};  ///< of all samples up to it; none in older files
+    std::optional<frame::GazeError> gaze_error{};
 };
 
 struct RecordedEvent {

@@ -13,6 +13,9 @@
 namespace gazeloop::session {
 namespace {
 
+constexpr std::size_t kGazeCountColumns = 4;
+constexpr std::size_t kGazeErrorColumns = 4;
+
 /// Moves to the row of one eye in one frame, which must be the next one, and reads it.
 template <typename Visit>
 void read_eye(TableReader& reader, std::uint64_t frame, gaze::Eye eye, const Visit& visit) {
@@ -60,8 +63,18 @@ bool FrameRows::next() {
         return false;
     }
     row_ = {};
-    auto& [frame, gpu, gpu_known] = row_;
+    auto& [frame, gpu, gpu_known, gaze, gaze_error] = row_;
     visit_frame(frames_, frame);
+    if (frames_.at_null()) {
+        frames_.leave_out(kGazeCountColumns);
+    } else {
+        visit_gaze_counts(frames_, gaze.emplace());
+    }
+    if (frames_.at_null()) {
+        frames_.leave_out(kGazeErrorColumns);
+    } else {
+        visit_gaze_error(frames_, gaze_error.emplace());
+    }
     gpu.index = frame.index;
     gpu_known = !frames_.at_null();
     if (gpu_known) {

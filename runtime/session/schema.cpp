@@ -172,7 +172,15 @@ CREATE TABLE frame (
     pass_9_start_ns         INTEGER,
     pass_10_start_ns        INTEGER,
     pass_11_start_ns        INTEGER,
-    gpu_deviation_ns        INTEGER
+    gpu_deviation_ns        INTEGER,
+    gaze_received           INTEGER,
+    gaze_invalid            INTEGER,
+    gaze_lost               INTEGER,
+    gaze_out_of_order       INTEGER,
+    gaze_error_gap          INTEGER,
+    gaze_error_kind         INTEGER,
+    gaze_error_rad          ANY,
+    gaze_error_no_poses_rad ANY
 ) STRICT;
 
 CREATE TABLE view (

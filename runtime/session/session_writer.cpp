@@ -26,6 +26,7 @@ SessionWriter::SessionWriter(const std::filesystem::path& file)
       insert_sample_(database_, sample_columns().insert_into("gaze")),
       insert_frame_(database_, frame_columns().insert_into("frame")),
       update_gpu_(database_, gpu_columns().update("frame", "number")),
+      update_gaze_error_(database_, gaze_error_columns().update("frame", "number")),
       insert_view_(database_, view_columns().insert_into("view")),
       insert_fovea_(database_, fovea_columns().insert_into("fovea")),
       insert_event_(database_, event_columns().insert_into("event")),
@@ -51,12 +52,16 @@ void SessionWriter::write_one(const SampleRecord& record) {
     FieldBinder binder(insert_sample_);
     visit_sample(binder, record.frame, record.sample);
     insert_sample_.run();
+    gaze_.add(record.sample);
 }
 
 void SessionWriter::write_one(const frame::FrameRecord& record) {
     FieldBinder binder(insert_frame_);
     visit_frame(binder, record);
+    visit_gaze_counts(binder, gaze_.counts());
     insert_frame_.run();
+    gaze_.add(record);
+    write_decided_errors();
     for (const gaze::Eye eye : gaze::kEyes) {
         FieldBinder view_binder(insert_view_);
         visit_view(view_binder, record.index, eye, record.views[gaze::index(eye)]);
@@ -73,6 +78,18 @@ void SessionWriter::write_one(const frame::FrameGpuRecord& record) {
     visit_gpu(binder, record);
     binder("", "", record.index);
     update_gpu_.run();
+    gaze_.add(record);
+}
+
+void SessionWriter::write_decided_errors() {
+    gaze_.take_decided([this](std::uint64_t frame, const std::optional<frame::GazeError>& error) {
+        if (error) {
+            FieldBinder binder(update_gaze_error_);
+            visit_gaze_error(binder, *error);
+            binder("", "", frame);
+            update_gaze_error_.run();
+        }
+    });
 }
 
 void SessionWriter::write_one(const EventRecord& record) {
@@ -93,6 +110,7 @@ void SessionWriter::write_one(const gaze::OriginChange& record) {
     FieldBinder binder(insert_origin_);
     visit_origin(binder, record);
     insert_origin_.run();
+    gaze_.move_origin(record.new_in_old);
 }
 
 void SessionWriter::set_meta(std::string_view name, std::string_view value) {
@@ -119,6 +137,10 @@ void SessionWriter::mark_failed() {
 }
 
 void SessionWriter::finish() {
+    gaze_.finish();
+    begin();
+    write_decided_errors();
+    database_.execute("COMMIT");
     set_meta(kMetaClosed, kClosed);
     database_.execute("PRAGMA wal_checkpoint(TRUNCATE)");
     try {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "runtime/session/database.h"
+#include "runtime/session/gaze_ledger.h"
 #include "runtime/session/record.h"
 #include "runtime/session/statement.h"
 
@@ -39,18 +40,21 @@ class SessionWriter {
     void write_one(const EventRecord& record);
     void write_one(const HiddenRecord& record);
     void write_one(const gaze::OriginChange& record);
+    void write_decided_errors();
     void set_meta(std::string_view name, std::string_view value);
 
     Database database_;
     Statement insert_sample_;
     Statement insert_frame_;
     Statement update_gpu_;
+    Statement update_gaze_error_;
     Statement insert_view_;
     Statement insert_fovea_;
     Statement insert_event_;
     Statement insert_hidden_;
     Statement insert_origin_;
     Statement set_meta_;
+    GazeLedger gaze_;
     std::uint64_t dropped_written_ = 0;
 };
 

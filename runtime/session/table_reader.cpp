@@ -11,13 +11,6 @@
 namespace gazeloop::session {
 namespace {
 
-bool has_column(const Database& database, std::string_view table, std::string_view column) {
-    Statement find(database, "SELECT 1 FROM pragma_table_info(?) WHERE name = ?");
-    find.bind(0, table);
-    find.bind(1, column);
-    return find.next();
-}
-
 /// The name that a column of `frame` had in version 1; empty: there was none.
 std::string_view former_name(std::string_view name) {
     const auto at = std::ranges::find(kFormerColumns, name, &FormerColumn::name);
@@ -77,6 +70,13 @@ bool has_table(const Database& database, std::string_view table) {
     Statement find(
         database, "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND rootpage > 0 AND name = ?");
     find.bind(0, table);
+    return find.next();
+}
+
+bool has_column(const Database& database, std::string_view table, std::string_view column) {
+    Statement find(database, "SELECT 1 FROM pragma_table_info(?) WHERE name = ?");
+    find.bind(0, table);
+    find.bind(1, column);
     return find.next();
 }
 

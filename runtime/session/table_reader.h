@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/frame/frame_gaze.h"
 #include "runtime/gaze/eye.h"
 #include "runtime/gaze/fovea_point.h"
 #include "runtime/session/column_names.h"
@@ -35,6 +36,8 @@ inline constexpr std::array<std::string_view, 2> kByFrameAndEye{"frame", "eye"};
 /// without end.
 bool has_table(const Database& database, std::string_view table);
 
+bool has_column(const Database& database, std::string_view table, std::string_view column);
+
 /// The rows of one table, checked field by field, in the order of its key: one unsigned number or
 /// two. Every member throws FormatError.
 class TableReader {
@@ -52,6 +55,9 @@ class TableReader {
         read(cell(), field);
         ++column_;
     }
+
+    /// Passes over so many of the row's fields.
+    void leave_out(std::size_t fields) { column_ += fields; }
 
     /// Whether the row's next field is NULL.
     [[nodiscard]] bool at_null() const { return cell().is_null(); }
@@ -92,6 +98,9 @@ class TableReader {
     }
     void read(const Cell& cell, gaze::FoveaState& value) const {
         read_name<gaze::kFoveaStateNames.size()>(cell, value);
+    }
+    void read(const Cell& cell, frame::GazeErrorGap& value) const {
+        read_name<frame::kGazeErrorGapCount>(cell, value);
     }
     void read(const Cell& cell, gaze::LossReason& value) const {
         read_name<gaze::kLossReasonNames.size()>(cell, value);
