@@ -33,8 +33,8 @@ Expected<SessionSummary> summarize(const session::OpenSession& session) {
     if (!counted) {
         return std::unexpected(counted.error());
     }
-    auto end = session::play(session, observers,
-                             *counted ? session::PlayedGaze::Counts : session::PlayedGaze::Samples);
+    auto end = session::play_ahead(
+        session, observers, *counted ? session::PlayedGaze::Counts : session::PlayedGaze::Samples);
     if (!end) {
         return std::unexpected(std::move(end.error()));
     }

@@ -1,8 +1,12 @@
 #include "runtime/session/playback.h"
 
+#include <array>
+#include <exception>
 #include <limits>
+#include <thread>
 #include <utility>
 
+#include "runtime/session/read_ahead.h"
 #include "runtime/session/reading_error.h"
 #include "runtime/session/row_readers.h"
 #include "runtime/session/statement.h"
@@ -140,6 +144,48 @@ Expected<PlaybackEnd> play(const OpenSession& session,
                            std::span<frame::FrameObserver* const> observers, PlayedGaze gaze) {
     try {
         return Player(session, observers, gaze).run();
+    } catch (...) {
+        return std::unexpected(reading_error(session.file()));
+    }
+}
+
+Expected<PlaybackEnd> play_ahead(const OpenSession& session,
+                                 std::span<frame::FrameObserver* const> observers,
+                                 PlayedGaze gaze) {
+    ReadAhead ahead;
+    PlaybackEnd end;
+    std::thread reader([&] {
+        try {
+            ReadAheadObserver relay(ahead);
+            const std::array<frame::FrameObserver*, 1> relays{&relay};
+            end = Player(session, relays, gaze).run();
+            relay.flush();
+            ahead.end(nullptr);
+        } catch (const ReadAheadObserver::Stopped&) {
+            ahead.end(nullptr);
+        } catch (...) {
+            ahead.end(std::current_exception());
+        }
+    });
+    std::exception_ptr failure;
+    try {
+        for (ReadAhead::Batch batch; ahead.take(batch);) {
+            for (const Told& told : batch) {
+                for (frame::FrameObserver* const observer : observers) {
+                    tell(*observer, told);
+                }
+            }
+        }
+    } catch (...) {
+        failure = std::current_exception();
+        ahead.stop();
+    }
+    reader.join();
+    if (!failure) {
+        return end;
+    }
+    try {
+        std::rethrow_exception(failure);
     } catch (...) {
         return std::unexpected(reading_error(session.file()));
     }

@@ -57,7 +57,13 @@ Expected<PlaybackEnd> play(const OpenSession& session,
                            std::span<frame::FrameObserver* const> observers,
                            PlayedGaze gaze = PlayedGaze::Samples);
 
-/// The same for a file. Errors: those of OpenSession::open too.
+/// The same, but the session is read on a thread of its own while observers are told on this one:
+/// for who wants it soon. A few MB more of memory, whatever the length.
+Expected<PlaybackEnd> play_ahead(const OpenSession& session,
+                                 std::span<frame::FrameObserver* const> observers,
+                                 PlayedGaze gaze = PlayedGaze::Samples);
+
+/// The same as play() for a file. Errors: those of OpenSession::open too.
 Expected<PlaybackEnd> play(const std::filesystem::path& session,
                            std::span<frame::FrameObserver* const> observers);
 

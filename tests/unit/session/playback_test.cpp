@@ -5,12 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "runtime/latency/gaze_errors.h"
+#include "runtime/latency/sample_counter.h"
 #include "runtime/session/session_recorder.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/temporary_folder.h"
@@ -127,6 +130,109 @@ TEST_F(Playback, TellsEventsInTheirOrderAndBeforeTheFrameThatEndsAfterThem) {
                             "gpu 2", "error: in frame 3", "loop: told after that", "frame 3",
                             "gpu 3", "error: the last"));
     EXPECT_EQ(end.last_error, "the last");
+}
+
+/// What both ways of playing tell of the gaze.
+class GazeTold final : public frame::FrameObserver {
+  public:
+    void on_sample(const gaze::GazeSample& sample, std::uint64_t) override {
+        ++samples;
+        counter.add(sample);
+        errors.add(sample);
+    }
+    void on_frame(const frame::FrameRecord& record) override {
+        errors.add(record);
+        errors.set_shown(record.index, record.stamps.display);
+        errors.take_decided([this](std::uint64_t index, const auto& error) {
+            from_samples.push_back({index, {}, error});
+        });
+    }
+    void on_gaze(const frame::FrameGaze& one) override { told.push_back(one); }
+
+    std::uint64_t samples = 0;
+    latency::SampleCounter counter;
+    latency::GazeErrors errors;
+    std::vector<frame::FrameGaze> from_samples;
+    std::vector<frame::FrameGaze> told;
+};
+
+class PlaybackOfCounts : public Playback {
+  protected:
+    void record(std::uint64_t frames) {
+        start();
+        for (std::uint64_t index = 0; index < frames; ++index) {
+            for (std::int64_t ms = 0; ms < 10; ++ms) {
+                gaze::GazeSample sample;
+                sample.sequence = index * 11 + static_cast<std::uint64_t>(ms);  // loses some
+                sample.sampled = {(static_cast<std::int64_t>(index) * 10 + ms - 12) * latency::kMs,
+                                  time::StampKind::Measured};
+                sample.eyes[0].valid = index % 5 != 2;
+                sample.eyes[0].direction =
+                    glm::dvec3{std::sin(static_cast<double>(index)), 0.0, -1.0};
+                sample.head = gaze::Pose{};
+                recorder_->add(sample, index);
+            }
+            frame::FrameRecord frame = latency::example_frame(index);
+            frame.fovea.eyes[0].state =
+                index % 7 == 3 ? gaze::FoveaState::Held : gaze::FoveaState::Tracking;
+            recorder_->add(frame);
+            if (index >= 3) {
+                recorder_->add(latency::example_gpu(index - 3));
+            }
+        }
+    }
+    void play_gaze(PlayedGaze gaze, GazeTold& told) {
+        const std::array<frame::FrameObserver*, 1> observers{&told};
+        const OpenSession session = value_or_throw(OpenSession::open(file));
+        value_or_throw(play(session, observers, gaze));
+    }
+    bool counted() {
+        return value_or_throw(has_gaze_counts(value_or_throw(OpenSession::open(file))));
+    }
+};
+
+TEST_F(PlaybackOfCounts, TellsWithoutSamplesWhatTheseWouldTell) {
+    record(300);
+    recorder_->close();
+    ASSERT_TRUE(counted());
+    GazeTold samples;
+    GazeTold counts;
+    play_gaze(PlayedGaze::Samples, samples);
+    play_gaze(PlayedGaze::Counts, counts);
+    EXPECT_EQ(samples.samples, 3000U);
+    EXPECT_TRUE(samples.told.empty());
+    EXPECT_EQ(counts.samples, 0U);
+    ASSERT_EQ(counts.told.size(), 300U);
+    EXPECT_EQ(counts.told.back().counts, samples.counter.counts());
+    EXPECT_GT(samples.counter.counts().lost, 0U);
+    samples.errors.finish();
+    samples.errors.take_decided([&samples](std::uint64_t index, const auto& error) {
+        samples.from_samples.push_back({index, {}, error});
+    });
+    ASSERT_EQ(samples.from_samples.size(), 300U);
+    std::size_t known = 0;
+    for (std::size_t row = 0; row < counts.told.size(); ++row) {
+        EXPECT_EQ(counts.told[row].index, samples.from_samples[row].index);
+        EXPECT_EQ(counts.told[row].error, samples.from_samples[row].error) << row;
+        known += counts.told[row].error && counts.told[row].error->radians ? 1 : 0;
+    }
+    EXPECT_GT(known, 100U);
+}
+
+TEST_F(PlaybackOfCounts, AreNotThereForSamplesBehindTheLastFrame) {
+    record(5);
+    add_sample(99, 5);
+    recorder_->close();
+    EXPECT_FALSE(counted());
+}
+
+TEST_F(PlaybackOfCounts, AreThereForNothing) {
+    start();
+    recorder_->close();
+    EXPECT_TRUE(counted());
+    GazeTold counts;
+    play_gaze(PlayedGaze::Counts, counts);
+    EXPECT_TRUE(counts.told.empty());
 }
 
 TEST_F(Playback, OfNothingEndsWithNothing) {
