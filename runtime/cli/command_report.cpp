@@ -2,11 +2,13 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/report/comparison_text.h"
 #include "runtime/report/frame_csv.h"
 #include "runtime/report/output_file.h"
 #include "runtime/report/percentiles.h"
@@ -25,6 +27,13 @@ struct ReportCommand {
     bool percentiles_given = false;
     std::string csv;
     std::string json;
+    std::string against;
+};
+
+/// What another session's figures became in this one, with that session's name.
+struct Against {
+    report::Comparison comparison;
+    std::string before;
 };
 
 /// Where a recording ends that was not closed, and what is known of what it lacks.
@@ -62,6 +71,20 @@ void write_csv(const std::string& file, const report::FrameLog& frames) {
     value_or_throw(output.close());
 }
 
+std::optional<Against> compared(const std::string& file, const session::OpenSession& session,
+                                const report::SessionSummary& summary,
+                                const report::Percentiles& percentiles) {
+    if (file.empty()) {
+        return std::nullopt;
+    }
+    const auto other = value_or_throw(session::OpenSession::open(file));
+    const report::SessionSummary before = value_or_throw(report::summarize(other));
+    return Against{
+        value_or_throw(report::compare({.session = other, .summary = before},
+                                       {.session = session, .summary = summary}, percentiles)),
+        file};
+}
+
 ExitCode report(const ReportCommand& command) {
     const report::Percentiles percentiles =
         command.percentiles_given ? value_or_throw(report::Percentiles::parse(command.percentiles))
@@ -70,6 +93,7 @@ ExitCode report(const ReportCommand& command) {
     const auto session = value_or_throw(session::OpenSession::open(command.file));
     const session::SessionInfo& info = session.info();
     const report::SessionSummary summary = value_or_throw(report::summarize(session));
+    const auto against = compared(command.against, session, summary, percentiles);
     if (command.json != "-" && command.csv != "-" && !command.log.quiet) {
         fmt::print("{}{}", report::session_text(summary, percentiles), summary.trace.text());
         if (!info.closed_cleanly) {
@@ -82,13 +106,21 @@ ExitCode report(const ReportCommand& command) {
             fmt::print("The recording lacks {} records that the disk was too slow for.\n",
                        info.records_dropped);
         }
+        if (against) {
+            fmt::print("{}",
+                       report::comparison_text(against->comparison, percentiles, against->before));
+        }
     }
     if (!command.csv.empty()) {
         write_csv(command.csv, *summary.frames);
     }
     if (!command.json.empty()) {
-        value_or_throw(report::write_text(
-            command.json, report::json_text(report::session_json(summary, info, percentiles))));
+        nlohmann::ordered_json json = report::session_json(summary, info, percentiles);
+        if (against) {
+            json["against"] =
+                report::comparison_json(against->comparison, percentiles, against->before);
+        }
+        value_or_throw(report::write_text(command.json, report::json_text(json)));
     }
     return ExitCode::Ok;
 }
@@ -106,6 +138,9 @@ void add_report_command(Command program) {
     app.option("--csv", command->csv, "write every frame as a line of CSV; - is stdout")
         .type("FILE");
     app.option("--json", command->json, "write the report as JSON; - is stdout").type("FILE");
+    app.option("--against", command->against,
+               "also show what changed since this session, and how much of it is chance")
+        .type("SESSION");
     command->log.add_to(app);
     app.does([=] {
         command->log.apply();
