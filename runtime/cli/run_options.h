@@ -39,6 +39,7 @@ struct RunOptions {
         {"--scene", "render.scene", "scene to render", ""},
         {"--method", "render.method", "which samples a picture takes: full, kfr, acuity", ""},
         {"--display", "profile.display", "display profile: a name or a .toml file", ""},
+        {"--budget", "profile.budget", "latency budget: none, a name or a .toml file", ""},
         {"--sigma", "kfr.sigma", "picture width / LP-buffer width, .5 to 32", ""},
         {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16", ""},
         {"--mar", "acuity.mar", "slope of the MAR line, e.g. .022", ""},

@@ -4,10 +4,16 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "runtime/latency/gaze_age.h"
 
 namespace gazeloop::latency {
+
+/// The stages as files and programs name them, by Stage.
+inline constexpr std::array<std::string_view, kStageCount> kStageKeys{
+    "tracker", "delivery",         "queue",       "filter",   "submit",
+    "gpu",     "wait_for_display", "scan_to_row", "switching"};
 
 /// How old the gaze may be when its picture is seen, in all and by stage: config/budgets/NAME.toml.
 /// A part without a limit has none; it is never 0.

@@ -108,8 +108,8 @@ class ProfileReader {
         return checked(table_.at_path(path), path, least, greatest);
     }
 
-    std::optional<std::int64_t> optional_ms(const std::string& path) {
-        const auto ms = optional_number(path, 0, 1000);
+    std::optional<std::int64_t> optional_ms(const std::string& path, double least = 0) {
+        const auto ms = optional_number(path, least, 1000);
         return ms ? std::optional(time::ms_to_ns(*ms)) : std::nullopt;
     }
 
@@ -173,6 +173,11 @@ class ProfileReader {
             keys.push_back(key);
         }
         return keys;
+    }
+
+    /// Complains of a key's value as a whole.
+    void refuse(const std::string& path, std::string_view why) {
+        complain(table_.at_path(path).node(), fmt::format("{}: {}", path, why));
     }
 
     /// Complains of a number that is not there.
@@ -328,6 +333,40 @@ Expected<TrackerProfile> load_tracker(std::string_view name) {
         return std::unexpected(Error{ErrorKind::BadInput, read.complaint()});
     }
     return tracker;
+}
+
+Expected<latency::LatencyBudget> load_budget(std::string_view name) {
+    constexpr double kLeast_ms = 0.001;
+    const auto profile = load("budgets", "budget", name);
+    if (!profile) {
+        return std::unexpected(profile.error());
+    }
+    ProfileReader read(*profile);
+    latency::LatencyBudget budget;
+    budget.name = name;
+    budget.description = read.optional_text("description").value_or("");
+    budget.source = read.optional_text("source").value_or("");
+    budget.total_ns = read.optional_ms("total_ms", kLeast_ms);
+    bool any = budget.total_ns.has_value();
+    for (std::size_t stage = 0; stage < latency::kStageCount; ++stage) {
+        const std::string key = fmt::format("stages_ms.{}", latency::kStageKeys[stage]);
+        budget.stages_ns[stage] = read.optional_ms(key, kLeast_ms);
+        any = any || budget.stages_ns[stage];
+        if (budget.total_ns && budget.stages_ns[stage] > budget.total_ns) {
+            read.refuse(key, "must not be above total_ms");
+        }
+    }
+    read.refuse_others();
+    if (!any && read.complaint().empty()) {
+        return std::unexpected(
+            Error{ErrorKind::BadInput,
+                  fmt::format("{}: a budget needs total_ms, or a limit of a stage under [stages_ms]",
+                              profile->origin)});
+    }
+    if (!read.complaint().empty()) {
+        return std::unexpected(Error{ErrorKind::BadInput, read.complaint()});
+    }
+    return budget;
 }
 
 }  // namespace gazeloop::profiles

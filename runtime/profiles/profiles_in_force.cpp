@@ -14,6 +14,14 @@ Expected<TrackerProfile> tracker_in_force(const ProfileSettings& named,
     return all.at_origin("profile.tracker", load_tracker(named.tracker));
 }
 
+Expected<std::optional<latency::LatencyBudget>> budget_in_force(const ProfileSettings& named,
+                                                                const settings::Settings& all) {
+    if (named.budget == kNoBudget) {
+        return std::nullopt;
+    }
+    return all.at_origin("profile.budget", load_budget(named.budget));
+}
+
 Expected<TrackerProfile> simulate_tracker_in_force(const ProfileSettings& named,
                                                    settings::Settings& all) {
     auto tracker = tracker_in_force(named, all);
