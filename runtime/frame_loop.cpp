@@ -127,6 +127,7 @@ class FrameLoop {
         timeline_->begin(result_.frames);
         frame::FrameRecord record;
         record.index = result_.frames;
+        record.budget_ns = options_.budget_ns;
 
         parts_.target.wait_frame(target_frame_);
         record.stamps.wake_up = timeline_->now();

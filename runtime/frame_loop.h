@@ -32,6 +32,7 @@ struct LoopOptions {
     /// Read the gaze only when the GPU has finished what needs no gaze. The gaze is younger then,
     /// but frames overlap less.
     bool wait_before_latch = false;
+    std::optional<std::int64_t> budget_ns{};  ///< of the latency budget's total: for the records
     std::function<std::optional<LoopEnd>()>
         stop;  ///< called once per frame: the reason to end, if any
 };

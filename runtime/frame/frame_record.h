@@ -37,6 +37,7 @@ struct FrameRecord {
     gaze::StereoView views;  ///< what was rendered
     gaze::FrameFovea fovea;  ///< meaningful if should_render
     SampleCounts samples;
+    std::optional<std::int64_t> budget_ns{};  ///< of the latency budget's total; none: no limit
 };
 
 /// What becomes known of a frame once the GPU has finished it.

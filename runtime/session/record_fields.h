@@ -25,7 +25,7 @@ static_assert(sizeof(gaze::FoveaPoint) == 136, "a new member: see above");
 static_assert(sizeof(gaze::EyeView) == 96, "a new member: see above");
 static_assert(sizeof(frame::FrameStamps) == 160, "a new member: see above");
 static_assert(sizeof(frame::GridCounts) == 40, "a new member: see above");
-static_assert(sizeof(frame::FrameRecord) == 1072, "a new member: see above");
+static_assert(sizeof(frame::FrameRecord) == 1088, "a new member: see above");
 static_assert(sizeof(frame::FrameGpuRecord) == 264, "a new member: see above");
 static_assert(sizeof(gaze::OriginChange) == 72, "a new member: see above");
 
@@ -166,6 +166,7 @@ void visit_frame(Visitor& visit, Record& record) {
     visit_pose(visit, "head", record.head);
     visit_stamp(visit, "fovea_latched", record.fovea.latched);
     visit_samples(visit, record.samples);
+    visit("budget", "_ns", record.budget_ns);
 }
 
 /// The columns of `frame` that are NULL until the GPU has finished it.

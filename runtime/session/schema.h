@@ -15,16 +15,17 @@ inline constexpr int kOldestSchemaVersion = 1;
 extern const char* const kCreateTables;
 
 /// Columns that the first files of version 1 lack, in whichever table; then a table that they lack.
-inline constexpr std::array<std::string_view, 27> kLaterColumns{
-    "texels_hidden",    "pixels_hidden",     "ready_ns",
-    "uncertainty_ns",   "parallax_rad",      "filtered_ns",
-    "gpu_deviation_ns", "pass_0_start_ns",   "pass_1_start_ns",
-    "pass_2_start_ns",  "pass_3_start_ns",   "pass_4_start_ns",
-    "pass_5_start_ns",  "pass_6_start_ns",   "pass_7_start_ns",
-    "pass_8_start_ns",  "pass_9_start_ns",   "pass_10_start_ns",
-    "pass_11_start_ns", "gaze_received",     "gaze_invalid",
-    "gaze_lost",        "gaze_out_of_order", "gaze_error_gap",
-    "gaze_error_kind",  "gaze_error_rad",    "gaze_error_no_poses_rad"};
+inline constexpr auto kLaterColumns = std::to_array<std::string_view>(
+    {"texels_hidden",    "pixels_hidden",     "ready_ns",
+     "uncertainty_ns",   "parallax_rad",      "filtered_ns",
+     "gpu_deviation_ns", "pass_0_start_ns",   "pass_1_start_ns",
+     "pass_2_start_ns",  "pass_3_start_ns",   "pass_4_start_ns",
+     "pass_5_start_ns",  "pass_6_start_ns",   "pass_7_start_ns",
+     "pass_8_start_ns",  "pass_9_start_ns",   "pass_10_start_ns",
+     "pass_11_start_ns", "gaze_received",     "gaze_invalid",
+     "gaze_lost",        "gaze_out_of_order", "gaze_error_gap",
+     "gaze_error_kind",  "gaze_error_rad",    "gaze_error_no_poses_rad",
+     "budget_ns"});
 inline constexpr std::string_view kHiddenTable = "hidden_area";
 inline constexpr std::string_view kOriginTable =
     "origin";  ///< the first files of version 2 lack it

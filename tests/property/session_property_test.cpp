@@ -92,6 +92,9 @@ class AnyRecord {
         }
         frame.samples.pixels_output = integer();
         frame.samples.pixels_hidden = integer();
+        if (coin()) {
+            frame.budget_ns = signed_integer();
+        }
         return frame;
     }
 
@@ -264,6 +267,8 @@ Bits bits_of(const frame::FrameRecord& frame) {
         append(bits, stamp);
     }
     append(bits, frame.period_ns);
+    append(bits, std::uint64_t{frame.budget_ns.has_value()});
+    append(bits, frame.budget_ns.value_or(0));
     append(bits, std::uint64_t{frame.should_render});
     append(bits, frame.scene_time_s);
     append(bits, frame.head);
