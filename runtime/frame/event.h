@@ -32,6 +32,8 @@ inline constexpr EventKind kAxesEvent{"axes", EventWeight::Warning};
 inline constexpr EventKind kTraceEvent{"trace", EventWeight::Routine};  ///< a block of its own
 inline constexpr EventKind kClockEvent{"clock", EventWeight::Warning};
 inline constexpr EventKind kDisplayEvent{"display", EventWeight::Warning};
+inline constexpr EventKind kBudgetBrokenEvent{"budget-broken", EventWeight::Warning};
+inline constexpr EventKind kBudgetKeptEvent{"budget-kept", EventWeight::Notice};
 
 // Of a runtime and its session.
 inline constexpr EventKind kSessionEvent{"session", EventWeight::Routine};  ///< its states
@@ -49,30 +51,16 @@ inline constexpr EventKind kFrameRefusedEvent{"frame-refused", EventWeight::Warn
 inline constexpr EventKind kEventsLostEvent{"events-lost", EventWeight::Warning};
 inline constexpr EventKind kSessionOddEvent{"session-odd", EventWeight::Warning};
 
-inline constexpr std::array kEventKinds{kGazeEvent,
-                                        kGazeSourceEvent,
-                                        kGpuClockEvent,
-                                        kHiddenAreaEvent,
-                                        kErrorEvent,
-                                        kTrackerEvent,
-                                        kAxesEvent,
-                                        kTraceEvent,
-                                        kClockEvent,
-                                        kDisplayEvent,
-                                        kSessionEvent,
-                                        kMaskEvent,
-                                        kOriginEvent,
-                                        kHeadLostEvent,
-                                        kHeadFoundEvent,
-                                        kViewOddEvent,
-                                        kViewGoodEvent,
-                                        kDisplayTimeOddEvent,
-                                        kDisplayTimeGoodEvent,
-                                        kPeriodOddEvent,
-                                        kFrameDiscardedEvent,
-                                        kFrameRefusedEvent,
-                                        kEventsLostEvent,
-                                        kSessionOddEvent};
+inline constexpr std::array kEventKinds{
+    kGazeEvent,       kGazeSourceEvent,     kGpuClockEvent,
+    kHiddenAreaEvent, kErrorEvent,          kTrackerEvent,
+    kAxesEvent,       kTraceEvent,          kClockEvent,
+    kDisplayEvent,    kBudgetBrokenEvent,   kBudgetKeptEvent,
+    kSessionEvent,    kMaskEvent,           kOriginEvent,
+    kHeadLostEvent,   kHeadFoundEvent,      kViewOddEvent,
+    kViewGoodEvent,   kDisplayTimeOddEvent, kDisplayTimeGoodEvent,
+    kPeriodOddEvent,  kFrameDiscardedEvent, kFrameRefusedEvent,
+    kEventsLostEvent, kSessionOddEvent};
 
 /// A kind that is not known (of a later version's recording) is worth a line.
 [[nodiscard]] constexpr EventWeight weight_of(std::string_view kind) {
