@@ -3,9 +3,12 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <charconv>
+
 #include "runtime/preview/preview_memory.h"
 #include "runtime/preview/preview_window.h"
 #include "runtime/run/frame_run.h"
+#include "runtime/run/line_writer.h"
 
 namespace gazeloop::cli {
 
@@ -64,6 +67,21 @@ void RunOptions::add_to(Command command) {
         .check([](const std::string& text) {
             return eyes_named(text) != 0 ? std::string()
                                          : fmt::format("'{}' must be left, right or both", text);
+        });
+    command.flag("--monitor", monitor,
+                 "where the latency goes while it runs: a panel on stderr, or a line a second "
+                 "where that is no terminal");
+    command
+        .option("--monitor-json", monitor_json,
+                "the same as lines of JSON on a file descriptor that is open for writing")
+        .type("FD")
+        .check([](const std::string& text) {
+            int fd = -1;
+            const char* const end = text.data() + text.size();
+            const auto [stopped, error] = std::from_chars(text.data(), end, fd);
+            return error != std::errc{} || stopped != end || fd < 0
+                       ? fmt::format("'{}' must be the number of a file descriptor", text)
+                       : run::LineWriter::refusal(fd);
         });
 }
 
@@ -141,6 +159,9 @@ void RunOptions::fill(run::FrameRunRequest& request) const {
     request.snapshot = path(snapshot);
     request.json = path(json);
     request.preview_eyes = preview ? eyes_named(*preview) : 0;
+    request.monitor = monitor;
+    request.monitor_json =
+        monitor_json ? std::optional(static_cast<int>(*monitor_json)) : std::nullopt;
     request.mark_fovea = mark_fovea;
     request.hash = hash;
     request.quiet = log.quiet;

@@ -65,6 +65,8 @@ struct RunOptions {
     std::string snapshot;
     std::string json;
     std::optional<std::string> preview;  ///< eyes, if asked for
+    bool monitor = false;
+    std::optional<unsigned> monitor_json;  ///< a file descriptor
     bool mark_fovea = false;
     bool hash = false;
     bool print_config = false;

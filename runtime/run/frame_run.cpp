@@ -16,8 +16,10 @@
 #include "runtime/methods/registry.h"
 #include "runtime/preview/preview_feed.h"
 #include "runtime/preview/window_process.h"
+#include "runtime/profiles/profiles_in_force.h"
 #include "runtime/render/off_screen.h"
 #include "runtime/render/snapshot.h"
+#include "runtime/report/budget_account.h"
 #include "runtime/report/output_file.h"
 #include "runtime/report/session_summary.h"
 #include "runtime/report/summary_json.h"
@@ -25,6 +27,8 @@
 #include "runtime/report/trace_account.h"
 #include "runtime/run/event_log.h"
 #include "runtime/run/interrupt.h"
+#include "runtime/run/monitor_feed.h"
+#include "runtime/run/monitor_output.h"
 #include "runtime/run/recording_observer.h"
 #include "runtime/run/run_checks.h"
 #include "runtime/run/run_target.h"
@@ -69,7 +73,10 @@ std::string_view end_text(LoopEnd end) {
 class FrameRun {
   public:
     explicit FrameRun(const FrameRunRequest& request)
-        : request_(request), values_(request.settings->values()), display_(display_of(request)) {}
+        : request_(request),
+          values_(request.settings->values()),
+          display_(display_of(request)),
+          budget_(value_or_throw(profiles::budget_in_force(values_.profile, *request.settings))) {}
 
     std::optional<ErrorKind> run() {
         check_request(request_);
@@ -121,6 +128,7 @@ class FrameRun {
         config.passes = renderer.passes();
         config.grids = renderer.grids();
         latency::LatencySummary summary(config);
+        open_monitor(config);
         run_loop(renderer, summary);
         preview_.reset();
         window_.reset();
@@ -180,6 +188,26 @@ class FrameRun {
         recording_ = std::make_unique<RecordingObserver>(*recorder_);
     }
 
+    /// Only where somebody watches, or a budget is in force.
+    void open_monitor(const latency::SummaryConfig& display) {
+        if (request_.monitor || request_.monitor_json) {
+            monitor_output_ = std::make_unique<MonitorOutput>(MonitorOutputOptions{
+                .panel = request_.monitor,
+                .json_fd = request_.monitor_json,
+                .budget = budget_,
+                .clock = loop_clock() == latency::LoopClock::Wall ? "wall" : "virtual"});
+        }
+        if (monitor_output_ != nullptr || budget_) {
+            constexpr double kNsPerS = 1e9;
+            monitor_ = std::make_unique<MonitorFeed>(MonitorFeed::Options{
+                .display = display,
+                .budget = budget_,
+                .window_ns = std::llround(values_.monitor.window_s * kNsPerS),
+                .interval_ns = std::llround(values_.monitor.interval_s * kNsPerS),
+                .output = monitor_output_.get()});
+        }
+    }
+
     [[nodiscard]] std::unique_ptr<FrameTimeline> make_timeline() const {
         switch (request_.clock) {
             case RunClock::Wall:
@@ -232,6 +260,10 @@ class FrameRun {
         if (recording_ != nullptr) {
             parts.observers.push_back(recording_.get());
         }
+        if (monitor_ != nullptr) {
+            monitor_->tell(parts.observers);
+            parts.observers.push_back(monitor_.get());
+        }
         if (request_.hash) {
             parts.observers.push_back(&hash_);
         }
@@ -250,6 +282,7 @@ class FrameRun {
         options.stop = [this] { return why_stop(); };
         options.hidden_area = values_.render.hidden_area;
         options.wait_before_latch = values_.render.wait_before_latch;
+        options.budget_ns = budget_ ? budget_->total_ns : std::nullopt;
         try {
             result_ = run_frame_loop(parts, options);
             if (result_.end == LoopEnd::Interrupted) {
@@ -280,6 +313,16 @@ class FrameRun {
                             "close what else uses the device",
                             error.what()));
         }
+        close_monitor();
+    }
+
+    /// What the last frames broke is told while the others still listen. The panel goes.
+    void close_monitor() {
+        if (monitor_ != nullptr) {
+            last_of_monitor_ = monitor_->finish();
+            monitor_.reset();
+        }
+        monitor_output_.reset();
     }
 
     /// What its reader found is said wherever the run is spoken of.
@@ -406,6 +449,9 @@ class FrameRun {
         }
         if (!request_.quiet) {
             text += report::summary_text(report) + trace_.text();
+            if (budget_ && last_of_monitor_) {
+                text += "\n" + report::budget_account_text(*last_of_monitor_, *budget_);
+            }
         }
         if (check_) {
             text += check_->text();
@@ -422,6 +468,9 @@ class FrameRun {
         if (request_.json) {
             nlohmann::ordered_json json = report::summary_json(report);
             trace_.add_to(json);
+            if (budget_ && last_of_monitor_) {
+                json["budget"] = report::budget_account_json(*last_of_monitor_, *budget_);
+            }
             if (request_.hash) {
                 json["hash"] = hash_.json();
             }
@@ -489,6 +538,10 @@ class FrameRun {
     std::unique_ptr<render::Snapshot> snapshot_;
     std::unique_ptr<session::SessionRecorder> recorder_;
     std::unique_ptr<RecordingObserver> recording_;
+    std::optional<latency::LatencyBudget> budget_;
+    std::unique_ptr<MonitorOutput> monitor_output_;
+    std::unique_ptr<MonitorFeed> monitor_;
+    std::optional<latency::MonitorSnapshot> last_of_monitor_;
     report::TraceAccount trace_;
     session::ReplayHash hash_;
     std::optional<session::ReplayCheck> check_;

@@ -46,7 +46,9 @@ struct FrameRunRequest {
     bool hash = false;
     bool mark_fovea = false;
     bool quiet = false;
-    std::uint32_t preview_eyes = 0;  ///< preview::kLeftEye and the like; 0: no preview
+    bool monitor = false;               ///< a live panel on stderr
+    std::optional<int> monitor_json{};  ///< a file descriptor that LineWriter does not refuse
+    std::uint32_t preview_eyes = 0;     ///< preview::kLeftEye and the like; 0: no preview
     std::optional<std::filesystem::path> record;
     std::optional<std::filesystem::path> snapshot;
     std::optional<std::filesystem::path> json;

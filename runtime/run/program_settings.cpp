@@ -7,11 +7,12 @@ namespace gazeloop::run {
 
 ProgramSettings::ProgramSettings() {
     // By name, so that none is forgotten.
-    auto& [gaze, hid, methods, openxr, profile, render, sim, target, trace, virtual_time, vulkan] =
-        values_;
+    auto& [gaze, hid, methods, monitor, openxr, profile, render, sim, target, trace, virtual_time,
+           vulkan] = values_;
     add(rows_of(gaze));
     add(rows_of(hid));
     add(rows_of(methods));
+    add(rows_of(monitor));
     add(rows_of(openxr));
     add(rows_of(profile));
     add(rows_of(render, methods::rendered_methods()));

@@ -8,6 +8,7 @@
 #include "runtime/present/openxr/openxr_settings.h"
 #include "runtime/profiles/profile_settings.h"
 #include "runtime/render/render_settings.h"
+#include "runtime/run/monitor_settings.h"
 #include "runtime/run/target_settings.h"
 #include "runtime/run/virtual_time_settings.h"
 #include "runtime/settings/settings.h"
@@ -21,6 +22,7 @@ struct ProgramValues {
     gaze::GazeSettings gaze;
     drivers::hid::HidSettings hid;
     methods::MethodSettings methods;
+    MonitorSettings monitor;
     present::OpenXrSettings openxr;
     profiles::ProfileSettings profile;
     render::RenderSettings render;

@@ -1,7 +1,11 @@
 // The loop in steady state: it asks for no memory, and keeps none.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <memory>
+#include <string>
 
 #include "runtime/methods/registry.h"
 #include "tests/support/allocation_counter.h"
@@ -51,6 +55,17 @@ TEST(SteadyLoop, AllocatesNothingHeadless) {
 
 TEST(SteadyLoop, AllocatesNothingWhilePicturesAreHashed) {
     expect_no_allocations(run_watched_loop({.paced = false, .hash = true, .frames = 200}));
+}
+
+TEST(SteadyLoop, AllocatesNothingWhileABudgetIsWatched) {
+    const TemporaryFolder folder;
+    const std::string lines = folder / "lines.jsonl";
+    const int fd = open(lines.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+    ASSERT_GE(fd, 0);
+    expect_no_allocations(run_watched_loop(
+        {.paced = false, .frames = 400, .record = folder / "session.gaze", .monitor_fd = fd}));
+    close(fd);
+    EXPECT_GT(std::filesystem::file_size(lines), 10'000U);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "runtime/present/openxr/openxr_target.h"
 #include "runtime/profiles/profiles.h"
 #include "runtime/run/event_log.h"
+#include "runtime/run/monitor_feed.h"
 #include "runtime/run/program_settings.h"
 #include "runtime/run/recording_observer.h"
 #include "runtime/scene/scenes.h"
@@ -174,6 +175,22 @@ std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
         recorder = value_or_throw(session::SessionRecorder::create(options.record, {}));
         recording.emplace(*recorder);
         parts.observers.push_back(&*recording);
+    }
+    std::unique_ptr<run::MonitorOutput> output;
+    std::optional<run::MonitorFeed> monitor;
+    if (options.monitor_fd >= 0) {
+        // Broken as soon as anything can be, so that no event comes later, whose line allocates.
+        const latency::LatencyBudget budget{
+            .name = "of 1 us", .description = {}, .source = {}, .total_ns = 1000};
+        output = std::make_unique<run::MonitorOutput>(
+            run::MonitorOutputOptions{.json_fd = options.monitor_fd, .budget = budget});
+        monitor.emplace(run::MonitorFeed::Options{.display = {.period_ns = display.period_ns()},
+                                                  .budget = budget,
+                                                  .window_ns = 1'000'000'000,
+                                                  .interval_ns = 10'000'000,
+                                                  .output = output.get()});
+        monitor->tell(parts.observers);
+        parts.observers.push_back(&*monitor);
     }
     parts.observers.push_back(&watch);
     LoopOptions loop;

@@ -30,6 +30,8 @@ struct WatchedLoop {
     std::size_t resident_every = 0;  ///< frames between readings of resident_bytes; 0: none
     std::string method = "kfr";
     std::filesystem::path record{};  ///< empty: no recording
+    int monitor_fd =
+        -1;  ///< with a budget that is broken, and its monitor's lines to there; -1: none
 };
 
 /// Runs the frame loop as `gazeloop run` puts it together, and watches its thread. Throws

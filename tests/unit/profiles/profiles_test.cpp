@@ -28,6 +28,7 @@ std::string refusal(const tests::ScratchFolder& folder, const std::string& text)
 TEST(Profiles, BuiltInOnesAreComplete) {
     std::size_t displays = 0;
     std::size_t trackers = 0;
+    std::size_t budgets = 0;
     for (const config::BuiltInFile& file : config::built_in_files()) {
         if (file.folder == "displays") {
             ++displays;
@@ -46,8 +47,16 @@ TEST(Profiles, BuiltInOnesAreComplete) {
             ASSERT_TRUE(tracker.has_value()) << tracker.error().message;
             EXPECT_GT(tracker->delay_ns, 0) << file.name;
             EXPECT_GE(tracker->terms.size(), 4U) << file.name;
+        } else if (file.folder == "budgets") {
+            ++budgets;
+            const auto budget = load_budget(file.name);
+            ASSERT_TRUE(budget.has_value()) << budget.error().message;
+            EXPECT_EQ(budget->name, file.name);
+            EXPECT_FALSE(budget->description.empty() || budget->source.empty()) << file.name;
+            EXPECT_TRUE(budget->total_ns.has_value()) << file.name;
         }
     }
+    EXPECT_GE(budgets, 6U);
     EXPECT_GE(displays, 7U);
     EXPECT_GE(trackers, 6U);
 }
@@ -163,6 +172,95 @@ TEST(Profiles, NameAllThatThereAre) {
                 testing::AllOf(HasSubstr("did you mean 'fove0'?"), HasSubstr("psvr2"),
                                HasSubstr("quest_pro"), HasSubstr("valve_index"),
                                HasSubstr("varjo_xr4"), HasSubstr("vive_pro_eye")));
+}
+
+using latency::Stage;
+
+std::optional<std::int64_t> limit(const latency::LatencyBudget& budget, Stage stage) {
+    return budget.stages_ns[static_cast<std::size_t>(stage)];
+}
+
+TEST(Budgets, HaveTheFiguresOfTheirSources) {
+    constexpr std::int64_t kMs = 1'000'000;
+    constexpr std::pair<const char*, std::int64_t> kTotals_ms[] = {
+        {"albert2017", 70},          {"guenter2012", 40}, {"loschky_wolverton2007", 60},
+        {"mcconkie_loschky2002", 6}, {"stein2021", 81},   {"strict", 22}};
+    for (const auto& [name, total_ms] : kTotals_ms) {
+        const auto budget = load_budget(name);
+        ASSERT_TRUE(budget.has_value()) << name;
+        EXPECT_EQ(budget->total_ns, total_ms * kMs) << name;
+    }
+    const auto guenter = load_budget("guenter2012");
+    EXPECT_EQ(limit(*guenter, Stage::Tracker), 10 * kMs);
+    EXPECT_EQ(limit(*guenter, Stage::Gpu), 8 * kMs);
+    EXPECT_EQ(limit(*guenter, Stage::Switching), 6 * kMs);
+    EXPECT_EQ(limit(*guenter, Stage::Queue), std::nullopt);
+    EXPECT_EQ(limit(*load_budget("stein2021"), Stage::Tracker), 52 * kMs);
+    const auto strict = load_budget("strict");
+    std::int64_t sum_ns = 0;
+    for (const auto& stage : strict->stages_ns) {
+        sum_ns += stage.value_or(0);
+    }
+    EXPECT_EQ(strict->total_ns, sum_ns) << "as the file says";
+}
+
+TEST(Budgets, OfTheUserAreReadAsTheBuiltInOnes) {
+    const tests::ScratchFolder folder;
+    const std::string file = folder.write("mine.toml", "[stages_ms]\ngpu = 0.5\n");
+    const auto mine = load_budget(file);
+    ASSERT_TRUE(mine.has_value()) << mine.error().message;
+    EXPECT_EQ(mine->name, file);
+    EXPECT_EQ(mine->total_ns, std::nullopt) << "unsaid is no limit, never 0";
+    EXPECT_EQ(limit(*mine, Stage::Gpu), 500'000);
+}
+
+TEST(Budgets, RefuseWhatTheyDoNotKnow) {
+    const tests::ScratchFolder folder;
+    const auto refused = [&](const std::string& text) {
+        const auto budget = load_budget(folder.write("budget.toml", text));
+        EXPECT_FALSE(budget.has_value()) << text;
+        EXPECT_TRUE(budget || budget.error().kind == ErrorKind::BadInput) << text;
+        return budget ? "" : budget.error().message;
+    };
+    EXPECT_THAT(refused("total_ms = 20\n[stages_ms]\ngpus = 3\n"),
+                HasSubstr("budget.toml:3: unknown key 'stages_ms.gpus'; did you mean "
+                          "'stages_ms.gpu'?"));
+    EXPECT_THAT(refused("total = 20\n"), HasSubstr("did you mean 'total_ms'?"));
+    for (const char* const number : {"0", "-1", "1000.5", "nan", "inf", "-inf"}) {
+        EXPECT_THAT(refused("total_ms = " + std::string(number) + "\n"),
+                    HasSubstr("budget.toml:1: total_ms = "))
+            << number;
+    }
+    EXPECT_THAT(refused("total_ms = \"20\"\n"), HasSubstr("a number is needed"));
+    EXPECT_THAT(refused("total_ms = 20\n[stages_ms]\nqueue = 2\ngpu = 21\n"),
+                HasSubstr("budget.toml:4: stages_ms.gpu: must not be above total_ms"));
+    EXPECT_THAT(refused(""), HasSubstr("needs total_ms, or a limit of a stage"));
+    EXPECT_THAT(refused("[stages_ms]\n"), HasSubstr("needs total_ms, or a limit of a stage"));
+    EXPECT_THAT(refused("stages_ms = 3\n"), HasSubstr("unknown key 'stages_ms'"));
+    EXPECT_THAT(refused("total_ms = = 3\n"), HasSubstr("budget.toml:1: "));
+    const auto unknown = load_budget("albert2018");
+    ASSERT_FALSE(unknown.has_value());
+    EXPECT_EQ(unknown.error().kind, ErrorKind::Usage);
+    EXPECT_THAT(unknown.error().message,
+                HasSubstr("unknown budget 'albert2018'; did you mean 'albert2017'?"));
+}
+
+TEST(Budgets, AreInForceWhereTheyAreNamed) {
+    ProfileSettings named;
+    settings::Settings settings;
+    settings.add(rows_of(named));
+    auto budget = budget_in_force(named, settings);
+    ASSERT_TRUE(budget.has_value());
+    EXPECT_EQ(*budget, std::nullopt) << "none unless it is asked for";
+    ASSERT_TRUE(settings.set("profile.budget", "strict", "--budget").has_value());
+    budget = budget_in_force(named, settings);
+    ASSERT_TRUE(budget.has_value() && budget->has_value());
+    EXPECT_EQ((*budget)->name, "strict");
+    ASSERT_TRUE(settings.set("profile.budget", "stric", "--budget").has_value());
+    budget = budget_in_force(named, settings);
+    ASSERT_FALSE(budget.has_value());
+    EXPECT_THAT(budget.error().message,
+                testing::AllOf(HasSubstr("--budget"), HasSubstr("did you mean 'strict'?")));
 }
 
 TEST(SimulateTrackerInForce, FillsInWhatNobodyHasSet) {

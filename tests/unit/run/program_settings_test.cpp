@@ -50,8 +50,8 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
      {"acuity.luminance_cd_m2", "acuity.nasal", "render.depth", "render.frames_in_flight",
       "render.profile", "render.wait_before_latch"}},
     {Concerns::Machine,
-     {"openxr.patience_s", "target.name", "target.validation", "vulkan.device",
-      "vulkan.validation"}}};
+     {"monitor.interval_s", "monitor.window_s", "openxr.patience_s", "profile.budget",
+      "target.name", "target.validation", "vulkan.device", "vulkan.validation"}}};
 
 TEST(ProgramSettings, EachConcernsWhatItShould) {
     const ProgramSettings settings;
@@ -109,6 +109,7 @@ TEST(ProgramSettings, GiveEveryMemberARow) {
     expect_all(methods::LayersSettings());
     expect_all(methods::RingsSettings());
     expect_all(methods::SparseSettings());
+    expect_all(MonitorSettings());
     expect_all(present::OpenXrSettings());
     expect_all(profiles::ProfileSettings());
     expect_all(TargetSettings());
