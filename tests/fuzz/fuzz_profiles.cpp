@@ -1,5 +1,5 @@
-// Any bytes as a display's or a tracker's profile: one that can be used, or an error that names the
-// file.
+// Any bytes as a profile of a display, a tracker or a budget: one that can be used, or an error
+// that names the file.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -45,6 +45,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(tracker->delay_ns >= 0);
     } else {
         require_named(tracker.error(), file);
+    }
+    if (const auto budget = profiles::load_budget(file)) {
+        bool any = budget->total_ns.has_value();
+        for (const auto& limit_ns : budget->stages_ns) {
+            require(!limit_ns || (*limit_ns > 0 && *limit_ns <= 1'000'000'000));
+            any = any || limit_ns.has_value();
+        }
+        require(any);
+    } else {
+        require_named(budget.error(), file);
     }
     return 0;
 }
