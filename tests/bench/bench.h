@@ -53,6 +53,10 @@ std::vector<Figure> devices(const Options& options);
 /// the cache, 1.1 GB): its time and peak memory, and both over those of another build, in turns.
 std::vector<Figure> report(const Options& options);
 
+/// What watching a latency budget costs the loop: each frame, with the queue that takes snapshots
+/// to the monitor's thread, for windows of the default length and of the longest.
+std::vector<Figure> monitor(const Options& options);
+
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.
 [[nodiscard]] double median(std::vector<double> values);
 

@@ -25,7 +25,8 @@ constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
                               Named{"loop", loop},
                               Named{"maps", maps},
                               Named{"devices", devices},
-                              Named{"report", report}};
+                              Named{"report", report},
+                              Named{"monitor", monitor}};
 
 /// Preload libraries count from a program's start: it begins once more, under umockdev's.
 void begin_under_umockdev(char** arguments) {
