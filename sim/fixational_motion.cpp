@@ -5,9 +5,9 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
+#include "runtime/gaze/main_sequence.h"
 #include "sim/random.h"
 #include "sim/room_for_plans.h"
-#include "sim/saccade.h"
 
 namespace gazeloop::sim {
 namespace {
@@ -82,7 +82,7 @@ void FixationalMotion::add_microsaccade() {
     const Offset to{last.to.right_deg + amplitude_deg * std::cos(direction_rad),
                     last.to.up_deg + amplitude_deg * std::sin(direction_rad)};
     microsaccades_.push_back({.begin_s = begin_s,
-                              .duration_s = main_sequence(amplitude_deg).duration_s,
+                              .duration_s = gaze::main_sequence(amplitude_deg).duration_s,
                               .from = last.to,
                               .to = to});
 }

@@ -9,21 +9,6 @@
 #include "sim/turned_direction.h"
 
 namespace gazeloop::sim {
-namespace {
-
-// Peak over mean velocity of the two profiles that are mixed so that both the duration and the peak
-// velocity come out right: velocities as (t (1 - t))^2, minimum jerk, and as its cube. The main
-// sequence asks for 1.46 (towards 0 deg) to 1.94 (12 deg) and 1.57 (180 deg); the mix keeps its
-// peak in the middle, and moves forward only, from 1.458 (a weight of -4/3) upwards.
-constexpr double kMinimumJerkPeak = 1.875;
-constexpr double kSharperPeak = 2.1875;
-
-}  // namespace
-
-MainSequence main_sequence(double amplitude_deg) {
-    return {.duration_s = (2.54 * amplitude_deg + 15.9) * 1e-3,
-            .peak_deg_per_s = -596.0 * std::expm1(-amplitude_deg / 6.47)};
-}
 
 Saccade::Saccade(const glm::dvec3& resting) : from_(resting), to_(resting) {}
 
@@ -31,26 +16,11 @@ Saccade::Saccade(const glm::dvec3& from, const glm::dvec3& to, double vigour)
     : from_(from),
       to_(to),
       axis_(gaze::unit(glm::cross(from, to)).value_or(right_of(from))),
-      amplitude_rad_(std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to))) {
-    const double amplitude_deg = glm::degrees(amplitude_rad_);
-    const MainSequence normal = main_sequence(amplitude_deg);
-    const double peak_over_mean = normal.peak_deg_per_s * normal.duration_s / amplitude_deg;
-    sharpness_ = (peak_over_mean - kMinimumJerkPeak) / (kSharperPeak - kMinimumJerkPeak);
-    duration_s_ = normal.duration_s / vigour;
-}
-
-double Saccade::progress(double elapsed_s) const {
-    if (elapsed_s >= duration_s_) {
-        return 1.0;
-    }
-    const double t = elapsed_s / duration_s_;
-    const double minimum_jerk = t * t * t * (10.0 + t * (-15.0 + t * 6.0));
-    const double sharper = t * t * t * t * (35.0 + t * (-84.0 + t * (70.0 - t * 20.0)));
-    return minimum_jerk + sharpness_ * (sharper - minimum_jerk);
-}
+      amplitude_rad_(std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to))),
+      course_(glm::degrees(amplitude_rad_), vigour) {}
 
 glm::dvec3 Saccade::at(double elapsed_s) const {
-    if (elapsed_s >= duration_s_) {
+    if (elapsed_s >= duration_s()) {
         return to_;
     }
     return glm::angleAxis(amplitude_rad_ * progress(elapsed_s), axis_) * from_;

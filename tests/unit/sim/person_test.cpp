@@ -69,7 +69,7 @@ TEST(Person, FollowsTheMainSequence) {
         const double amplitude =
             angle_deg(glm::normalize(person.at(stretch.begin_s - 1.0 / kRate_hz).target_m),
                       glm::normalize(person.at(stretch.end_s).target_m));
-        const MainSequence expected = main_sequence(amplitude);
+        const gaze::MainSequence expected = gaze::main_sequence(amplitude);
         smallest = std::min(smallest, amplitude);
         largest = std::max(largest, amplitude);
         EXPECT_NEAR(stretch.end_s - stretch.begin_s, expected.duration_s, 1.01 / kRate_hz);
@@ -94,7 +94,7 @@ TEST(Person, ScattersPeakVelocitiesByAsMuchAsAsked) {
                 angle_deg(glm::normalize(person.at(stretch.begin_s - 1e-3).target_m),
                           glm::normalize(person.at(stretch.end_s).target_m));
             logarithms.push_back(
-                std::log(stretch.peak_deg_per_s / main_sequence(amplitude).peak_deg_per_s));
+                std::log(stretch.peak_deg_per_s / gaze::main_sequence(amplitude).peak_deg_per_s));
         }
     }
     // n > 600: the standard error of an SD of .2 is .2 / sqrt(2 n) < .006, of the mean < .0082;

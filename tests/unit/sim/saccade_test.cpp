@@ -14,13 +14,6 @@ using tests::angle_deg;
 
 constexpr glm::dvec3 kAhead{0.0, 0.0, -1.0};
 
-TEST(MainSequence, HasThePublishedFigures) {
-    EXPECT_NEAR(main_sequence(6.47).peak_deg_per_s, 596.0 * (1.0 - std::exp(-1.0)), 1e-9);
-    EXPECT_NEAR(main_sequence(10.0).duration_s, 0.0413, 1e-12);
-    EXPECT_NEAR(main_sequence(180.0).peak_deg_per_s, 596.0, 1e-6);
-    EXPECT_GT(main_sequence(1e-12).peak_deg_per_s, 0.0);
-}
-
 class SaccadeOf : public testing::TestWithParam<double> {};
 
 TEST_P(SaccadeOf, KeepsToTheMainSequence) {
@@ -28,7 +21,7 @@ TEST_P(SaccadeOf, KeepsToTheMainSequence) {
     const glm::dvec3 to = turned_direction(kAhead, glm::radians(amplitude_deg) * 0.6,
                                            glm::radians(amplitude_deg) * 0.8);
     const Saccade saccade(kAhead, to, 1.0);
-    const MainSequence expected = main_sequence(amplitude_deg);
+    const gaze::MainSequence expected = gaze::main_sequence(amplitude_deg);
     EXPECT_NEAR(saccade.duration_s(), expected.duration_s, 1e-12);
 
     constexpr int kSteps = 2000;
