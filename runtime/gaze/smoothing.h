@@ -43,7 +43,7 @@ struct SmoothingFinding {
     std::optional<double> time_constant_ms{};
     bool in_world = false;     ///< velocities are the gaze's in world; else the eyes' in the head
     double looked_at_s = 0.0;  ///< from the first sample to the last one that was looked at
-    bool stopped = false;      ///< there were more than kMostSaccades: the rest was not looked at
+    bool stopped = false;      ///< kMostSaccades were found, or stop() was called: there was more
 };
 
 /// Gathers saccades from the samples of a run, in fixed memory and without allocation after
@@ -74,6 +74,8 @@ class GazeSmoothing {
     void add(const GazeSample& sample);
     /// From here on, heads are given in another world.
     void move_origin();
+    /// There are more samples, which nobody will look at.
+    void stop() { stopped_ = true; }
 
     /// Of everything so far. Takes some 50 ms.
     [[nodiscard]] SmoothingFinding finding() const;

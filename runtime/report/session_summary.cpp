@@ -1,10 +1,11 @@
 #include "runtime/report/session_summary.h"
 
-#include <array>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "runtime/latency/summary_observer.h"
+#include "runtime/session/cursor.h"
 
 namespace gazeloop::report {
 
@@ -18,7 +19,46 @@ latency::SummaryConfig summary_config(const display::DisplayProfile& display,
             .assumed = display.assumed_photons()};
 }
 
-Expected<SessionSummary> summarize(const session::OpenSession& session) {
+namespace {
+
+/// Enough for the most saccades that are looked at, at any rate; longer sessions would be read for
+/// this alone.
+constexpr std::uint64_t kMostSamples = 300'000;
+
+/// Tells `lag` the session's first samples, where a session was played without them.
+Expected<void> tell_first_samples(const session::OpenSession& session, LagObserver& lag) {
+    session::SampleCursor samples(session);
+    session::OriginCursor origins(session);
+    if (auto moved = origins.next(); !moved) {
+        return std::unexpected(std::move(moved.error()));
+    }
+    for (std::uint64_t told = 0;; ++told) {
+        auto moved = samples.next();
+        if (!moved) {
+            return std::unexpected(std::move(moved.error()));
+        }
+        if (!*moved) {
+            return {};
+        }
+        if (told == kMostSamples) {
+            lag.stop_samples();
+            return {};
+        }
+        const session::RecordedSample& row = *samples.row();
+        while (origins.row() != nullptr && origins.row()->frame <= row.frame) {
+            lag.on_origin(*origins.row());
+            if (auto next = origins.next(); !next) {
+                return std::unexpected(std::move(next.error()));
+            }
+        }
+        lag.on_sample(row.sample, row.frame);
+    }
+}
+
+}  // namespace
+
+Expected<SessionSummary> summarize(const session::OpenSession& session,
+                                   std::span<frame::FrameObserver* const> also) {
     const session::SessionHeader& header = session.info().header;
     latency::SummaryConfig config = summary_config(header.meta.display, header.meta.clock);
     config.passes = header.passes;
@@ -27,21 +67,34 @@ Expected<SessionSummary> summarize(const session::OpenSession& session) {
     latency::SummaryObserver observer(summary);
     TraceAccount trace;
     TraceObserver tracing(trace);
+    LagObserver lag;
     auto frames = std::make_unique<FrameLog>(config);
-    const std::array<frame::FrameObserver*, 3> observers{&observer, &tracing, frames.get()};
+    std::vector<frame::FrameObserver*> observers{&observer, &tracing, frames.get(), &lag};
+    observers.insert(observers.end(), also.begin(), also.end());
     const Expected<bool> counted = session::has_gaze_counts(session);
     if (!counted) {
         return std::unexpected(counted.error());
     }
+    // Who else listens wants the samples too.
+    const bool by_counts = *counted && also.empty();
     auto end = session::play_ahead(
-        session, observers, *counted ? session::PlayedGaze::Counts : session::PlayedGaze::Samples);
+        session, observers,
+        by_counts ? session::PlayedGaze::Counts : session::PlayedGaze::Samples);
     if (!end) {
         return std::unexpected(std::move(end.error()));
+    }
+    if (by_counts) {
+        if (auto told = tell_first_samples(session, lag); !told) {
+            return std::unexpected(std::move(told.error()));
+        }
     }
     frames->finish();
     return SessionSummary{.report = summary.report(),
                           .frames = std::move(frames),
                           .trace = std::move(trace),
+                          .origin = lag.origin(),
+                          .use = lag.use(),
+                          .smoothing = lag.smoothing(),
                           .end = *std::move(end)};
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "runtime/display/display_profile.h"
 #include "runtime/error.h"
 #include "runtime/latency/latency_summary.h"
 #include "runtime/report/frame_log.h"
+#include "runtime/report/lag_facts.h"
 #include "runtime/report/trace_account.h"
 #include "runtime/session/playback.h"
 
@@ -19,10 +21,14 @@ struct SessionSummary {
     latency::SummaryReport report;  ///< the same as at the end of its run
     std::unique_ptr<const FrameLog> frames;
     TraceAccount trace;
+    GazeOrigin origin = GazeOrigin::Unknown;
+    latency::GazeUseCounts use;
+    gaze::SmoothingFinding smoothing;
     session::PlaybackEnd end;
 };
 
-/// Errors: see session::play().
-Expected<SessionSummary> summarize(const session::OpenSession& session);
+/// `also` is told the session too, with every sample. Errors: see session::play().
+Expected<SessionSummary> summarize(const session::OpenSession& session,
+                                   std::span<frame::FrameObserver* const> also = {});
 
 }  // namespace gazeloop::report

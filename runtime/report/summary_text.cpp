@@ -195,8 +195,12 @@ std::string summary_counts(const latency::SummaryReport& report) {
     return text;
 }
 
-std::string summary_text(const latency::SummaryReport& report) {
-    std::string text = summary_head(report) + "\n";
+std::string summary_text(const latency::SummaryReport& report, std::string_view lag) {
+    std::string text = summary_head(report);
+    if (!lag.empty()) {
+        text += fmt::format("\n{}", lag);
+    }
+    text += "\n";
     append_table(text, report);
     return text + summary_notes(report) + "\n" + summary_counts(report);
 }

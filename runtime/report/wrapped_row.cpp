@@ -4,19 +4,19 @@
 
 namespace gazeloop::report {
 
-std::string wrapped_row(std::string_view label, std::string_view text) {
-    constexpr std::size_t kIndent = 9;
-    constexpr std::size_t kWidth = 100 - kIndent;
-    std::string result = fmt::format("{:<{}}", label, kIndent);
-    while (text.size() > kWidth) {
-        std::size_t end = text.substr(0, kWidth + 1).rfind(' ');
+std::string wrapped_row(std::string_view label, std::string_view text, std::size_t indent) {
+    constexpr std::size_t kColumns = 100;
+    const std::size_t width = kColumns - indent;
+    std::string result = fmt::format("{:<{}}", label, indent);
+    while (text.size() > width) {
+        std::size_t end = text.substr(0, width + 1).rfind(' ');
         if (end == std::string_view::npos) {
             end = text.find(' ');
         }
         if (end == std::string_view::npos) {
             break;
         }
-        result += fmt::format("{}\n{:{}}", text.substr(0, end), "", kIndent);
+        result += fmt::format("{}\n{:{}}", text.substr(0, end), "", indent);
         text.remove_prefix(end + 1);
     }
     return fmt::format("{}{}\n", result, text);

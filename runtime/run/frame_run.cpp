@@ -20,7 +20,9 @@
 #include "runtime/render/off_screen.h"
 #include "runtime/render/snapshot.h"
 #include "runtime/report/budget_account.h"
+#include "runtime/report/lag_reasons.h"
 #include "runtime/report/output_file.h"
+#include "runtime/report/prediction_text.h"
 #include "runtime/report/session_summary.h"
 #include "runtime/report/summary_json.h"
 #include "runtime/report/summary_text.h"
@@ -33,6 +35,7 @@
 #include "runtime/run/run_checks.h"
 #include "runtime/run/run_target.h"
 #include "runtime/run/trace_log.h"
+#include "runtime/run/tracker_figures.h"
 #include "runtime/scene/scenes.h"
 #include "runtime/session/replay_check.h"
 #include "runtime/session/session_recorder.h"
@@ -247,6 +250,8 @@ class FrameRun {
                         source = std::make_unique<drivers::AnatomySource>(std::move(source));
                     }
                     spdlog::info("gaze: {}", source->description());
+                    lag_.on_event(time::Stamp{}, frame::kGazeSourceEvent.name,
+                                  source->description());
                     if (recorder_ != nullptr) {
                         recorder_->event(time::Stamp{}, frame::kGazeSourceEvent.name,
                                          source->description());
@@ -256,7 +261,7 @@ class FrameRun {
                     }
                     return source;
                 },
-            .observers = {&summing, &logging, &tracing}};
+            .observers = {&summing, &logging, &tracing, &lag_}};
         if (recording_ != nullptr) {
             parts.observers.push_back(recording_.get());
         }
@@ -398,11 +403,12 @@ class FrameRun {
 
     /// What happened while it was recorded belongs to the times of a replay, which are the recorded
     /// ones.
-    void add_recorded_events(latency::LatencySummary& summary) const {
+    void add_recorded_events(latency::LatencySummary& summary) {
         session::EventCursor events(*request_.recording->session);
         while (value_or_throw(events.next())) {
             const session::RecordedEvent& event = *events.row();
             summary.add_event(event.time, event.kind, event.text);
+            lag_.on_event(event.time, event.kind, event.text);
         }
     }
 
@@ -447,8 +453,20 @@ class FrameRun {
         if (result_.fixed_in_head && request_.clock == RunClock::Wall && !request_.quiet) {
             text += "fixed gaze: no tracker; ages count from the latch\n";
         }
+        const std::vector<NamedValue> settings = request_.settings->list();
+        const report::LagFacts facts{.report = &report,
+                                     .origin = lag_.origin(),
+                                     .prediction = latency::check_prediction(
+                                         tracker_figures(settings, lag_.origin()), report),
+                                     .use = lag_.use(),
+                                     .smoothing = lag_.smoothing(),
+                                     .settings = settings};
+        const report::LagReasons reasons = report::lag_reasons(facts);
         if (!request_.quiet) {
-            text += report::summary_text(report) + trace_.text();
+            text += report::summary_text(report, request_.clock == RunClock::Wall
+                                                     ? report::lag_paragraph(reasons)
+                                                     : report::lag_text(reasons)) +
+                    trace_.text();
             if (budget_ && last_of_monitor_) {
                 text += "\n" + report::budget_account_text(*last_of_monitor_, *budget_);
             }
@@ -471,6 +489,8 @@ class FrameRun {
             if (budget_ && last_of_monitor_) {
                 json["budget"] = report::budget_account_json(*last_of_monitor_, *budget_);
             }
+            json["why_the_fovea_lags"] = report::lag_json(reasons);
+            json["prediction"] = report::prediction_json(facts.prediction);
             if (request_.hash) {
                 json["hash"] = hash_.json();
             }
@@ -543,6 +563,7 @@ class FrameRun {
     std::unique_ptr<MonitorFeed> monitor_;
     std::optional<latency::MonitorSnapshot> last_of_monitor_;
     report::TraceAccount trace_;
+    report::LagObserver lag_;
     session::ReplayHash hash_;
     std::optional<session::ReplayCheck> check_;
     LoopResult result_;

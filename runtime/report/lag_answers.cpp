@@ -1,0 +1,227 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/report/lag_reasons.h"
+#include "runtime/report/prediction_text.h"
+#include "runtime/time/milliseconds.h"
+
+namespace gazeloop::report {
+namespace {
+
+using gaze::SmoothingVerdict;
+using latency::Verdict;
+
+/// "163 saccades peak at .98 (95 % confidence .96 to 1.01) of what ..."
+std::string speed_text(const gaze::SmoothingFinding& found) {
+    return fmt::format(
+        "{} saccades peak at {:.2f} times the main sequence (median; 95 % "
+        "confidence {:.2f} to {:.2f}), as this rate of {:.0f} Hz and this noise "
+        "show it",
+        found.saccades, *found.speed, found.speed_low, found.speed_high, found.rate_hz);
+}
+
+std::string time_constant_text(const gaze::SmoothingFinding& found) {
+    if (!found.time_constant_ms) {
+        return "";
+    }
+    const bool longest = *found.time_constant_ms >= gaze::GazeSmoothing::kLongestTimeConstant_ms;
+    return fmt::format(
+        ", as behind an exponential filter with a time constant of about {:.0f} ms"
+        "{}, a lag that no stage shows",
+        *found.time_constant_ms, longest ? " or more" : "");
+}
+
+std::string what_was_looked_at(const gaze::SmoothingFinding& found) {
+    std::string text;
+    if (found.stopped) {
+        text += fmt::format("; only the first {:.0f} s were looked at", found.looked_at_s);
+    }
+    if (!found.in_world) {
+        text += "; no head poses are known, and a head that turns makes eyes look slow";
+    }
+    return text;
+}
+
+LagAnswer smoothed(const LagFacts& facts) {
+    const gaze::SmoothingFinding& found = facts.smoothing;
+    LagAnswer answer{.key = "smoothed", .question = "Is the gaze smoothed by the runtime?"};
+    switch (found.verdict) {
+        case SmoothingVerdict::Smoothed:
+            answer.kind = LagAnswerKind::Yes;
+            answer.why = speed_text(found) + time_constant_text(found) + what_was_looked_at(found);
+            break;
+        case SmoothingVerdict::NotSmoothed:
+            answer.kind = LagAnswerKind::No;
+            answer.why = speed_text(found) +
+                         "; a filter that takes less than a fifth of the peak would pass unseen" +
+                         what_was_looked_at(found);
+            break;
+        case SmoothingVerdict::Unclear:
+            answer.why = speed_text(found) +
+                         "; some eyes are as slow as .8, so that it takes more saccades to tell" +
+                         what_was_looked_at(found);
+            break;
+        case SmoothingVerdict::TooFewSaccades:
+            answer.why = fmt::format(
+                "too few saccades: {} of 2 to 30 deg stand out from the noise, "
+                "{} are needed; look around for half a minute",
+                found.saccades, gaze::GazeSmoothing::kFewestSaccades);
+            break;
+        case SmoothingVerdict::TooSlow:
+            answer.why = fmt::format(
+                "samples come at {:.0f} Hz; peaks of saccades need {:.0f} Hz "
+                "or more",
+                found.rate_hz, gaze::GazeSmoothing::kLeastRate_hz);
+            break;
+        case SmoothingVerdict::Repeated:
+            answer.why =
+                "most samples repeat the one before, so that speeds mean nothing: the "
+                "gaze stands still, or the tracker reports more often than it looks";
+            break;
+        case SmoothingVerdict::NoTimes:
+            answer.why = "no sample says when the eye was seen, so that speeds are unknown";
+            break;
+        case SmoothingVerdict::NoSamples:
+            answer.why = "no sample came";
+            break;
+    }
+    return answer;
+}
+
+LagAnswer late(const LagFacts& facts) {
+    LagAnswer answer{.key = "late", .question = "Is it late?"};
+    const latency::SummaryReport& report = *facts.report;
+    const latency::DurationRow& age = report.gaze_age_at_display;
+    if (age.count == 0) {
+        answer.why = "how old the gaze is when its picture is seen is unknown in all frames";
+        return answer;
+    }
+    const double late_ms = age.p95_ms.value_or(*age.max_ms);
+    const std::string measured =
+        fmt::format("{} is {}", age.p95_ms ? "the p95 of its age" : "its greatest age",
+                    milliseconds_text(late_ms));
+    const std::string predicted = prediction_sentence(facts.prediction);
+    if (report.verdict == Verdict::NotRealTime || report.verdict == Verdict::VirtualTime) {
+        answer.why = fmt::format("{}, but {}{}", measured,
+                                 report.verdict == Verdict::VirtualTime
+                                     ? "in virtual time nothing was timed"
+                                     : "the machine does not keep up with the display",
+                                 predicted);
+        return answer;
+    }
+    if (facts.budget == nullptr || !facts.budget->total_ns) {
+        answer.why = fmt::format("{}, and no budget was named to hold it against (--budget){}",
+                                 measured, predicted);
+        return answer;
+    }
+    const double budget_ms = static_cast<double>(*facts.budget->total_ns) / time::kNsPerMs;
+    answer.kind = late_ms > budget_ms ? LagAnswerKind::Yes : LagAnswerKind::No;
+    answer.why = fmt::format("{}, the budget {} allows {}{}", measured, facts.budget->name,
+                             milliseconds_text(budget_ms), predicted);
+    return answer;
+}
+
+/// Why a sample is used again, where it is.
+std::string why_reused(const LagFacts& facts, double percent) {
+    const double interval_ms = facts.report->frame_interval.p50_ms.value_or(0.0);
+    const double frames_hz = interval_ms > 0.0 ? 1e3 / interval_ms : 0.0;
+    const auto expected = latency::expected_reuse_percent(facts.smoothing.rate_hz, frames_hz);
+    if (!expected) {
+        return "; what is usual cannot be said, because a rate is unknown";
+    }
+    const std::string rates = fmt::format("{:.0f} samples and {:.0f} frames a second",
+                                          facts.smoothing.rate_hz, frames_hz);
+    constexpr double kMore_percent = 2.0;
+    if (*expected > 0.0) {
+        return fmt::format("; with {} {:.0f} % must{}", rates, *expected,
+                           percent > *expected + kMore_percent
+                               ? ", the rest is of samples that come late, in bursts or not at all"
+                               : ", which is normal");
+    }
+    return fmt::format("; with {} none would have to: samples come late, in bursts or not at all",
+                       rates);
+}
+
+LagAnswer reused(const LagFacts& facts) {
+    LagAnswer answer{.key = "reused", .question = "Is it reused?"};
+    const latency::GazeUseCounts& use = facts.use;
+    const auto percent = use.reused_percent();
+    if (!percent) {
+        answer.why = "no two frames in a row have gaze";
+        return answer;
+    }
+    if (use.reused == 0) {
+        answer.kind = LagAnswerKind::No;
+        answer.why = "each frame with gaze has another sample than the frame before";
+        return answer;
+    }
+    answer.kind = LagAnswerKind::Yes;
+    answer.why = fmt::format(
+        "{:.1f} % of the frames ({}) have the sample of the frame before, up "
+        "to {} in a row from frame {} on{}",
+        *percent, use.reused, use.longest_reuse.frames, use.longest_reuse.first,
+        why_reused(facts, *percent));
+    return answer;
+}
+
+/// "1.2 % because neither eye was valid, .3 % because the newest sample was stale".
+std::string reasons_text(const latency::GazeUseCounts& use) {
+    constexpr std::array<std::string_view, gaze::kLossReasonNames.size()> kWords{
+        "", "neither eye was valid", "the newest sample was too old", "none had come yet"};
+    std::string text;
+    for (std::size_t reason = 1; reason < kWords.size(); ++reason) {
+        if (const std::uint64_t frames = use.lost_by_reason[reason]; frames > 0) {
+            text +=
+                fmt::format("{}{} because {}", text.empty() ? "" : ", ", frames, kWords[reason]);
+        }
+    }
+    return text;
+}
+
+/// The samples, which tell more than frames where the tracker is faster.
+std::string samples_text(const latency::GazeCounts& gaze) {
+    return gaze.invalid + gaze.lost == 0
+               ? ""
+               : fmt::format("; of {} samples {} had no valid eye, and {} more never came",
+                             gaze.received, gaze.invalid, gaze.lost);
+}
+
+LagAnswer lost(const LagFacts& facts) {
+    LagAnswer answer{.key = "lost", .question = "Is it lost?"};
+    const latency::GazeUseCounts& use = facts.use;
+    const auto percent = use.lost_percent();
+    if (!percent) {
+        answer.why = "no frame was rendered";
+        return answer;
+    }
+    if (use.lost == 0) {
+        answer.kind = LagAnswerKind::No;
+        answer.why = fmt::format("all {} frames rest on a fresh sample{}", use.rendered,
+                                 samples_text(facts.report->gaze));
+        return answer;
+    }
+    answer.kind = LagAnswerKind::Yes;
+    std::string longest;
+    if (use.longest_loss.frames > 0) {
+        const time::Span& lasted = use.longest_loss.lasted;
+        longest = fmt::format("; the longest loss takes {} frames from frame {} on{}",
+                              use.longest_loss.frames, use.longest_loss.first,
+                              lasted.known() && lasted.ns > 0
+                                  ? fmt::format(" ({:.0f} ms; a blink takes 100 to 400)",
+                                                static_cast<double>(lasted.ns) / time::kNsPerMs)
+                                  : "");
+    }
+    answer.why =
+        fmt::format("{:.1f} % of the frames ({}) have no fresh gaze: {}{}{}", *percent, use.lost,
+                    reasons_text(use), longest, samples_text(facts.report->gaze));
+    return answer;
+}
+
+}  // namespace
+
+std::array<LagAnswer, kLagQuestionCount> lag_answers(const LagFacts& facts) {
+    return {smoothed(facts), late(facts), reused(facts), lost(facts)};
+}
+
+}  // namespace gazeloop::report
