@@ -132,7 +132,7 @@ Expected<void> OutputFile::write(std::string_view text) {
 
 Expected<void> OutputFile::close() {
     if (file_ == "-") {
-        return {};
+        return std::fflush(stdout) == 0 ? Expected<void>{} : refuse(file_, errno);
     }
     int error = ::close(std::exchange(descriptor_, -1)) != 0 ? errno : 0;
     if (error == 0 && !beside_.empty() && ::rename(beside_.c_str(), real_.c_str()) != 0) {
