@@ -23,6 +23,9 @@ struct FrameStamps {
     time::Stamp gpu_end;    ///< the last pass ended on the GPU, in host time
     time::Stamp present;    ///< the compositor handed it to the display, where the runtime tells
     time::Stamp display;    ///< announced middle of the display's emission
+    /// The same as it came about, by the runtime's own account of the present. No session keeps it:
+    /// unknown unless a report was given such an account.
+    time::Stamp shown;
 };
 
 /// Everything that is known of a frame when it is handed to the compositor. The GPU's part is added

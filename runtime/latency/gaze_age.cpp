@@ -5,7 +5,24 @@
 
 namespace gazeloop::latency {
 
+namespace {
+
+/// By the runtime's account.
+ShownFrame told_shown_frame(const frame::FrameStamps& stamps, std::int64_t period_ns) {
+    ShownFrame shown{.at = stamps.shown, .in_time_known = stamps.display.known() && period_ns > 0};
+    const __int128 late = static_cast<__int128>(stamps.shown.ns) - stamps.display.ns;
+    if (shown.in_time_known && late > 0) {
+        shown.periods_missed = static_cast<std::uint64_t>((2 * late + period_ns) / period_ns / 2);
+    }
+    return shown;
+}
+
+}  // namespace
+
 ShownFrame shown_frame(const frame::FrameStamps& stamps, std::int64_t period_ns) {
+    if (stamps.shown.known()) {
+        return told_shown_frame(stamps, period_ns);
+    }
     ShownFrame shown{.at = stamps.display,
                      .in_time_known = stamps.display.known() && stamps.gpu_end.known()};
     if (!shown.in_time_known || stamps.gpu_end.ns <= stamps.display.ns) {
@@ -52,7 +69,8 @@ GazeAge gaze_age(const gaze::FoveaPoint& fovea, const frame::FrameStamps& stamps
         time::between(stamps.latch, stamps.filtered),
         time::between(stamps.filtered.known() ? stamps.filtered : stamps.latch, stamps.submit),
         time::between(gpu_start(stamps), stamps.gpu_end),
-        time::between(stamps.gpu_end, shown),
+        time::between(stamps.gpu_end, stamps.present),
+        time::between(stamps.present.known() ? stamps.present : stamps.gpu_end, shown),
         time::Span{},
         time::Span{}};
     const auto add = [&age](Stage stage, std::optional<std::int64_t> delay_ns) {

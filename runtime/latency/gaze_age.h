@@ -22,21 +22,23 @@ enum class Stage : std::size_t {
     Filter,     ///< -> the foveae were computed; where that is unknown, Submit has this time too
     Submit,     ///< -> the last pass was handed to the GPU
     Gpu,        ///< the first pass began, after the submit or at it -> the last pass ended
+    Present,    ///< -> the compositor presented it; where that is unknown, Wait has this time too
     Wait,       ///< -> the middle of the display's emission
     Row,        ///< -> the emission of the fovea's row, earlier above the middle; of the display
     Switching,  ///< -> the pixels have switched, a constant of the display
 };
-inline constexpr std::size_t kStageCount = 9;
+inline constexpr std::size_t kStageCount = 10;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "tracker", "delivery",         "queue",       "filter",   "submit",
-    "gpu",     "wait for display", "scan to row", "switching"};
+    "tracker",    "delivery",         "queue",       "filter",   "submit", "gpu",
+    "compositor", "wait for display", "scan to row", "switching"};
 
 /// Whether a stage is left out where it is unknown. These are Delivery, which is then part of
-/// Tracker, Filter, which is then part of Submit, and Row, because the summary says once that the
-/// display's lighting of rows is unknown.
+/// Tracker, Filter, which is then part of Submit, Present, which is then part of Wait, and Row,
+/// because the summary says once that the display's lighting of rows is unknown.
 [[nodiscard]] constexpr bool shown_only_if_known(std::size_t stage) {
     return stage == static_cast<std::size_t>(Stage::Delivery) ||
            stage == static_cast<std::size_t>(Stage::Filter) ||
+           stage == static_cast<std::size_t>(Stage::Present) ||
            stage == static_cast<std::size_t>(Stage::Row);
 }
 
@@ -44,12 +46,15 @@ inline constexpr std::array<std::string_view, kStageCount> kStageNames{
 struct ShownFrame {
     time::Stamp at;
     std::uint64_t periods_missed = 0;  ///< display periods after the announced one, at least
-    bool in_time_known = false;        ///< whether the announced time and the GPU's end are known
+    /// Whether it is known if the frame was shown as announced.
+    bool in_time_known = false;
 };
 
-/// A frame whose last pass ended by its announced display time is shown then. A later one is shown
-/// a whole number of periods later. That is a model of the compositor, and marked so (unknown
-/// without a period). If the end on the GPU is unknown, the announced time stands.
+/// Where the runtime said when the frame was shown, then, and it missed as many periods as that is
+/// later than announced, to the nearest. Else a model of the compositor: a frame whose last pass
+/// ended by its announced display time is shown then. A later one is shown a whole number of
+/// periods later, and marked as modelled (unknown without a period). If the end on the GPU is
+/// unknown, the announced time stands.
 [[nodiscard]] ShownFrame shown_frame(const frame::FrameStamps& stamps, std::int64_t period_ns);
 
 /// How old the gaze was in one frame.

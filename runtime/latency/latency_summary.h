@@ -53,7 +53,7 @@ inline constexpr std::array<std::string_view, 4> kVerdictNames{"real-time", "not
 struct FrameCounts {
     std::uint64_t total = 0;
     std::uint64_t rendered = 0;         ///< with should_render; all figures below are of these
-    std::uint64_t missed = 0;           ///< shown later than announced, because of the GPU
+    std::uint64_t missed = 0;           ///< shown later than announced
     std::uint64_t periods_missed = 0;   ///< by them together, at least
     std::uint64_t in_time_unknown = 0;  ///< no time of the GPU's end, or of the display
     std::uint64_t display_unknown =

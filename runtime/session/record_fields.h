@@ -23,7 +23,7 @@ namespace gazeloop::session {
 static_assert(sizeof(gaze::GazeSample) == 304, "a new member: see above");
 static_assert(sizeof(gaze::FoveaPoint) == 136, "a new member: see above");
 static_assert(sizeof(gaze::EyeView) == 96, "a new member: see above");
-static_assert(sizeof(frame::FrameStamps) == 160, "a new member: see above");
+static_assert(sizeof(frame::FrameStamps) == 176, "a new member: see above");
 static_assert(sizeof(frame::GridCounts) == 40, "a new member: see above");
 static_assert(sizeof(frame::FrameRecord) == 1088, "a new member: see above");
 static_assert(sizeof(frame::FrameGpuRecord) == 264, "a new member: see above");
@@ -137,8 +137,8 @@ void visit_samples(Visitor& visit, Samples& samples) {
     visit_count(visit, "pixels_hidden", "", true, samples.pixels_hidden);
 }
 
-/// When the foveae were computed: of the kind of the latch. `present` is not of the file: who reads
-/// a runtime's own times adds it.
+/// When the foveae were computed: of the kind of the latch. `present` and `shown` are not of the
+/// file: who reads a runtime's own times adds them.
 template <typename Visitor, typename Stamps>
 void visit_filtered(Visitor& visit, Stamps& stamps) {
     auto ns = stamps.filtered.known() ? std::optional(stamps.filtered.ns) : std::nullopt;

@@ -61,7 +61,8 @@ class AnyRecord {
                   .gpu_begin = stamp(),
                   .gpu_end = stamp(),
                   .present = {},
-                  .display = stamp()};
+                  .display = stamp(),
+                  .shown = {}};
         if (stamps.latch.known() && coin()) {
             stamps.filtered = {signed_integer(), stamps.latch.kind};
         }

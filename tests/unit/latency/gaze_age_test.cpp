@@ -89,6 +89,32 @@ TEST(ShownFrame, DoesNotWrapAround) {
     EXPECT_EQ(shown_frame(stamps, 2).at.ns, std::numeric_limits<std::int64_t>::max());
 }
 
+TEST(ShownFrame, IsShownWhenTheRuntimeSaysSo) {
+    frame::FrameStamps stamps;
+    stamps.display = {100'000, time::StampKind::Predicted};
+    stamps.gpu_end = measured(150'000);  // late by our model, which then does not count
+    struct Case {
+        std::int64_t late_ns;
+        std::uint64_t periods;
+    };
+    for (const auto& [late_ns, periods] :
+         {Case{-3 * kPeriodNs, 0}, Case{0, 0}, Case{kPeriodNs / 2 - 1, 0}, Case{kPeriodNs / 2, 1},
+          Case{kPeriodNs, 1}, Case{5 * kPeriodNs + 1, 5}}) {
+        stamps.shown = {100'000 + late_ns, time::StampKind::Profile};
+        const ShownFrame shown = shown_frame(stamps, kPeriodNs);
+        EXPECT_EQ(shown.at, stamps.shown);
+        EXPECT_EQ(shown.periods_missed, periods) << late_ns;
+        EXPECT_TRUE(shown.in_time_known);
+    }
+    EXPECT_FALSE(shown_frame(stamps, 0).in_time_known) << "of no period, it is not known";
+    stamps.display = {};
+    EXPECT_EQ(shown_frame(stamps, kPeriodNs).at, stamps.shown);
+    EXPECT_FALSE(shown_frame(stamps, kPeriodNs).in_time_known);
+    stamps.display = {std::numeric_limits<std::int64_t>::min(), time::StampKind::Predicted};
+    stamps.shown = measured(std::numeric_limits<std::int64_t>::max());
+    EXPECT_EQ(shown_frame(stamps, 1).periods_missed, std::numeric_limits<std::uint64_t>::max());
+}
+
 class GazeAgeOfAFrame : public ::testing::Test {
   protected:
     GazeAgeOfAFrame() {
@@ -146,6 +172,20 @@ TEST_F(GazeAgeOfAFrame, SplitsTheSubmitWhereTheFilterIsStamped) {
     EXPECT_EQ(stage(age, Stage::Filter), (time::Span{100, time::StampKind::Measured}));
     EXPECT_EQ(stage(age, Stage::Submit), (time::Span{1'400, time::StampKind::Measured}));
     EXPECT_EQ(age.unaccounted, (time::Span{0, time::StampKind::Predicted}));
+}
+
+TEST_F(GazeAgeOfAFrame, SplitsTheWaitWhereThePresentIsKnown) {
+    EXPECT_FALSE(stage(gaze_age(fovea, stamps, stamps.display, 2'000), Stage::Present).known());
+    stamps.present = measured(18'000);
+    stamps.shown = {22'000, time::StampKind::Profile};
+    const GazeAge age = gaze_age(fovea, stamps, shown_frame(stamps, 0).at, 2'000);
+    EXPECT_EQ(stage(age, Stage::Present), (time::Span{3'000, time::StampKind::Measured}));
+    EXPECT_EQ(stage(age, Stage::Wait), (time::Span{4'000, time::StampKind::Profile}));
+    EXPECT_EQ(age.at_display, (time::Span{23'000, time::StampKind::Profile}));
+    EXPECT_EQ(age.unaccounted, (time::Span{0, time::StampKind::Profile}));
+    stamps.gpu_end = {};
+    EXPECT_EQ(gaze_age(fovea, stamps, stamps.shown, 2'000).unaccounted.ns, 8'500)
+        << "from the submit to the present";
 }
 
 TEST_F(GazeAgeOfAFrame, ShowsTheTimeBeforeTheFirstPassAsUnaccounted) {
