@@ -39,6 +39,8 @@ Json grids_json(const frame::GridList& names, const frame::SampleCounts& samples
     return grids;
 }
 
+}  // namespace
+
 Json row_json(const latency::DurationRow& row) {
     return {{"frames", row.count},
             {"kind", time::name(row.kind())},
@@ -50,8 +52,6 @@ Json row_json(const latency::DurationRow& row) {
             {"p99_ms", or_null(row.p99_ms)},
             {"max_ms", or_null(row.max_ms)}};
 }
-
-}  // namespace
 
 Json summary_json(const latency::SummaryReport& report) {
     Json durations = Json::object();
