@@ -57,7 +57,7 @@ Expected<void> tell_first_samples(const session::OpenSession& session, LagObserv
 
 }  // namespace
 
-Expected<SessionSummary> summarize(const session::OpenSession& session,
+Expected<SessionSummary> summarize(const session::OpenSession& session, const RuntimeFiles& files,
                                    std::span<frame::FrameObserver* const> also) {
     const session::SessionHeader& header = session.info().header;
     latency::SummaryConfig config = summary_config(header.meta.display, header.meta.clock);
@@ -71,15 +71,19 @@ Expected<SessionSummary> summarize(const session::OpenSession& session,
     auto frames = std::make_unique<FrameLog>(config);
     std::vector<frame::FrameObserver*> observers{&observer, &tracing, frames.get(), &lag};
     observers.insert(observers.end(), also.begin(), also.end());
+    auto runtime = RuntimeAccount::open(files, header.meta.runtime_metrics);
+    if (!runtime) {
+        return std::unexpected(std::move(runtime.error()));
+    }
     const Expected<bool> counted = session::has_gaze_counts(session);
     if (!counted) {
         return std::unexpected(counted.error());
     }
     // Who else listens wants the samples too.
     const bool by_counts = *counted && also.empty();
-    auto end = session::play_ahead(
-        session, observers,
-        by_counts ? session::PlayedGaze::Counts : session::PlayedGaze::Samples);
+    auto end =
+        session::play_ahead(session, runtime->joined(observers),
+                            by_counts ? session::PlayedGaze::Counts : session::PlayedGaze::Samples);
     if (!end) {
         return std::unexpected(std::move(end.error()));
     }
@@ -92,6 +96,7 @@ Expected<SessionSummary> summarize(const session::OpenSession& session,
     return SessionSummary{.report = summary.report(),
                           .frames = std::move(frames),
                           .trace = std::move(trace),
+                          .runtime = *std::move(runtime),
                           .origin = lag.origin(),
                           .use = lag.use(),
                           .smoothing = lag.smoothing(),

@@ -8,6 +8,7 @@
 #include "runtime/latency/latency_summary.h"
 #include "runtime/report/frame_log.h"
 #include "runtime/report/lag_facts.h"
+#include "runtime/report/runtime_metrics/runtime_account.h"
 #include "runtime/report/trace_account.h"
 #include "runtime/session/playback.h"
 
@@ -21,14 +22,17 @@ struct SessionSummary {
     latency::SummaryReport report;  ///< the same as at the end of its run
     std::unique_ptr<const FrameLog> frames;
     TraceAccount trace;
+    RuntimeAccount runtime;
     GazeOrigin origin = GazeOrigin::Unknown;
     latency::GazeUseCounts use;
     gaze::SmoothingFinding smoothing;
     session::PlaybackEnd end;
 };
 
-/// `also` is told the session too, with every sample. Errors: see session::play().
+/// `files` are of the session's run. `also` is told the session too, with every sample. Errors: see
+/// session::play() and RuntimeAccount::open().
 Expected<SessionSummary> summarize(const session::OpenSession& session,
+                                   const RuntimeFiles& files = {},
                                    std::span<frame::FrameObserver* const> also = {});
 
 }  // namespace gazeloop::report

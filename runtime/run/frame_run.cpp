@@ -9,9 +9,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "drivers/anatomy/anatomy_source.h"
+#include "runtime/environment.h"
 #include "runtime/latency/summary_observer.h"
 #include "runtime/methods/registry.h"
 #include "runtime/preview/preview_feed.h"
@@ -165,6 +167,13 @@ class FrameRun {
                 .unshaded = std::nullopt};
     }
 
+    /// Absolute, for a report that is made elsewhere; empty where there can be none.
+    [[nodiscard]] std::string runtime_metrics_file() const {
+        const auto file = environment_value("XRT_METRICS_FILE");
+        return file && values_.target.name == "openxr" ? std::filesystem::absolute(*file).string()
+                                                       : "";
+    }
+
     void open_recording(const render::FrameRenderer& renderer) {
         if (!request_.record) {
             return;
@@ -180,6 +189,7 @@ class FrameRun {
                        .clock = loop_clock(),
                        .target = values_.target.name,
                        .target_format = vk::to_string(target_->format()),
+                       .runtime_metrics = runtime_metrics_file(),
                        .display = display_};
         header.config = request_.settings->list();
         for (const auto& [name, value] : target_->properties()) {

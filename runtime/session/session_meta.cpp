@@ -19,6 +19,7 @@ constexpr std::string_view kStartedUtc = "started_utc";
 constexpr std::string_view kClock = "clock";
 constexpr std::string_view kTarget = "target";
 constexpr std::string_view kTargetFormat = "target_format";
+constexpr std::string_view kRuntimeMetrics = "runtime_metrics";
 constexpr std::string_view kDisplay = "display";
 constexpr std::string_view kPeriod = "display_period_ns";
 constexpr std::string_view kIllumination = "display_illumination";
@@ -98,6 +99,7 @@ std::vector<NamedValue> rows_of(const SessionMeta& meta) {
     rows.add(kClock, meta.clock == latency::LoopClock::Virtual ? kVirtual : kWall);
     rows.add(kTarget, meta.target);
     rows.add(kTargetFormat, meta.target_format);
+    rows.add(kRuntimeMetrics, meta.runtime_metrics);
     rows.add(kDisplay, display.name);
     if (display.refresh_hz > 0.0) {
         rows.add(kPeriod, display.period_ns());
@@ -121,6 +123,7 @@ SessionMeta meta_of(std::span<const NamedValue> rows) {
                                                        : latency::LoopClock::Wall,
             .target = std::string(text_in(rows, kTarget)),
             .target_format = std::string(text_in(rows, kTargetFormat)),
+            .runtime_metrics = std::string(text_in(rows, kRuntimeMetrics)),
             .display = display_in(rows)};
 }
 

@@ -18,6 +18,9 @@ struct SessionMeta {
     latency::LoopClock clock = latency::LoopClock::Wall;
     std::string target{};         ///< where the pictures went
     std::string target_format{};  ///< of its pictures, as Vulkan names it
+    /// XRT_METRICS_FILE of its environment, absolute: where Monado's service writes metrics of its
+    /// own if it was started with the same.
+    std::string runtime_metrics{};
     /// Name, period and everything that decides when photons come. Unknown values are absent,
     /// empty, or a refresh rate of 0.
     display::DisplayProfile display{};

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "runtime/session/session_file.h"
@@ -120,6 +121,66 @@ TEST_F(Service, ThatQuitsEndsTheRunAsWell) {
         service.write("quit\n");
         EXPECT_EQ(service.wait(std::chrono::seconds(30)), 0) << service.output();
     });
+}
+
+TEST_F(Service, SaysWhatBecameOfEachFrame) {
+    const std::string metrics = scratch_.file("metrics.pb");
+    {
+        MonadoService service(scratch_,
+                              {{"XRT_COMPOSITOR_NULL", "1"}, {"XRT_METRICS_FILE", metrics}});
+        ASSERT_TRUE(service.ready()) << service.process().output();
+        Environment environment = MonadoService::client_environment(scratch_);
+        environment.emplace_back("XRT_METRICS_FILE", metrics);
+        const ProgramResult run = run_gazeloop({"run", "--gaze", "fixed:2,1", "--frames", "60",
+                                                "--record", session(), "--set", "render.scale=0.1"},
+                                               {.environment = environment});
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        service.process().write("quit\n");  // it then writes what it still holds
+        EXPECT_EQ(service.process().wait(std::chrono::seconds(30)), 0);
+    }
+    const ProgramResult report = run_gazeloop({"report", session(), "--json", "-"});
+    ASSERT_EQ(report.exit_code, 0) << report.err;
+    const nlohmann::json json = nlohmann::json::parse(report.out);
+    const nlohmann::json& told = json["runtime_metrics"];
+    EXPECT_EQ(told["file"], metrics) << "the session says where it is";
+    EXPECT_EQ(told["version"], "1.1");
+    const nlohmann::json& frames = told["frames"];
+    EXPECT_EQ(frames["rendered"], json["frames"]["rendered"]);
+    EXPECT_EQ(frames["missing"], 0) << "both have the same display times, to the nanosecond";
+    EXPECT_EQ(frames["untimed"], 0);
+    EXPECT_EQ(frames["presented"], 0) << "no display, so nothing is measured";
+    EXPECT_GE(frames["joined"], 30) << "some are always late, most never";
+    EXPECT_EQ(frames["joined"], frames["modelled"]);
+    EXPECT_EQ(frames["joined"].get<int>() + frames["replaced"].get<int>() +
+                  frames["not_taken"].get<int>() + frames["discarded"].get<int>() +
+                  frames["not_announced"].get<int>(),
+              frames["rendered"]);
+    EXPECT_EQ(told["records"]["cut_at_byte"], nullptr);
+    EXPECT_EQ(told["records"]["damaged"], 0);
+    EXPECT_EQ(json["durations"]["stage_compositor"]["frames_by_kind"]["modelled"],
+              frames["joined"]);
+    EXPECT_EQ(json["durations"]["stage_wait_for_display"]["frames_by_kind"]["modelled"],
+              frames["joined"]);
+
+    const ProgramResult text = run_gazeloop({"report", session(), "--runtime-metrics", metrics});
+    EXPECT_NE(text.out.find("rendered frames joined with Monado's metrics"), std::string::npos);
+    EXPECT_NE(text.out.find("Monado's model of a display"), std::string::npos) << text.out;
+    const ProgramResult wrong = run_gazeloop({"report", session(), "--runtime-metrics", session()});
+    EXPECT_EQ(wrong.exit_code, 3);
+    EXPECT_NE(wrong.err.find("no metrics file of Monado"), std::string::npos) << wrong.err;
+}
+
+TEST_F(Service, AloneWritesMetrics) {
+    const ProgramResult run =
+        run_gazeloop({"run", "--frames", "3", "--record", session(), "--set", "render.scale=0.1"},
+                     {.environment = {{"XRT_METRICS_FILE", scratch_.file("metrics.pb")}}});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const ProgramResult report = run_gazeloop({"report", session()});
+    EXPECT_EQ(report.exit_code, 0);
+    EXPECT_NE(report.out.find("XRT_METRICS_FILE was set in this run, but no metrics were read"),
+              std::string::npos)
+        << report.out;
+    EXPECT_NE(report.out.find("Only monado-service writes them"), std::string::npos);
 }
 
 }  // namespace

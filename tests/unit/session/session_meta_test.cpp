@@ -11,7 +11,8 @@ TEST(SessionMeta, ComesBackFromItsRows) {
                      .started_utc = "2025-01-31T12:34:56Z",
                      .clock = latency::LoopClock::Virtual,
                      .target = "headless",
-                     .target_format = "R8G8B8A8Srgb"};
+                     .target_format = "R8G8B8A8Srgb",
+                     .runtime_metrics = "/tmp/metrics.pb"};
     meta.display.name = "fove0";
     meta.display.refresh_hz = 1e9 / 14'285'714.0;
     meta.display.illumination = display::Illumination::Rolling;
@@ -25,6 +26,7 @@ TEST(SessionMeta, ComesBackFromItsRows) {
     EXPECT_EQ(read.clock, meta.clock);
     EXPECT_EQ(read.target, meta.target);
     EXPECT_EQ(read.target_format, meta.target_format);
+    EXPECT_EQ(read.runtime_metrics, meta.runtime_metrics);
     EXPECT_EQ(read.display.name, meta.display.name);
     EXPECT_EQ(read.display.period_ns(), 14'285'714);
     EXPECT_EQ(read.display.illumination, meta.display.illumination);
