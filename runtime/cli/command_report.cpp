@@ -1,21 +1,31 @@
 #include <fmt/core.h>
+#include <spdlog/spdlog.h>
 
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/profiles/profiles.h"
+#include "runtime/report/budget_gate.h"
 #include "runtime/report/comparison_text.h"
 #include "runtime/report/frame_csv.h"
+#include "runtime/report/lag_reasons.h"
 #include "runtime/report/output_file.h"
 #include "runtime/report/percentiles.h"
+#include "runtime/report/perfetto/perfetto_file.h"
+#include "runtime/report/prediction_text.h"
 #include "runtime/report/session_json.h"
 #include "runtime/report/session_summary.h"
 #include "runtime/report/session_text.h"
-#include "runtime/report/summary_json.h"
+#include "runtime/run/tracker_figures.h"
+#include "runtime/time/milliseconds.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -27,13 +37,37 @@ struct ReportCommand {
     bool percentiles_given = false;
     std::string csv;
     std::string json;
+    std::string perfetto;
+    std::string perfetto_samples = "used";
+    report::RuntimeFiles runtime;
     std::string against;
+    std::string budget;
+    std::optional<double> budget_ms;
+
+    /// The outputs with their options.
+    [[nodiscard]] std::array<std::pair<std::string_view, const std::string*>, 3> outputs() const {
+        return {{{"--csv", &csv}, {"--json", &json}, {"--perfetto", &perfetto}}};
+    }
+    /// Whether stdout is left for people.
+    [[nodiscard]] bool tells() const { return csv != "-" && json != "-" && perfetto != "-"; }
 };
 
 /// What another session's figures became in this one, with that session's name.
 struct Against {
     report::Comparison comparison;
     std::string before;
+};
+
+/// All that is said of a session.
+struct Report {
+    const session::SessionInfo& info;
+    report::Percentiles percentiles;
+    std::optional<latency::LatencyBudget> budget;
+    report::SessionSummary summary;
+    latency::PredictionCheck prediction;
+    report::LagReasons reasons;
+    std::optional<report::BudgetGate> gate;
+    std::optional<Against> against;
 };
 
 /// Where a recording ends that was not closed, and what is known of what it lacks.
@@ -52,23 +86,55 @@ std::string end_of(const session::SessionInfo& info, const session::PlaybackEnd&
 
 /// One output takes stdout, and no two take the same file.
 void check_outputs(const ReportCommand& command) {
-    for (const std::string* const file : {&command.csv, &command.json}) {
-        if (!file->empty()) {
-            value_or_throw(report::check_output(*file));
+    const auto outputs = command.outputs();
+    for (std::size_t place = 0; place < outputs.size(); ++place) {
+        const auto& [option, file] = outputs[place];
+        if (file->empty()) {
+            continue;
         }
-    }
-    if (!command.csv.empty() && command.csv == command.json) {
-        throw SetupError(
-            ErrorKind::Usage,
-            fmt::format("--csv and --json both name {}: give each a file of its own", command.csv));
+        value_or_throw(report::check_output(*file));
+        for (std::size_t before = 0; before < place; ++before) {
+            if (*outputs[before].second == *file) {
+                throw SetupError(ErrorKind::Usage,
+                                 fmt::format("{} and {} both name {}: give each a file of its own",
+                                             outputs[before].first, option, *file));
+            }
+        }
     }
 }
 
-void write_csv(const std::string& file, const report::FrameLog& frames) {
-    report::OutputFile output = value_or_throw(report::OutputFile::open(file));
-    value_or_throw(report::write_frame_csv(
-        frames, [&output](std::string_view piece) { return output.write(piece); }));
-    value_or_throw(output.close());
+/// None: nothing decides the exit code.
+std::optional<latency::LatencyBudget> budget_of(const ReportCommand& command) {
+    if (command.budget_ms) {
+        return latency::LatencyBudget{.name = fmt::format("of {} ms", *command.budget_ms),
+                                      .description = {},
+                                      .source = "--budget-ms",
+                                      .total_ns = time::ms_to_ns(*command.budget_ms)};
+    }
+    return command.budget.empty()
+               ? std::nullopt
+               : std::optional(value_or_throw(profiles::load_budget(command.budget)));
+}
+
+/// Plays the session; the Perfetto trace is written meanwhile.
+report::SessionSummary summary_of(const ReportCommand& command,
+                                  const session::OpenSession& session) {
+    std::optional<report::perfetto::PerfettoFile> perfetto;
+    std::vector<frame::FrameObserver*> also;
+    if (!command.perfetto.empty()) {
+        perfetto.emplace(command.perfetto, session.info().header,
+                         command.perfetto_samples == "all" ? report::perfetto::SampleDetail::All
+                                                           : report::perfetto::SampleDetail::Used);
+        also.push_back(&perfetto->observer());
+    }
+    report::SessionSummary summary =
+        value_or_throw(report::summarize(session, command.runtime, also));
+    if (perfetto) {
+        for (const std::string& lack : perfetto->finish()) {
+            spdlog::info("{} lacks {}", command.perfetto, lack);
+        }
+    }
+    return summary;
 }
 
 std::optional<Against> compared(const std::string& file, const session::OpenSession& session,
@@ -85,42 +151,96 @@ std::optional<Against> compared(const std::string& file, const session::OpenSess
         file};
 }
 
+Report make_report(const ReportCommand& command, const session::OpenSession& session) {
+    Report made{.info = session.info(),
+                .percentiles = command.percentiles_given
+                                   ? value_or_throw(report::Percentiles::parse(command.percentiles))
+                                   : report::Percentiles{},
+                .budget = budget_of(command),
+                .summary = summary_of(command, session),
+                .prediction = {},
+                .reasons = {},
+                .gate = {},
+                .against = {}};
+    const report::SessionSummary& summary = made.summary;
+    made.prediction = latency::check_prediction(
+        run::tracker_figures(made.info.header.config, summary.origin), summary.report);
+    made.reasons = report::lag_reasons({.report = &summary.report,
+                                        .budget = made.budget ? &*made.budget : nullptr,
+                                        .origin = summary.origin,
+                                        .prediction = made.prediction,
+                                        .use = summary.use,
+                                        .smoothing = summary.smoothing,
+                                        .settings = made.info.header.config});
+    if (made.budget) {
+        made.gate = report::budget_gate(summary.report, *made.budget);
+    }
+    made.against = compared(command.against, session, summary, made.percentiles);
+    return made;
+}
+
+void tell(const Report& made) {
+    const report::SessionSummary& summary = made.summary;
+    fmt::print("{}{}{}\n{}",
+               report::session_text(summary, made.percentiles, report::lag_text(made.reasons)),
+               summary.trace.text(), summary.runtime.text(),
+               report::prediction_text(made.prediction, summary.report));
+    if (!made.info.closed_cleanly) {
+        fmt::print("{}\n", end_of(made.info, summary.end));
+    }
+    if (summary.end.last_error) {
+        fmt::print("The run failed: {}\n", *summary.end.last_error);
+    }
+    if (made.info.records_dropped > 0) {
+        fmt::print("The recording lacks {} records that the disk was too slow for.\n",
+                   made.info.records_dropped);
+    }
+    if (made.gate) {
+        fmt::print("\n{}", report::gate_text(*made.gate));
+    }
+    if (made.against) {
+        fmt::print("{}", report::comparison_text(made.against->comparison, made.percentiles,
+                                                 made.against->before));
+    }
+}
+
+nlohmann::ordered_json json_of(const Report& made) {
+    nlohmann::ordered_json json = report::session_json(made.summary, made.info, made.percentiles);
+    json["why_the_fovea_lags"] = report::lag_json(made.reasons);
+    json["prediction"] = report::prediction_json(made.prediction);
+    made.summary.runtime.add_to(json);
+    if (made.gate) {
+        json["budget"] = report::gate_json(*made.gate);
+    }
+    if (made.against) {
+        json["against"] = report::comparison_json(made.against->comparison, made.percentiles,
+                                                  made.against->before);
+    }
+    return json;
+}
+
+void write_csv(const std::string& file, const report::FrameLog& frames) {
+    report::OutputFile output = value_or_throw(report::OutputFile::open(file));
+    value_or_throw(report::write_frame_csv(
+        frames, [&output](std::string_view piece) { return output.write(piece); }));
+    value_or_throw(output.close());
+}
+
 ExitCode report(const ReportCommand& command) {
-    const report::Percentiles percentiles =
-        command.percentiles_given ? value_or_throw(report::Percentiles::parse(command.percentiles))
-                                  : report::Percentiles{};
     check_outputs(command);
     const auto session = value_or_throw(session::OpenSession::open(command.file));
-    const session::SessionInfo& info = session.info();
-    const report::SessionSummary summary = value_or_throw(report::summarize(session));
-    const auto against = compared(command.against, session, summary, percentiles);
-    if (command.json != "-" && command.csv != "-" && !command.log.quiet) {
-        fmt::print("{}{}", report::session_text(summary, percentiles), summary.trace.text());
-        if (!info.closed_cleanly) {
-            fmt::print("{}\n", end_of(info, summary.end));
-        }
-        if (summary.end.last_error) {
-            fmt::print("The run failed: {}\n", *summary.end.last_error);
-        }
-        if (info.records_dropped > 0) {
-            fmt::print("The recording lacks {} records that the disk was too slow for.\n",
-                       info.records_dropped);
-        }
-        if (against) {
-            fmt::print("{}",
-                       report::comparison_text(against->comparison, percentiles, against->before));
-        }
+    const Report made = make_report(command, session);
+    if (command.tells() && !command.log.quiet) {
+        tell(made);
     }
     if (!command.csv.empty()) {
-        write_csv(command.csv, *summary.frames);
+        write_csv(command.csv, *made.summary.frames);
     }
     if (!command.json.empty()) {
-        nlohmann::ordered_json json = report::session_json(summary, info, percentiles);
-        if (against) {
-            json["against"] =
-                report::comparison_json(against->comparison, percentiles, against->before);
-        }
-        value_or_throw(report::write_text(command.json, report::json_text(json)));
+        value_or_throw(report::write_text(command.json, report::json_text(json_of(made))));
+    }
+    if (made.gate) {
+        value_or_throw(made.gate->result());
     }
     return ExitCode::Ok;
 }
@@ -138,9 +258,32 @@ void add_report_command(Command program) {
     app.option("--csv", command->csv, "write every frame as a line of CSV; - is stdout")
         .type("FILE");
     app.option("--json", command->json, "write the report as JSON; - is stdout").type("FILE");
+    const Option perfetto = app.option("--perfetto", command->perfetto,
+                                       "write a trace for ui.perfetto.dev; - is stdout")
+                                .type("FILE");
+    app.option("--perfetto-samples", command->perfetto_samples,
+               "gaze samples in it: those that frames rested on (used), or all")
+        .one_of({"used", "all"})
+        .only_with(perfetto);
     app.option("--against", command->against,
                "also show what changed since this session, and how much of it is chance")
         .type("SESSION");
+    const Option named =
+        app.option("--budget", command->budget,
+                   "exit code 1 unless the session keeps this budget: a name or a .toml file")
+            .type("NAME")
+            .not_empty();
+    app.option("--budget-ms", command->budget_ms,
+               "the same with a limit on the gaze age at display alone")
+        .type("N")
+        .number_between(0.001, 1000)
+        .not_with(named);
+    app.option("--runtime-metrics", command->runtime.metrics,
+               "when frames were shown, by monado-service's XRT_METRICS_FILE of the run")
+        .type("FILE");
+    app.option("--runtime-csv", command->runtime.csv,
+               "the stages of WiVRn, by its server's WIVRN_DUMP_TIMINGS of the run")
+        .type("FILE");
     command->log.add_to(app);
     app.does([=] {
         command->log.apply();

@@ -142,12 +142,14 @@ std::string worst_frames(const FrameLog& frames) {
 
 }  // namespace
 
-std::string session_text(const SessionSummary& session, const Percentiles& percentiles) {
+std::string session_text(const SessionSummary& session, const Percentiles& percentiles,
+                         std::string_view lag) {
     const FrameLog& frames = *session.frames;
     const std::vector<SessionRow> rows = rows_of(frames, percentiles.percents());
-    return summary_head(session.report) + "\n" + table(rows, percentiles) + negative_lines(rows) +
-           error_lines(frames) + summary_notes(session.report) + "\n" + worst_frames(frames) +
-           summary_counts(session.report);
+    const std::string why = lag.empty() ? std::string{} : fmt::format("\n{}", lag);
+    return summary_head(session.report) + why + "\n" + table(rows, percentiles) +
+           negative_lines(rows) + error_lines(frames) + summary_notes(session.report) + "\n" +
+           worst_frames(frames) + summary_counts(session.report);
 }
 
 }  // namespace gazeloop::report

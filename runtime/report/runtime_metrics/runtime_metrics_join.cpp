@@ -30,6 +30,12 @@ void RuntimeMetricsJoin::on_gpu(const frame::FrameGpuRecord& record) {
     }
 }
 
+void RuntimeMetricsJoin::on_gaze(const frame::FrameGaze& gaze) {
+    for (frame::FrameObserver* const observer : observers_) {
+        observer->on_gaze(gaze);
+    }
+}
+
 void RuntimeMetricsJoin::on_event(time::Stamp time, std::string_view kind, std::string_view text) {
     for (frame::FrameObserver* const observer : observers_) {
         observer->on_event(time, kind, text);

@@ -47,6 +47,7 @@ class RuntimeMetricsJoin final : public frame::FrameObserver {
     void on_origin(const gaze::OriginChange& change) override;
     void on_frame(const frame::FrameRecord& record) override;
     void on_gpu(const frame::FrameGpuRecord& record) override;
+    void on_gaze(const frame::FrameGaze& gaze) override;
     void on_event(time::Stamp time, std::string_view kind, std::string_view text) override;
 
     [[nodiscard]] const MetricsJoinCounts& counts() const { return counts_; }
