@@ -25,7 +25,7 @@ static_assert(sizeof(gaze::FoveaPoint) == 136, "a new member: see above");
 static_assert(sizeof(gaze::EyeView) == 96, "a new member: see above");
 static_assert(sizeof(frame::FrameStamps) == 176, "a new member: see above");
 static_assert(sizeof(frame::GridCounts) == 40, "a new member: see above");
-static_assert(sizeof(frame::FrameRecord) == 1088, "a new member: see above");
+static_assert(sizeof(frame::FrameRecord) == 1104, "a new member: see above");
 static_assert(sizeof(frame::FrameGpuRecord) == 264, "a new member: see above");
 static_assert(sizeof(gaze::OriginChange) == 72, "a new member: see above");
 

@@ -23,7 +23,7 @@ using Bits = std::vector<std::uint64_t>;
 
 // A new member is drawn and compared below, or it is not tested.
 static_assert(sizeof(gaze::GazeSample) == 304 && sizeof(gaze::FoveaPoint) == 136 &&
-              sizeof(gaze::EyeView) == 96 && sizeof(frame::FrameRecord) == 1088 &&
+              sizeof(gaze::EyeView) == 96 && sizeof(frame::FrameRecord) == 1104 &&
               sizeof(frame::FrameGpuRecord) == 264);
 
 /// Draws any content of a record from a seed. Not-a-number is the quiet one, which is what a
