@@ -37,7 +37,7 @@ namespace gazeloop::latency {
 class BudgetMonitor {
   public:
     static constexpr std::size_t kFewest = 20;  ///< what a 95th percentile needs
-    static constexpr std::size_t kMost = 8192;
+    static constexpr std::size_t kMost = 4096;
     static constexpr unsigned kJudgedPercent = 95;
 
     /// `budget`: none: nothing is limited. Precondition: window_ns >= 0.

@@ -23,13 +23,29 @@ constexpr std::string_view kPlain = "\x1b[0m";
 
 double milliseconds(std::int64_t ns) { return static_cast<double>(ns) / time::kNsPerMs; }
 
-/// At most seven characters.
+/// At most six characters.
 std::string figure(const std::optional<std::int64_t>& ns) {
     if (!ns) {
         return "-";
     }
-    const std::string text = fmt::format("{:.2f}", milliseconds(*ns));
-    return text.size() <= 7 ? text : fmt::format("{:.0e}", milliseconds(*ns));
+    for (const int decimals : {2, 0}) {
+        const std::string text = fmt::format("{:.{}f}", milliseconds(*ns), decimals);
+        if (text.size() <= 6) {
+            return text;
+        }
+    }
+    return fmt::format("{:.0e}", milliseconds(*ns));
+}
+
+/// "24 fr, 286 ms".
+std::string longest_run(const MonitorPart& part) {
+    if (part.violations == 0) {
+        return {};
+    }
+    const double ms = milliseconds(part.longest_run_ns);
+    return fmt::format(
+        "{} fr, {}", part.longest_run_frames,
+        ms < 999.5 ? fmt::format("{:.0f} ms", ms) : fmt::format("{:.1f} s", ms / 1e3));
 }
 
 std::string count(std::uint64_t value) {
@@ -124,12 +140,12 @@ class Panel {
     }
 
     std::vector<PanelLine> lines() {
-        add(fmt::format("budget {}, last {:.1f} s{}, {} frames; {}",
+        add(fmt::format("budget {}, last {:.1f} s{}, {} frames",
                         options_.budget.empty() ? "none" : options_.budget,
                         static_cast<double>(snapshot_.window_ns) * 1e-9,
-                        snapshot_.window_cut ? " (no room for more)" : "", snapshot_.window_frames,
-                        shares(snapshot_)),
+                        snapshot_.window_cut ? " (no room for more)" : "", snapshot_.window_frames),
             kBold);
+        add(shares(snapshot_), "");
         add(fmt::format("gaze {}: {}", name(snapshot_.state), states(snapshot_)), "");
         add_row("milliseconds", "p50", "p95", "p99", "allowed", "above", "longest run", "", kBold);
         for (std::size_t part = 0; part < latency::kMonitorPartCount; ++part) {
@@ -152,15 +168,11 @@ class Panel {
 
     void add_part(std::size_t index) {
         const MonitorPart& part = snapshot_.parts[index];
-        const std::string label = (index == latency::kAgePart ? "" : " ") +
-                                  std::string(latency::kMonitorPartNames[index]);
-        const std::string run = part.violations == 0
-                                    ? ""
-                                    : fmt::format("{}, {:.0f} ms", count(part.longest_run_frames),
-                                                  milliseconds(part.longest_run_ns));
+        const std::string label = fmt::format("{}{}", index == latency::kAgePart ? "" : " ",
+                                              latency::kMonitorPartNames[index]);
         add_row(label, figure(part.p50_ns), figure(part.p95_ns), figure(part.p99_ns),
                 part.limit_ns ? figure(part.limit_ns) : "",
-                part.limit_ns ? count(part.violations) : "", run, bar(part),
+                part.limit_ns ? count(part.violations) : "", longest_run(part), bar(part),
                 colour_of(standing_of(part)));
     }
 
@@ -172,9 +184,9 @@ class Panel {
         auto out = std::back_inserter(text);
         const bool budget = !options_.budget.empty();
         if (wide()) {
-            fmt::format_to(out, "{:<19}{:>8}{:>8}{:>8}", label, p50, p95, p99);
+            fmt::format_to(out, "{:<19}{:>7}{:>7}{:>7}", label, p50, p95, p99);
             if (budget) {
-                fmt::format_to(out, "{:>8}{:>6}{:>15}", allowed, above, run);
+                fmt::format_to(out, "{:>8}{:>6} {:>14}", allowed, above, run);
             }
         } else {
             fmt::format_to(out, "{:<19}{:>8}", label, p95);
@@ -189,7 +201,7 @@ class Panel {
 
     [[nodiscard]] std::size_t bar_columns() const {
         const bool budget = !options_.budget.empty();
-        const std::size_t used = wide() ? (budget ? 73 : 44) : (budget ? 36 : 28);
+        const std::size_t used = wide() ? (budget ? 70 : 41) : (budget ? 36 : 28);
         constexpr std::size_t kMost = 60;
         return columns_ > used ? std::min(columns_ - used, kMost) : 0;
     }

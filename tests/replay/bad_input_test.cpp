@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"monitor_by_name", {"run", "--monitor-json", "x"}, 2, "'x' must be the number of"},
         BadInput{"monitor_input", {"run", "--monitor-json", "0"}, 2, "is not open for writing"},
         BadInput{
-            "monitor_window", {"run", "--set", "monitor.window_s=61"}, 2, "must lie in [0, 60]"},
+            "monitor_window", {"run", "--set", "monitor.window_s=31"}, 2, "must lie in [0, 30]"},
         BadInput{"method", {"run", "--method", "kfrr"}, 2, "did you mean 'kfr'"},
         BadInput{"scene", {"run", "--scene", "raymarsh"}, 2, "did you mean 'raymarch'"},
         BadInput{"target", {"run", "--target", "openrx"}, 2, "did you mean 'openxr'"},
