@@ -131,14 +131,14 @@ PredictedLatency predicted_latency(const TrackerFigures& tracker, const SummaryR
     set(Part::Phase, 0, interval_ns ? interval_ns : period_ns);
     set(Part::Loop, 0, 0);
     const DurationRow& gpu = report.stages[place(Stage::Gpu)];
-    set(Part::Render, to_ns(gpu.min_ms), to_ns(gpu.p99_ms ? gpu.p99_ms : gpu.max_ms));
-    const std::optional<std::int64_t> rolling_ns = report.config.rolling_ns;
-    const std::int64_t half_ns = rolling_ns.value_or(0) / 2;
-    set(Part::Display, half_ns,
-        period_ns ? std::optional(time::saturated(static_cast<__int128>(*period_ns) + half_ns))
-                  : std::nullopt);
-    if (rolling_ns) {
-        set(Part::Row, -half_ns, half_ns);
+    // Clocks that are related may put the GPU's end before its submit by their deviation.
+    const auto least_gpu_ns = to_ns(gpu.min_ms);
+    set(Part::Render,
+        least_gpu_ns ? std::optional(std::max<std::int64_t>(*least_gpu_ns, 0)) : std::nullopt,
+        to_ns(gpu.p99_ms ? gpu.p99_ms : gpu.max_ms));
+    set(Part::Display, 0, period_ns);
+    if (const auto rolling_ns = report.config.rolling_ns) {
+        set(Part::Row, -(*rolling_ns / 2), *rolling_ns / 2);
     }
     set(Part::Switching, report.config.switching_ns, report.config.switching_ns);
     return predicted;
@@ -169,7 +169,8 @@ const DurationRow* measured_row(const SummaryReport& report, Part part) {
 }
 
 PredictionCheck check_prediction(const TrackerFigures& tracker, const SummaryReport& report) {
-    PredictionCheck check{.predicted = predicted_latency(tracker, report)};
+    PredictionCheck check{.predicted = predicted_latency(tracker, report),
+                          .tracker_uncertainty_ns = tracker.uncertainty_ns};
     for (const Part part : {Part::Tracker, Part::Delivery, Part::Sampling, Part::Render,
                             Part::Display, Part::Row, Part::Switching}) {
         // Ages leave out the rows and the switching of a display that does not state them.

@@ -68,9 +68,10 @@ struct TrackerFigures {
 /// (the median). Render is from the least GPU time to its p99 (or the greatest, where that is
 /// withheld). The loop's work is taken for nothing, as the paper takes network and bus.
 ///
-/// A picture must be there when the first row is lit, half of the rolling time before the announced
-/// middle of the emission; it waits for that for up to one period. A row is lit up to half of the
-/// rolling time before or after the middle (display_profile.h). Persistence shifts no time.
+/// A picture waits for the announced middle of the emission for up to one period, as shown_frame()
+/// has it. A row is lit up to half of the rolling time before or after the middle
+/// (display_profile.h): the best case of both together is a bound that no frame reaches, because a
+/// picture must be there before its rows are lit. Persistence shifts no time.
 [[nodiscard]] PredictedLatency predicted_latency(const TrackerFigures& tracker,
                                                  const SummaryReport& report);
 
@@ -94,6 +95,7 @@ struct OutsidePrediction {
 /// What was measured beside what was predicted.
 struct PredictionCheck {
     PredictedLatency predicted{};
+    std::optional<std::int64_t> tracker_uncertainty_ns{};  ///< of the tracker's delay, either way
     /// Parts that the measured age has and the prediction lacks: it cannot be judged by the worst
     /// case then.
     std::vector<Part> unknown{};

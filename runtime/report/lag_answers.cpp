@@ -134,13 +134,15 @@ std::string why_reused(const LagFacts& facts, double percent) {
                                           facts.smoothing.rate_hz, frames_hz);
     constexpr double kMore_percent = 2.0;
     if (*expected > 0.0) {
-        return fmt::format("; with {} {:.0f} % must{}", rates, *expected,
-                           percent > *expected + kMore_percent
-                               ? ", the rest is of samples that come late, in bursts or not at all"
-                               : ", which is normal");
+        return fmt::format(
+            "; with {} {:.0f} % must{}", rates, *expected,
+            percent > *expected + kMore_percent
+                ? ", the rest is of samples or frames that come in bursts, or of lost samples"
+                : ", which is normal");
     }
-    return fmt::format("; with {} none would have to: samples come late, in bursts or not at all",
-                       rates);
+    return fmt::format(
+        "; with {} none would have to: samples or frames come in bursts, or samples are lost",
+        rates);
 }
 
 LagAnswer reused(const LagFacts& facts) {
@@ -181,10 +183,17 @@ std::string reasons_text(const latency::GazeUseCounts& use) {
 
 /// The samples, which tell more than frames where the tracker is faster.
 std::string samples_text(const latency::GazeCounts& gaze) {
-    return gaze.invalid + gaze.lost == 0
-               ? ""
-               : fmt::format("; of {} samples {} had no valid eye, and {} more never came",
-                             gaze.received, gaze.invalid, gaze.lost);
+    if (gaze.invalid + gaze.lost == 0) {
+        return "";
+    }
+    return fmt::format("; of {} samples {} had no valid eye{}", gaze.received, gaze.invalid,
+                       gaze.lost > 0 ? fmt::format(", and {} more never came", gaze.lost) : "");
+}
+
+std::string loss_length(std::int64_t ns) {
+    constexpr std::int64_t kLongestBlink_ns = 400'000'000;
+    return fmt::format(" ({:.0f} ms, {})", static_cast<double>(ns) / time::kNsPerMs,
+                       ns > kLongestBlink_ns ? "longer than a blink" : "no longer than a blink");
 }
 
 LagAnswer lost(const LagFacts& facts) {
@@ -207,10 +216,7 @@ LagAnswer lost(const LagFacts& facts) {
         const time::Span& lasted = use.longest_loss.lasted;
         longest = fmt::format("; the longest loss takes {} frames from frame {} on{}",
                               use.longest_loss.frames, use.longest_loss.first,
-                              lasted.known() && lasted.ns > 0
-                                  ? fmt::format(" ({:.0f} ms; a blink takes 100 to 400)",
-                                                static_cast<double>(lasted.ns) / time::kNsPerMs)
-                                  : "");
+                              lasted.known() && lasted.ns > 0 ? loss_length(lasted.ns) : "");
     }
     answer.why =
         fmt::format("{:.1f} % of the frames ({}) have no fresh gaze: {}{}{}", *percent, use.lost,

@@ -131,6 +131,18 @@ constexpr std::array kStanding{
                        "modelled. By the model " +
                        age_text(f) + ".";
             }},
+    LagRule{"not-in-time",
+            [](const LagFacts& f) {
+                return f.report->verdict == Verdict::NotRealTime &&
+                       f.report->frame_interval.p50_ms.value_or(0.0) <= 1.05 * period_ms(f);
+            },
+            [](const LagFacts& f) {
+                return fmt::format(
+                    "The machine does not keep up: {:.1f} % of the frames miss "
+                    "their display time. So these are not a headset's ages: on "
+                    "average {}.",
+                    f.report->missed_percent().value_or(0.0), age_text(f));
+            }},
     LagRule{"not-real-time",
             [](const LagFacts& f) { return f.report->verdict == Verdict::NotRealTime; },
             [](const LagFacts& f) {
@@ -355,11 +367,12 @@ constexpr std::array kRemedy{
     LagRule{"try-higher-rate", dearest_is<Stage::Queue>,
             [](const LagFacts& f) {
                 return fmt::format(
-                    "Try a higher rate of the tracker{}, or read the gaze later "
-                    "(render.wait_before_latch{}).",
+                    "Try a higher rate of the tracker{}{}.",
                     f.smoothing.rate_hz > 0.0 ? fmt::format(" (now {:.0f} Hz)", f.smoothing.rate_hz)
                                               : "",
-                    now(f, "render.wait_before_latch"));
+                    f.setting("render.wait_before_latch") == "true"
+                        ? ""
+                        : ", or render.wait_before_latch=true, which reads the gaze later");
             }},
     LagRule{"try-more-cpu",
             [](const LagFacts& f) {

@@ -24,8 +24,8 @@ std::optional<double> to_ms(const std::optional<std::int64_t>& ns) {
 
 std::string_view words(Part part) {
     constexpr std::array<std::string_view, latency::kPartCount> kWords{
-        "tracker",    "delivery", "sample waits",     "eye waits for a frame",
-        "loop (cpu)", "gpu",      "wait for display", "scan to row",
+        "tracker",         "delivery", "sample waits",     "eye waits for a frame",
+        "loop and driver", "gpu",      "wait for display", "scan to row",
         "switching"};
     return kWords[static_cast<std::size_t>(part)];
 }
@@ -58,10 +58,13 @@ std::string outside_text(const latency::OutsidePrediction& outside) {
     std::string text = fmt::format("{} ({:.1f} ms) lies {} that", outside.what, outside.measured_ms,
                                    outside.above ? "above" : "below");
     if (outside.part) {
-        fmt::format_to(std::back_inserter(text),
-                       ", mostly by {} ({:.1f} ms, predicted at {} {:.1f})", words(*outside.part),
-                       outside.part_measured_ms, outside.above ? "most" : "least",
-                       outside.part_limit_ms);
+        const std::string_view bound = outside.above ? "most" : "least";
+        const std::string limit =
+            outside.part_limit_ms == 0.0
+                ? "taken for nothing"
+                : fmt::format("predicted at {} {:.1f}", bound, outside.part_limit_ms);
+        fmt::format_to(std::back_inserter(text), ", mostly by {} ({:.1f} ms, {})",
+                       words(*outside.part), outside.part_measured_ms, limit);
     }
     return text;
 }
@@ -129,6 +132,13 @@ std::string prediction_text(const latency::PredictionCheck& check,
     for (const latency::OutsidePrediction& outside : check.outside) {
         text += wrapped_row("", "Outside: " + outside_text(outside) + ".", 0);
     }
+    if (check.tracker_uncertainty_ns.value_or(0) > 0) {
+        text += wrapped_row("",
+                            fmt::format("The tracker's delay is uncertain by {:.1f} ms, either "
+                                        "way: that moves all of these ages alike.",
+                                        to_ms(*check.tracker_uncertainty_ns)),
+                            0);
+    }
     if (!check.unknown.empty()) {
         text += wrapped_row(
             "", "Unknown, so that the worst case is at least that: " + unknown_text(check) + ".",
@@ -173,6 +183,7 @@ nlohmann::ordered_json prediction_json(const latency::PredictionCheck& check) {
     return {{"gaze_age_at_display", sum_json(check.predicted.gaze_age())},
             {"eye_to_photon", sum_json(check.predicted.eye_to_photon())},
             {"parts", parts},
+            {"tracker_uncertainty_ms", or_null(to_ms(check.tracker_uncertainty_ns))},
             {"unknown_parts", unknown},
             {"comparable", check.comparable},
             {"outside", outside}};

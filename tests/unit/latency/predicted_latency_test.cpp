@@ -71,12 +71,12 @@ TEST(PredictedLatency, IsMadeOfTheTrackerTheDisplayAndTheRun) {
     EXPECT_EQ(at(predicted, Part::Phase).greatest_ns, 10 * kMs);
     EXPECT_EQ(at(predicted, Part::Render).least_ns, 4 * kMs);
     EXPECT_NEAR(static_cast<double>(*at(predicted, Part::Render).greatest_ns), 4e6, 8e3);
-    EXPECT_EQ(at(predicted, Part::Display).least_ns, 4 * kMs);  // the first row is lit by then
-    EXPECT_EQ(at(predicted, Part::Display).greatest_ns, 14 * kMs);
+    EXPECT_EQ(at(predicted, Part::Display).least_ns, 0);
+    EXPECT_EQ(at(predicted, Part::Display).greatest_ns, 10 * kMs);
     EXPECT_EQ(at(predicted, Part::Row).least_ns, -4 * kMs);
     EXPECT_EQ(at(predicted, Part::Row).greatest_ns, 4 * kMs);
     EXPECT_EQ(at(predicted, Part::Switching).least_ns, 2 * kMs);
-    EXPECT_EQ(predicted.gaze_age().best_ns, (20 + 4 + 4 - 4 + 2) * kMs);
+    EXPECT_EQ(predicted.gaze_age().best_ns, (20 + 4 - 4 + 2) * kMs);
 }
 
 TEST(PredictedLatency, IsAtLeastSoMuchWhereFiguresAreUnknown) {

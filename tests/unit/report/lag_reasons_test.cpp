@@ -152,6 +152,12 @@ const std::vector<RuleCase>& cases() {
         {"timed", [](Made&) {},
          "On average the gaze is 21.0 ms old when its picture is seen (25.2 ms or less in 95 %"},
         {"timed", [](Made& m) { m.report.gaze_age_at_display.p95_ms.reset(); }, "at most 31.5 ms"},
+        {"not-in-time",
+         [](Made& m) {
+             m.report.verdict = Verdict::NotRealTime;
+             m.report.frames.missed = 50;
+         },
+         "25.0 % of the frames miss their display time"},
         {"cost-tracker", [](Made&) {}, "Most of it, 12.0 ms (57 %), passes in the tracker."},
         {"cost-tracker",
          [](Made& m) {
@@ -235,8 +241,14 @@ const std::vector<RuleCase>& cases() {
              m.set(Stage::Queue, 14.0);
              m.facts.smoothing.rate_hz = 50.0;
          },
-         "a higher rate of the tracker (now 50 Hz), or read the gaze later "
-         "(render.wait_before_latch (now false))"},
+         "a higher rate of the tracker (now 50 Hz), or render.wait_before_latch=true"},
+        {"try-higher-rate",
+         [](Made& m) {
+             m.set(Stage::Queue, 14.0);
+             m.facts.smoothing.rate_hz = 50.0;
+             m.settings.back().value = "true";
+         },
+         "a higher rate of the tracker (now 50 Hz)."},
         {"try-more-cpu", [](Made& m) { m.set(Stage::Submit, 14.0); }, "more of the CPU"},
         {"try-more-cpu", [](Made& m) { m.set(Stage::Filter, 14.0); }, "more of the CPU"},
         {"try-less-gpu-work", [](Made& m) { m.set(Stage::Gpu, 14.0); }, "a higher kfr.sigma"},
@@ -486,7 +498,9 @@ TEST(LagAnswers, SayWhetherGazeIsLost) {
     expect_answer(made, "lost", LagAnswerKind::Yes,
                   "15.0 % of the frames (30) have no fresh gaze: 20 because neither eye was valid, "
                   "10 because the newest sample was too old; the longest loss takes 12 frames from "
-                  "frame 40 on (133 ms; a blink takes 100 to 400)");
+                  "frame 40 on (133 ms, no longer than a blink)");
+    made.facts.use.longest_loss.lasted.ns = 500'000'000;
+    expect_answer(made, "lost", LagAnswerKind::Yes, "(500 ms, longer than a blink)");
 }
 
 TEST(LagText, IsAtMostAHundredColumnsWide) {
