@@ -108,10 +108,10 @@ TEST(SaccadeDetector, FollowsNoiseUpAndDown) {
     SaccadeDetector detector(kRate_hz);
     std::int64_t now_ns = 0;
     const auto shake = [&](double deg, int samples) {
-        // Four directions in turn, so that any window of the detector sees a step.
+        // The window is six samples long: its ends always lie on different sides.
         for (int i = 0; i < samples; ++i) {
             now_ns += kInterval_ns;
-            detector.add(now_ns, right_by(deg * ((i / 3) % 2)));
+            detector.add(now_ns, right_by(deg * ((i / 2) % 2)));
         }
     };
     shake(0.001, 500);
