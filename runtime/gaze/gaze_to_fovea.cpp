@@ -8,19 +8,12 @@
 
 #include "runtime/gaze/direction.h"
 #include "runtime/gaze/origin_change.h"
+#include "runtime/gaze/usable_direction.h"
 #include "runtime/gaze/usable_pose.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::gaze {
 namespace {
-
-std::optional<glm::dvec3> usable_direction(const EyeRay& ray, double minimum_confidence) {
-    const bool confident = ray.confidence == -1.0 || ray.confidence >= minimum_confidence;
-    if (!ray.valid || !confident) {
-        return std::nullopt;
-    }
-    return unit(ray.direction);
-}
 
 std::int64_t elapsed_ns(std::int64_t from, std::int64_t to) {
     std::int64_t difference = 0;
