@@ -30,8 +30,9 @@ class FrameObserver {
     /// From the frame on, poses are in another world; told before the frame's samples.
     virtual void on_origin(const gaze::OriginChange&) {}
     /// A frame whose passes have been submitted. Its pictures still belong to the loop and lie in
-    /// COLOR_ATTACHMENT_OPTIMAL. An observer that reads them submits the reading to the context's
-    /// queue, in this call, and leaves them as they are.
+    /// COLOR_ATTACHMENT_OPTIMAL. An observer that reads them, or draws into them, submits that to
+    /// the context's queue, in this call, and leaves them in that layout. One that draws comes
+    /// before those that read.
     virtual void on_rendered(const render::FrameView&, const gaze::FrameFovea&) {}
     /// A frame that was handed to the target.
     virtual void on_frame(const FrameRecord&) {}

@@ -285,6 +285,10 @@ class FrameRun {
         if (check_) {
             parts.observers.push_back(&*check_);
         }
+        if (request_.make_overlay) {
+            overlay_ = request_.make_overlay(*context_, config_);
+            parts.observers.push_back(overlay_.get());
+        }
         if (request_.snapshot) {
             snapshot_ = std::make_unique<render::Snapshot>(*context_, renderer);
             parts.observers.push_back(snapshot_.get());
@@ -373,6 +377,9 @@ class FrameRun {
     [[nodiscard]] std::optional<LoopEnd> why_stop() {
         if (interrupted()) {
             return LoopEnd::Interrupted;
+        }
+        if (const auto why = request_.loop.stop ? request_.loop.stop() : std::nullopt) {
+            return why;
         }
         if (window_ == nullptr || window_broken_) {
             return std::nullopt;
@@ -565,6 +572,7 @@ class FrameRun {
     bool window_broken_ = false;
     render::RendererConfig config_;
     std::unique_ptr<scene::Scene> scene_;
+    std::unique_ptr<frame::FrameObserver> overlay_;
     std::unique_ptr<render::Snapshot> snapshot_;
     std::unique_ptr<session::SessionRecorder> recorder_;
     std::unique_ptr<RecordingObserver> recording_;

@@ -42,7 +42,12 @@ struct FrameRunRequest {
     std::optional<Recording> recording{};  ///< set for Recorded only; the run is compared with it
     bool same_gaze = true;                 ///< settings that decide foveae are the recording's
     bool same_rendering = true;            ///< settings that decide pixels are the recording's
-    LoopOptions loop;
+    /// Makes an observer that draws into the finished pictures, before whoever reads them; none if
+    /// unset. It must not outlive the context.
+    std::function<std::unique_ptr<frame::FrameObserver>(const vulkan::Context&,
+                                                        const render::RendererConfig&)>
+        make_overlay{};
+    LoopOptions loop;  ///< its `stop` is asked beside what else ends a run
     bool hash = false;
     bool mark_fovea = false;
     bool quiet = false;
