@@ -1,0 +1,127 @@
+#include "runtime/probe/video_result.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "runtime/probe/frame_files.h"
+#include "runtime/probe/frame_picture.h"
+
+namespace gazeloop::probe {
+namespace {
+
+struct FrameSize {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+};
+
+/// Reads every frame; the first one decides the size, which is returned.
+Expected<FrameSize> read_frames(const FrameFiles& files, const VideoQuestion& question,
+                                LightSeries& series,
+                                const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+    FrameSize size;
+    FramePicture picture;
+    for (std::uint64_t frame = 0; frame < files.count(); ++frame) {
+        const std::filesystem::path file = files.file(frame);
+        if (const auto read = picture.read(file); !read) {
+            return std::unexpected(read.error());
+        }
+        if (frame == 0) {
+            size = {picture.width(), picture.height()};
+            for (const auto& [name, region] :
+                 {std::pair{"lamp", &question.lamp}, std::pair{"patch", &question.patch}}) {
+                if (const auto inside = check_inside(name, *region, size.width, size.height);
+                    !inside) {
+                    return std::unexpected(inside.error());
+                }
+            }
+        } else if (picture.width() != size.width || picture.height() != size.height) {
+            return std::unexpected(
+                Error{ErrorKind::BadInput,
+                      fmt::format("{}: has {}x{} pixels, {} before has {}x{}: the folder may hold "
+                                  "the frames of one video alone",
+                                  file.string(), picture.width(), picture.height(),
+                                  files.file(0).filename().string(), size.width, size.height)});
+        }
+        series.add(static_cast<float>(picture.brightness(question.lamp)),
+                   static_cast<float>(picture.brightness(question.patch)));
+        if (progress) {
+            progress(frame + 1, files.count());
+        }
+    }
+    return size;
+}
+
+/// What makes every delay too long or too short alike, milliseconds; says so.
+double fixed_error_ms(VideoResult& result) {
+    double fixed_ms = 0.0;
+    const double rows_ms = std::abs(result.rows_below()) * result.frame_ms();
+    if (!result.question.readout_ms && rows_ms > 0.0) {
+        fixed_ms += rows_ms;
+        result.warnings.push_back(fmt::format(
+            "lamp and patch lie in different rows, which a rolling shutter exposes up to {:.2f} ms "
+            "apart: mark them at one height, or say --readout-ms",
+            rows_ms));
+    }
+    for (const auto& [name, light] :
+         {std::pair{"lamp", &result.lamp}, std::pair{"patch", &result.patch}}) {
+        if (light->levels.overexposed()) {
+            fixed_ms += 0.5 * result.frame_ms();
+            result.warnings.push_back(fmt::format(
+                "the {} is overexposed, so that a part of its light looks like all of it: up to "
+                "{:.2f} ms; mark its glow or a reflection, or expose less",
+                name, 0.5 * result.frame_ms()));
+        }
+    }
+    return fixed_ms;
+}
+
+DelayStatistics statistics_of(const VideoResult& result, bool on, double fixed_ms) {
+    std::vector<double> delays_ms;
+    for (const Trial& trial : result.paired.trials) {
+        if (trial.on == on) {
+            delays_ms.push_back(result.delay_ms(trial));
+        }
+    }
+    return delay_statistics(delays_ms, {.frame_ms = result.frame_ms(),
+                                        .rate_percent = result.question.fps_error_percent,
+                                        .fixed_ms = fixed_ms});
+}
+
+}  // namespace
+
+Expected<VideoResult> measure_series(const VideoQuestion& question, const LightSeries& series,
+                                     std::uint32_t width, std::uint32_t height) {
+    VideoResult result{
+        .question = question, .frames = series.size(), .width = width, .height = height};
+    for (const auto& [light, changes] :
+         {std::pair{Light::Lamp, &result.lamp}, std::pair{Light::Patch, &result.patch}}) {
+        auto found = find_changes(series, light, question.camera_fps);
+        if (!found) {
+            return std::unexpected(found.error());
+        }
+        *changes = *std::move(found);
+    }
+    result.paired = pair_changes(result.lamp.changes, result.patch.changes);
+    const double fixed_ms = fixed_error_ms(result);
+    result.on = statistics_of(result, true, fixed_ms);
+    result.off = statistics_of(result, false, fixed_ms);
+    return result;
+}
+
+Expected<VideoResult> measure_video(
+    const VideoQuestion& question,
+    const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+    const auto files = FrameFiles::find(question.frames);
+    if (!files) {
+        return std::unexpected(files.error());
+    }
+    LightSeries series;
+    const auto size = read_frames(*files, question, series, progress);
+    if (!size) {
+        return std::unexpected(size.error());
+    }
+    return measure_series(question, series, size->width, size->height);
+}
+
+}  // namespace gazeloop::probe
