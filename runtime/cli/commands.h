@@ -10,6 +10,7 @@ namespace gazeloop::cli {
 void add_run_command(Command program, const std::string& command_line);
 void add_replay_command(Command program, const std::string& command_line);
 void add_numerics_command(Command program);
+void add_probe_command(Command program, const std::string& command_line);
 void add_report_command(Command program);
 void add_gaze_command(Command program);
 void add_plan_command(Command program);

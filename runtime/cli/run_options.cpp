@@ -55,7 +55,7 @@ void RunOptions::add_to(Command command) {
     command.flag("--mark-fovea", mark_fovea, "draw the fovea into the snapshot")
         .only_with(pictures);
     command.flag("--hash", hash, "hash every frame's foveae and pixels");
-    command.option("--json", json, "write the summary as JSON; - is stdout")
+    command.option("--json", json, "write the result as JSON; - is stdout")
         .type("FILE")
         .not_empty();
     command
