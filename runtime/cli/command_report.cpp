@@ -12,6 +12,7 @@
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/probe/comparison.h"
 #include "runtime/profiles/profiles.h"
 #include "runtime/report/budget_gate.h"
 #include "runtime/report/comparison_text.h"
@@ -41,6 +42,7 @@ struct ReportCommand {
     std::string perfetto_samples = "used";
     report::RuntimeFiles runtime;
     std::string against;
+    std::string probe;
     std::string budget;
     std::optional<double> budget_ms;
 
@@ -68,6 +70,7 @@ struct Report {
     report::LagReasons reasons;
     std::optional<report::BudgetGate> gate;
     std::optional<Against> against;
+    std::optional<probe::Comparison> measured;
 };
 
 /// Where a recording ends that was not closed, and what is known of what it lacks.
@@ -161,7 +164,8 @@ Report make_report(const ReportCommand& command, const session::OpenSession& ses
                 .prediction = {},
                 .reasons = {},
                 .gate = {},
-                .against = {}};
+                .against = {},
+                .measured = {}};
     const report::SessionSummary& summary = made.summary;
     made.prediction = latency::check_prediction(
         run::tracker_figures(made.info.header.config, summary.origin), summary.report);
@@ -176,6 +180,11 @@ Report make_report(const ReportCommand& command, const session::OpenSession& ses
         made.gate = report::budget_gate(summary.report, *made.budget);
     }
     made.against = compared(command.against, session, summary, made.percentiles);
+    if (!command.probe.empty()) {
+        made.measured =
+            value_or_throw(probe::compare(value_or_throw(probe::read_measurement(command.probe)),
+                                          session, summary.report.config));
+    }
     return made;
 }
 
@@ -195,6 +204,9 @@ void tell(const Report& made) {
         fmt::print("The recording lacks {} records that the disk was too slow for.\n",
                    made.info.records_dropped);
     }
+    if (made.measured) {
+        fmt::print("{}", probe::comparison_text(*made.measured));
+    }
     if (made.gate) {
         fmt::print("\n{}", report::gate_text(*made.gate));
     }
@@ -209,6 +221,9 @@ nlohmann::ordered_json json_of(const Report& made) {
     json["why_the_fovea_lags"] = report::lag_json(made.reasons);
     json["prediction"] = report::prediction_json(made.prediction);
     made.summary.runtime.add_to(json);
+    if (made.measured) {
+        json["probe"] = probe::comparison_json(*made.measured);
+    }
     if (made.gate) {
         json["budget"] = report::gate_json(*made.gate);
     }
@@ -268,6 +283,10 @@ void add_report_command(Command program) {
     app.option("--against", command->against,
                "also show what changed since this session, and how much of it is chance")
         .type("SESSION");
+    app.option("--probe", command->probe,
+               "show eye-to-photon as gazeloop probe --video --json FILE measured it beside it")
+        .type("FILE")
+        .not_empty();
     const Option named =
         app.option("--budget", command->budget,
                    "exit code 1 unless the session keeps this budget: a name or a .toml file")
