@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -19,9 +20,13 @@
 #include "runtime/report/frame_csv.h"
 #include "runtime/report/lag_reasons.h"
 #include "runtime/report/output_file.h"
+#include "runtime/report/page/event_line.h"
+#include "runtime/report/page/report_page.h"
+#include "runtime/report/page/report_sections.h"
 #include "runtime/report/percentiles.h"
 #include "runtime/report/perfetto/perfetto_file.h"
 #include "runtime/report/prediction_text.h"
+#include "runtime/report/recording_text.h"
 #include "runtime/report/session_json.h"
 #include "runtime/report/session_summary.h"
 #include "runtime/report/session_text.h"
@@ -37,6 +42,7 @@ struct ReportCommand {
     std::string percentiles;
     bool percentiles_given = false;
     std::string csv;
+    std::string html;
     std::string json;
     std::string perfetto;
     std::string perfetto_samples = "used";
@@ -47,11 +53,13 @@ struct ReportCommand {
     std::optional<double> budget_ms;
 
     /// The outputs with their options.
-    [[nodiscard]] std::array<std::pair<std::string_view, const std::string*>, 3> outputs() const {
-        return {{{"--csv", &csv}, {"--json", &json}, {"--perfetto", &perfetto}}};
+    [[nodiscard]] std::array<std::pair<std::string_view, const std::string*>, 4> outputs() const {
+        return {{{"--csv", &csv}, {"--html", &html}, {"--json", &json}, {"--perfetto", &perfetto}}};
     }
     /// Whether stdout is left for people.
-    [[nodiscard]] bool tells() const { return csv != "-" && json != "-" && perfetto != "-"; }
+    [[nodiscard]] bool tells() const {
+        return csv != "-" && html != "-" && json != "-" && perfetto != "-";
+    }
 };
 
 /// What another session's figures became in this one, with that session's name.
@@ -63,29 +71,16 @@ struct Against {
 /// All that is said of a session.
 struct Report {
     const session::SessionInfo& info;
-    report::Percentiles percentiles;
-    std::optional<latency::LatencyBudget> budget;
-    report::SessionSummary summary;
-    latency::PredictionCheck prediction;
-    report::LagReasons reasons;
-    std::optional<report::BudgetGate> gate;
-    std::optional<Against> against;
-    std::optional<probe::Comparison> measured;
+    report::Percentiles percentiles{};
+    std::optional<latency::LatencyBudget> budget{};
+    report::page::EventLine events{};
+    report::SessionSummary summary{};
+    latency::PredictionCheck prediction{};
+    report::LagReasons reasons{};
+    std::optional<report::BudgetGate> gate{};
+    std::optional<Against> against{};
+    std::optional<probe::Comparison> measured{};
 };
-
-/// Where a recording ends that was not closed, and what is known of what it lacks.
-std::string end_of(const session::SessionInfo& info, const session::PlaybackEnd& end) {
-    std::string text = "The recording was not closed: it ";
-    text += end.last_frame ? fmt::format("ends at frame {}.", *end.last_frame) : "has no frames.";
-    if (!info.missing_log.empty()) {
-        text += fmt::format(" But {}.", info.missing_log);
-    } else if (info.writing_failed) {
-        text += " Writing it failed there.";
-    } else if (info.had_write_ahead_log) {
-        text += " It lacks at most its last 100 ms.";
-    }
-    return text;
-}
 
 /// One output takes stdout, and no two take the same file.
 void check_outputs(const ReportCommand& command) {
@@ -120,18 +115,20 @@ std::optional<latency::LatencyBudget> budget_of(const ReportCommand& command) {
 }
 
 /// Plays the session; the Perfetto trace is written meanwhile.
-report::SessionSummary summary_of(const ReportCommand& command,
-                                  const session::OpenSession& session) {
+report::SessionSummary summary_of(const ReportCommand& command, const session::OpenSession& session,
+                                  report::page::EventLine& events) {
     std::optional<report::perfetto::PerfettoFile> perfetto;
-    std::vector<frame::FrameObserver*> also;
+    std::vector<frame::FrameObserver*> also{&events};
     if (!command.perfetto.empty()) {
         perfetto.emplace(command.perfetto, session.info().header,
                          command.perfetto_samples == "all" ? report::perfetto::SampleDetail::All
                                                            : report::perfetto::SampleDetail::Used);
         also.push_back(&perfetto->observer());
     }
-    report::SessionSummary summary =
-        value_or_throw(report::summarize(session, command.runtime, also));
+    report::SessionSummary summary = value_or_throw(report::summarize(
+        session, command.runtime,
+        {.observers = also,
+         .gaze = perfetto ? session::PlayedGaze::Samples : session::PlayedGaze::Counts}));
     if (perfetto) {
         for (const std::string& lack : perfetto->finish()) {
             spdlog::info("{} lacks {}", command.perfetto, lack);
@@ -154,18 +151,13 @@ std::optional<Against> compared(const std::string& file, const session::OpenSess
         file};
 }
 
-Report make_report(const ReportCommand& command, const session::OpenSession& session) {
-    Report made{.info = session.info(),
-                .percentiles = command.percentiles_given
-                                   ? value_or_throw(report::Percentiles::parse(command.percentiles))
-                                   : report::Percentiles{},
-                .budget = budget_of(command),
-                .summary = summary_of(command, session),
-                .prediction = {},
-                .reasons = {},
-                .gate = {},
-                .against = {},
-                .measured = {}};
+/// Everything but the outputs; what was asked for wrongly is refused before the session is read.
+void fill(const ReportCommand& command, const session::OpenSession& session, Report& made) {
+    if (command.percentiles_given) {
+        made.percentiles = value_or_throw(report::Percentiles::parse(command.percentiles));
+    }
+    made.budget = budget_of(command);
+    made.summary = summary_of(command, session, made.events);
     const report::SessionSummary& summary = made.summary;
     made.prediction = latency::check_prediction(
         run::tracker_figures(made.info.header.config, summary.origin), summary.report);
@@ -185,7 +177,6 @@ Report make_report(const ReportCommand& command, const session::OpenSession& ses
             value_or_throw(probe::compare(value_or_throw(probe::read_measurement(command.probe)),
                                           session, summary.report.config));
     }
-    return made;
 }
 
 void tell(const Report& made) {
@@ -194,15 +185,8 @@ void tell(const Report& made) {
                report::session_text(summary, made.percentiles, report::lag_text(made.reasons)),
                summary.trace.text(), summary.runtime.text(),
                report::prediction_text(made.prediction, summary.report));
-    if (!made.info.closed_cleanly) {
-        fmt::print("{}\n", end_of(made.info, summary.end));
-    }
-    if (summary.end.last_error) {
-        fmt::print("The run failed: {}\n", *summary.end.last_error);
-    }
-    if (made.info.records_dropped > 0) {
-        fmt::print("The recording lacks {} records that the disk was too slow for.\n",
-                   made.info.records_dropped);
+    for (const std::string& line : report::recording_lines(made.info, summary.end)) {
+        fmt::print("{}\n", line);
     }
     if (made.measured) {
         fmt::print("{}", probe::comparison_text(*made.measured));
@@ -234,6 +218,25 @@ nlohmann::ordered_json json_of(const Report& made) {
     return json;
 }
 
+std::string page_of(const ReportCommand& command, const Report& made) {
+    std::vector<report::page::PageSection> sections;
+    if (made.gate) {
+        sections.push_back(report::page::section_of(*made.gate));
+    }
+    if (made.against) {
+        sections.push_back(report::page::section_of(made.against->comparison, made.percentiles,
+                                                    made.against->before));
+    }
+    return report::page::report_page({.session = made.summary,
+                                      .info = made.info,
+                                      .events = made.events,
+                                      .percentiles = made.percentiles,
+                                      .file = std::filesystem::path(command.file).filename(),
+                                      .budget = made.budget ? &*made.budget : nullptr,
+                                      .why = report::page::why_of(made.reasons),
+                                      .sections = sections});
+}
+
 void write_csv(const std::string& file, const report::FrameLog& frames) {
     report::OutputFile output = value_or_throw(report::OutputFile::open(file));
     value_or_throw(report::write_frame_csv(
@@ -244,12 +247,16 @@ void write_csv(const std::string& file, const report::FrameLog& frames) {
 ExitCode report(const ReportCommand& command) {
     check_outputs(command);
     const auto session = value_or_throw(session::OpenSession::open(command.file));
-    const Report made = make_report(command, session);
+    Report made{.info = session.info()};
+    fill(command, session, made);
     if (command.tells() && !command.log.quiet) {
         tell(made);
     }
     if (!command.csv.empty()) {
         write_csv(command.csv, *made.summary.frames);
+    }
+    if (!command.html.empty()) {
+        value_or_throw(report::write_text(command.html, page_of(command, made)));
     }
     if (!command.json.empty()) {
         value_or_throw(report::write_text(command.json, report::json_text(json_of(made))));
@@ -271,6 +278,8 @@ void add_report_command(Command program) {
                    "percents to show, separated by commas (default 50,90,95,99,99.9)")
             .type("LIST");
     app.option("--csv", command->csv, "write every frame as a line of CSV; - is stdout")
+        .type("FILE");
+    app.option("--html", command->html, "write the report as one page with plots; - is stdout")
         .type("FILE");
     app.option("--json", command->json, "write the report as JSON; - is stdout").type("FILE");
     const Option perfetto = app.option("--perfetto", command->perfetto,

@@ -58,7 +58,7 @@ Expected<void> tell_first_samples(const session::OpenSession& session, LagObserv
 }  // namespace
 
 Expected<SessionSummary> summarize(const session::OpenSession& session, const RuntimeFiles& files,
-                                   std::span<frame::FrameObserver* const> also) {
+                                   const AlsoTold& also) {
     const session::SessionHeader& header = session.info().header;
     latency::SummaryConfig config = summary_config(header.meta.display, header.meta.clock);
     config.passes = header.passes;
@@ -70,7 +70,7 @@ Expected<SessionSummary> summarize(const session::OpenSession& session, const Ru
     LagObserver lag;
     auto frames = std::make_unique<FrameLog>(config);
     std::vector<frame::FrameObserver*> observers{&observer, &tracing, frames.get(), &lag};
-    observers.insert(observers.end(), also.begin(), also.end());
+    observers.insert(observers.end(), also.observers.begin(), also.observers.end());
     auto runtime = RuntimeAccount::open(files, header.meta.runtime_metrics);
     if (!runtime) {
         return std::unexpected(std::move(runtime.error()));
@@ -79,8 +79,7 @@ Expected<SessionSummary> summarize(const session::OpenSession& session, const Ru
     if (!counted) {
         return std::unexpected(counted.error());
     }
-    // Who else listens wants the samples too.
-    const bool by_counts = *counted && also.empty();
+    const bool by_counts = *counted && also.gaze == session::PlayedGaze::Counts;
     auto end =
         session::play_ahead(session, runtime->joined(observers),
                             by_counts ? session::PlayedGaze::Counts : session::PlayedGaze::Samples);

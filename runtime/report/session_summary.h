@@ -29,10 +29,14 @@ struct SessionSummary {
     session::PlaybackEnd end;
 };
 
-/// `files` are of the session's run. `also` is told the session too, with every sample. Errors: see
-/// session::play() and RuntimeAccount::open().
+/// Who is told a session beside its summary.
+struct AlsoTold {
+    std::span<frame::FrameObserver* const> observers{};
+    session::PlayedGaze gaze = session::PlayedGaze::Counts;  ///< whether they need every sample
+};
+
+/// `files` are of the session's run. Errors: see session::play() and RuntimeAccount::open().
 Expected<SessionSummary> summarize(const session::OpenSession& session,
-                                   const RuntimeFiles& files = {},
-                                   std::span<frame::FrameObserver* const> also = {});
+                                   const RuntimeFiles& files = {}, const AlsoTold& also = {});
 
 }  // namespace gazeloop::report
