@@ -472,6 +472,7 @@ class FrameRun {
         }
         const std::vector<NamedValue> settings = request_.settings->list();
         const report::LagFacts facts{.report = &report,
+                                     .budget = budget_ ? &*budget_ : nullptr,
                                      .origin = lag_.origin(),
                                      .prediction = latency::check_prediction(
                                          tracker_figures(settings, lag_.origin()), report),
