@@ -38,7 +38,11 @@ async function look() {
     if (canvas === null) {
       return [figure.id, -1];
     }
-    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const pen = copy.getContext("2d", {willReadFrequently: true});  // else the browser warns
+    pen.drawImage(canvas, 0, 0);
+    const {data} = pen.getImageData(0, 0, copy.width, copy.height);
     let coloured = 0;  // neither transparent nor of a grid's or a label's grey
     for (let i = 0; i < data.length; i += 4) {
       const spread = Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]);

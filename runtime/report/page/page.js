@@ -124,7 +124,7 @@ async function start() {
     const changed = () => {
       if (!asked) {
         asked = true;
-        requestAnimationFrame(() => {
+        setTimeout(() => {  // not at the next picture: a page that is not seen has none
           asked = false;
           showTime(colours());
         });
