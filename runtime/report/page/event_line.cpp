@@ -1,6 +1,7 @@
 #include "runtime/report/page/event_line.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace gazeloop::report::page {
 
@@ -19,8 +20,10 @@ void EventLine::on_event(time::Stamp time, std::string_view kind, std::string_vi
         found->ns.push_back(time.ns);
     }
     if (found->texts.size() < kMostTexts) {
+        std::string kept(text.substr(0, kLongestText));
+        kept += text.size() > kLongestText ? " ... (cut)" : "";
         found->texts.push_back(
-            {time.known() ? std::optional(time.ns) : std::nullopt, std::string(text)});
+            {time.known() ? std::optional(time.ns) : std::nullopt, std::move(kept)});
     }
 }
 

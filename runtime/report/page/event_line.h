@@ -20,6 +20,7 @@ class EventLine final : public frame::FrameObserver {
     /// are, its file decides.
     static constexpr std::size_t kMostTexts = 100;
     static constexpr std::size_t kMostKinds = 64;
+    static constexpr std::size_t kLongestText = 500;  ///< bytes; more is cut, and says so
 
     struct Text {
         std::optional<std::int64_t> ns;  ///< host time; none: unknown

@@ -530,11 +530,12 @@ Table count_table(const PageContents& contents) {
             counts.planned);
     }
     add("records that the disk was too slow for", contents.info.records_dropped);
-    const latency::GazeErrorGaps& gaps = contents.session.frames->gaze_error_gaps();
-    add("gaze error unknown: no display time", gaps.no_display_time, frames.rendered);
-    add("no sample within 25 ms", gaps.no_sample_near, frames.rendered, true);
-    add("the eye was lost", gaps.eye_lost, frames.rendered, true);
-    add("no head poses", gaps.no_head, frames.rendered, true);
+    for (std::size_t gap = 1; gap < frame::kGazeErrorGapCount; ++gap) {
+        std::string why(frame::kGazeErrorGapNames[gap]);
+        std::ranges::replace(why, '_', ' ');
+        add("gaze error unknown: " + why, contents.session.frames->gaze_error_gaps()[gap],
+            frames.rendered);
+    }
     return table;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostMarks = 1000;  ///< of a kind of events on the time line
+constexpr std::size_t kMostMarks = 500;  ///< of a kind of events on the time line
 
 std::string of_series(PlotForm form) { return form == PlotForm::Mean ? "mean" : "envelope"; }
 

@@ -174,6 +174,7 @@ TEST(EventLine, KeepsEveryTimeAndTheFirstTexts) {
         events.on_event(measured(i), "gaze", "held");
     }
     events.on_event({}, "gaze", "at an unknown time");
+    events.on_event({}, "long", std::string(10'000, 'x'));
     for (int i = 0; i < 100; ++i) {
         events.on_event(measured(i), "kind-" + std::to_string(i), "");
     }
@@ -182,7 +183,8 @@ TEST(EventLine, KeepsEveryTimeAndTheFirstTexts) {
     EXPECT_EQ(gaze.ns.size(), 150U);
     EXPECT_EQ(gaze.texts.size(), EventLine::kMostTexts);
     EXPECT_EQ(events.kinds().size(), EventLine::kMostKinds);
-    EXPECT_EQ(events.others(), 37U);
+    EXPECT_EQ(events.others(), 38U);
+    EXPECT_LT(events.kinds()[1].texts.front().text.size(), 600U);
 }
 
 }  // namespace
