@@ -78,6 +78,7 @@ std::vector<RowSpan> parts_of(const FrameLog& frames) {
     const std::size_t rows = frames.rows();
     const std::size_t count = std::min(kParts, rows);
     std::vector<RowSpan> parts;
+    parts.reserve(count);
     for (std::size_t part = 0; part < count; ++part) {
         parts.push_back({rows * part / count, rows * (part + 1) / count});
     }
@@ -259,7 +260,7 @@ Table run_table(const FrameLog& frames, std::span<const Violations> all) {
 }
 
 Table distribution_table(std::span<const Distribution> distributions,
-                         std::vector<TableHead> heads) {
+                         const std::vector<TableHead>& heads) {
     Table table{.heads = {{"from, ms"}, {"to, ms"}}, .rows = {}};
     for (const TableHead& head : heads) {
         table.heads.push_back({head.text + ", frames"});

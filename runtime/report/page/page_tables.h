@@ -51,7 +51,7 @@ inline constexpr std::size_t kWorstFrames = 10;
 [[nodiscard]] Table run_table(const FrameLog& frames, std::span<const Violations> all);
 /// One distribution for each column head.
 [[nodiscard]] Table distribution_table(std::span<const Distribution> distributions,
-                                       std::vector<TableHead> heads);
+                                       const std::vector<TableHead>& heads);
 /// The session in parts of as many frames each, with least, mean and greatest of each column.
 [[nodiscard]] Table range_table(const FrameLog& frames, std::span<const std::string> keys);
 /// The same with means alone.

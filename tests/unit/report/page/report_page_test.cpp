@@ -84,6 +84,12 @@ TEST(ReportPage, ShowsTextsOfOthersAsTheyAre) {
     EXPECT_THAT(page, Not(HasSubstr("a<b>")));
 }
 
+TEST(ReportPage, FlagsWhatIsBelow0) {
+    const std::string page = page_of(noisy_session(50), nullptr);
+    EXPECT_THAT(page, HasSubstr("Below 0: submit in "));
+    EXPECT_THAT(page, Not(HasSubstr("Below 0: scan to row")));
+}
+
 TEST(ReportPage, SaysWhetherABudgetIsInForce) {
     const SessionSummary session = noisy_session(50);
     const latency::LatencyBudget budget{
