@@ -30,6 +30,7 @@
 #include "runtime/report/session_json.h"
 #include "runtime/report/session_summary.h"
 #include "runtime/report/session_text.h"
+#include "runtime/report/summary_json.h"
 #include "runtime/run/tracker_figures.h"
 #include "runtime/time/milliseconds.h"
 
