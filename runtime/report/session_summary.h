@@ -22,10 +22,10 @@ struct SessionSummary {
     latency::SummaryReport report;  ///< the same as at the end of its run
     std::unique_ptr<const FrameLog> frames;
     TraceAccount trace;
-    RuntimeAccount runtime;
+    RuntimeAccount runtime{};
     GazeOrigin origin = GazeOrigin::Unknown;
-    latency::GazeUseCounts use;
-    gaze::SmoothingFinding smoothing;
+    latency::GazeUseCounts use{};
+    gaze::SmoothingFinding smoothing{};
     session::PlaybackEnd end;
 };
 

@@ -44,12 +44,12 @@ TEST(StageBars, AreWhatTheSummarySays) {
         EXPECT_NEAR(photon.total_ms, report.gaze_age_at_display.mean_ms.value(), 1e-9);
         std::size_t bar = 0;
         for (const report::NamedRow& row : report::rows_of(report)) {
-            if (row.key.starts_with("stage_")) {
+            if (row.name.key.starts_with("stage_")) {
                 ASSERT_LT(bar, photon.count);
                 const auto& segment = photon.segments[bar++];
-                EXPECT_EQ(row.label, "  " + std::string(segment.name.data()));
-                EXPECT_EQ(segment.known, row.row->count == 1) << row.label;
-                EXPECT_NEAR(segment.ms, row.row->mean_ms.value_or(0.0), 1e-9) << row.label;
+                EXPECT_EQ(row.name.label, "  " + std::string(segment.name.data()));
+                EXPECT_EQ(segment.known, row.row->count == 1) << row.name.label;
+                EXPECT_NEAR(segment.ms, row.row->mean_ms.value_or(0.0), 1e-9) << row.name.label;
             }
         }
         EXPECT_EQ(bar, photon.count);

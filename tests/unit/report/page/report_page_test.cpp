@@ -38,7 +38,8 @@ SessionSummary noisy_session(std::uint64_t frames) {
                          .gpu_begin = measured(begin + noise(kStage)),
                          .gpu_end = measured(begin + noise(kStage)),
                          .present = {},
-                         .display = measured(begin + noise(kAge))};
+                         .display = measured(begin + noise(kAge)),
+                         .shown = {}};
         for (gaze::FoveaPoint& eye : record.fovea.eyes) {
             eye.state = gaze::FoveaState::Tracking;
             eye.sampled = measured(begin - noise(kAge));
