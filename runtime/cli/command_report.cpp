@@ -152,12 +152,8 @@ std::optional<Against> compared(const std::string& file, const session::OpenSess
         file};
 }
 
-/// Everything but the outputs; what was asked for wrongly is refused before the session is read.
+/// Everything but the outputs.
 void fill(const ReportCommand& command, const session::OpenSession& session, Report& made) {
-    if (command.percentiles_given) {
-        made.percentiles = value_or_throw(report::Percentiles::parse(command.percentiles));
-    }
-    made.budget = budget_of(command);
     made.summary = summary_of(command, session, made.events);
     const report::SessionSummary& summary = made.summary;
     made.prediction = latency::check_prediction(
@@ -246,9 +242,14 @@ void write_csv(const std::string& file, const report::FrameLog& frames) {
 }
 
 ExitCode report(const ReportCommand& command) {
+    // What was asked for wrongly is refused before the session is read.
     check_outputs(command);
+    const report::Percentiles percentiles =
+        command.percentiles_given ? value_or_throw(report::Percentiles::parse(command.percentiles))
+                                  : report::Percentiles{};
+    const std::optional<latency::LatencyBudget> budget = budget_of(command);
     const auto session = value_or_throw(session::OpenSession::open(command.file));
-    Report made{.info = session.info()};
+    Report made{.info = session.info(), .percentiles = percentiles, .budget = budget};
     fill(command, session, made);
     if (command.tells() && !command.log.quiet) {
         tell(made);

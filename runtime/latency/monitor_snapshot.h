@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <string_view>
 
 #include "runtime/gaze/fovea_point.h"
+#include "runtime/latency/budget.h"
 #include "runtime/latency/gaze_age.h"
 #include "runtime/time/stamp.h"
 
@@ -19,13 +21,18 @@ inline constexpr std::size_t kFirstStagePart = 1;
 inline constexpr std::size_t kUnaccountedPart = kFirstStagePart + kStageCount;
 inline constexpr std::size_t kMonitorPartCount = kUnaccountedPart + 1;
 
+/// The parts' names in that order.
+[[nodiscard]] constexpr std::array<std::string_view, kMonitorPartCount> monitor_parts(
+    std::string_view age, const std::array<std::string_view, kStageCount>& stages) {
+    std::array<std::string_view, kMonitorPartCount> parts{age};
+    std::ranges::copy(stages, parts.begin() + kFirstStagePart);
+    parts[kUnaccountedPart] = "unaccounted";
+    return parts;
+}
+
 /// For people and for programs.
-inline constexpr std::array<std::string_view, kMonitorPartCount> kMonitorPartNames{
-    "gaze age at display", "tracker",     "delivery",  "queue",      "filter", "submit", "gpu",
-    "wait for display",    "scan to row", "switching", "unaccounted"};
-inline constexpr std::array<std::string_view, kMonitorPartCount> kMonitorPartKeys{
-    "gaze_age_at_display", "tracker",     "delivery",  "queue",      "filter", "submit", "gpu",
-    "wait_for_display",    "scan_to_row", "switching", "unaccounted"};
+inline constexpr auto kMonitorPartNames = monitor_parts("gaze age at display", kStageNames);
+inline constexpr auto kMonitorPartKeys = monitor_parts("gaze_age_at_display", kStageKeys);
 
 /// One part, over the window and over the run so far. Of frames whose foveae rest on a fresh
 /// sample.

@@ -80,6 +80,11 @@ std::string unknown_text(const latency::PredictionCheck& check) {
 }  // namespace
 
 std::string prediction_sentence(const latency::PredictionCheck& check) {
+    const bool any = std::ranges::any_of(
+        check.predicted.parts, [](const auto& part) { return part.least_ns || part.greatest_ns; });
+    if (!any) {
+        return {};
+    }
     const latency::PredictedSum sum = check.predicted.gaze_age();
     std::string text = "; its parts allow " + range_text(sum);
     if (!check.outside.empty()) {

@@ -114,9 +114,11 @@ std::string worst_frames(const FrameLog& frames) {
     };
     add(kGazeAgeAtDisplay.key, "age");
     for (std::size_t stage = 0; stage < latency::kStageCount; ++stage) {
-        constexpr std::array<const char*, latency::kStageCount> kShort{
-            "track", "deliv", "queue", "filter", "submit", "gpu", "wait", "row", "switch"};
-        add(stage_name(stage).key, kShort[stage]);
+        constexpr auto kShort =
+            std::to_array<std::string_view>({"track", "deliv", "queue", "filter", "submit", "gpu",
+                                             "compos", "wait", "row", "switch"});
+        static_assert(kShort.size() == latency::kStageCount);
+        add(stage_name(stage).key, std::string(kShort[stage]));
     }
     add(kUnaccounted.key, "unacc");
     add(kGazeError.key, "error");

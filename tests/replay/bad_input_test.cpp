@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"two_budgets",
                  {"report", "x", "--budget", "strict", "--budget-ms", "3"},
                  2,
-                 "--budget-ms excludes --budget"},
+                 "--budget excludes --budget-ms"},
         BadInput{"no_budget_at_all", {"report", "x", "--budget-ms", "0"}, 2, "must be a number in"},
         BadInput{"budget_nan", {"report", "x", "--budget-ms", "nan"}, 2, "must be a number in"},
         BadInput{"monitor_nowhere",

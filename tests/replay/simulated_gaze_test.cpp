@@ -92,7 +92,7 @@ TEST(RollingDisplay, IsTheSameInTheReport) {
     ASSERT_EQ(run_gazeloop(simulated({"--display", "psvr2", "--record", session})).exit_code, 0);
     const ProgramResult report = run_gazeloop({"report", session});
     EXPECT_EQ(report.exit_code, 0) << report.err;
-    EXPECT_NE(report.out.find("scan to row           profile"), std::string::npos) << report.out;
+    EXPECT_NE(report.out.find("scan to row         profile"), std::string::npos) << report.out;
     EXPECT_NE(report.out.find("A pixel is lit for 2.00 ms"), std::string::npos) << report.out;
     EXPECT_NE(report.out.find("Assumed, not published, in the display's profile: illumination"),
               std::string::npos)

@@ -66,8 +66,8 @@ TEST(StageBars, AddUpToTheTotal) {
     EXPECT_EQ(bars.frame, 7U);
     const StageBar& photon = bars.bars[0];
     EXPECT_EQ(std::string(photon.title.data()), "eye to photon");
-    ASSERT_EQ(photon.count, latency::kStageCount - 3)
-        << "delivery, filter and compositor are not known";
+    ASSERT_EQ(photon.count, latency::kStageCount - 4)
+        << "delivery, filter, compositor and row are not known";
     ASSERT_TRUE(photon.total_known);
     EXPECT_NEAR(sum_ms(photon), photon.total_ms, 1e-9);
     EXPECT_GE(bar_scale_ms(bars), photon.total_ms);

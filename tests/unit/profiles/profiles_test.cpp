@@ -225,7 +225,7 @@ TEST(Budgets, RefuseWhatTheyDoNotKnow) {
     EXPECT_THAT(refused("total_ms = 20\n[stages_ms]\ngpus = 3\n"),
                 HasSubstr("budget.toml:3: unknown key 'stages_ms.gpus'; did you mean "
                           "'stages_ms.gpu'?"));
-    EXPECT_THAT(refused("total = 20\n"), HasSubstr("did you mean 'total_ms'?"));
+    EXPECT_THAT(refused("total_m = 20\n"), HasSubstr("did you mean 'total_ms'?"));
     for (const char* const number : {"0", "-1", "1000.5", "nan", "inf", "-inf"}) {
         EXPECT_THAT(refused("total_ms = " + std::string(number) + "\n"),
                     HasSubstr("budget.toml:1: total_ms = "))

@@ -68,6 +68,7 @@ struct Made {
         for (DurationRow& stage : report.stages) {
             stage = row(1.0);
         }
+        report.stages[static_cast<std::size_t>(Stage::Present)] = {};
         report.unaccounted = row(1.0);
         report.frame_interval = row(10.0);
         set(Stage::Tracker, 12.0);

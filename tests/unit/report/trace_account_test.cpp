@@ -139,17 +139,17 @@ TEST(TraceAccount, HoldsWhatALiveSourcesDirectionsAreLike) {
 
 TEST(TraceAccount, KeepsToAHundredColumns) {
     TraceAccount account;
-    account.take("axes", std::string(40, 'a') + " " + std::string(60, 'b') + " " +
-                             std::string(120, 'c') + " d");
+    account.take("trace", "rows " + std::string(40, 'a') + " " + std::string(60, 'b') + " " +
+                              std::string(120, 'c') + " d");
     std::istringstream text(account.text());
     std::vector<std::string> lines;
     for (std::string line; std::getline(text, line);) {
         lines.push_back(line);
     }
     EXPECT_THAT(
-        lines,
-        ElementsAre("axes     " + std::string(40, 'a'), std::string(9, ' ') + std::string(60, 'b'),
-                    std::string(9, ' ') + std::string(120, 'c'), std::string(9, ' ') + "d"));
+        lines, ElementsAre("trace    rows " + std::string(40, 'a'),
+                           std::string(9, ' ') + std::string(60, 'b'),
+                           std::string(9, ' ') + std::string(120, 'c'), std::string(9, ' ') + "d"));
 }
 
 gaze::GazeTrace example_trace() {
@@ -170,6 +170,7 @@ TEST(GazeReport, IsTextForPeople) {
               "rows     800, used 400\n"
               "rate     120 Hz for 3.825 s\n"
               "gaps     0.508 s at 1.66 s\n"
+              "clock    fitted to the host's clock: +148 ppm, within 0.20 ms\n"
               "eyes     left valid 100.0 %, right 99.8 %, both 99.8 %\n"
               "axes     agree with anatomy (median vergence 2.4 deg)\n"
               "head     not recorded\n"
@@ -186,7 +187,7 @@ TEST(GazeReport, IsJsonForPrograms) {
     EXPECT_NEAR(json["longest_gaps"][0]["length_s"], 0.508333, 1e-5);
     EXPECT_EQ(json["longest_gaps"].size(), 1U);
     EXPECT_EQ(json["valid_percent"]["right"], 99.75);
-    EXPECT_TRUE(json["clock"].is_null());
+    EXPECT_EQ(json["clock"], "fitted to the host's clock: +148 ppm, within 0.20 ms");
     EXPECT_EQ(json["trace"]["rows"], 800);
     EXPECT_EQ(json["lost"], 3);
 }
