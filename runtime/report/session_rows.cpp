@@ -1,5 +1,7 @@
 #include "runtime/report/session_rows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -67,6 +69,20 @@ std::vector<SessionRow> rows_of(const FrameLog& frames, std::span<const double> 
         }
     }
     return rows;
+}
+
+std::vector<std::string> below_zero(const FrameLog& frames) {
+    const std::string row_key = stage_name(static_cast<std::size_t>(latency::Stage::Row)).key;
+    std::vector<std::string> sentences;
+    for (const DurationColumn& column : frames.columns()) {
+        if (column.negative() > 0 && column.key() != row_key) {
+            const std::string& label = column.label();
+            sentences.push_back(fmt::format(
+                "Below 0: {} in {} of {} frames. A stamp or a clock is wrong there.",
+                label.substr(label.find_first_not_of(' ')), column.negative(), column.known()));
+        }
+    }
+    return sentences;
 }
 
 }  // namespace gazeloop::report

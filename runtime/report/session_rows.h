@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "runtime/latency/span_series.h"
@@ -31,5 +32,9 @@ struct SessionRow {
 /// not have (a stage that is left out where it is unknown, held gaze, a pass that never ran).
 [[nodiscard]] std::vector<SessionRow> rows_of(const FrameLog& frames,
                                               std::span<const double> percents);
+
+/// A sentence for each quantity that is below 0 in some frames, where a stamp or a clock must be
+/// wrong. Only a row's emission may come before what is counted as the display's.
+[[nodiscard]] std::vector<std::string> below_zero(const FrameLog& frames);
 
 }  // namespace gazeloop::report

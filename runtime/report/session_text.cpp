@@ -69,15 +69,10 @@ std::string table(std::span<const SessionRow> rows, const Percentiles& percentil
     return text;
 }
 
-/// A stage that is negative says that a clock or a prediction was wrong there.
-std::string negative_lines(std::span<const SessionRow> rows) {
+std::string below_zero_lines(const FrameLog& frames) {
     std::string text;
-    for (const SessionRow& row : rows) {
-        if (row.negative > 0) {
-            const std::size_t begin = row.name.label.find_first_not_of(' ');
-            text += fmt::format("NEGATIVE: {} in {} of {} frames: a stamp or a clock is wrong\n",
-                                row.name.label.substr(begin), row.negative, row.known);
-        }
+    for (const std::string& sentence : below_zero(frames)) {
+        text += sentence + "\n";
     }
     return text;
 }
@@ -150,7 +145,7 @@ std::string session_text(const SessionSummary& session, const Percentiles& perce
     const std::vector<SessionRow> rows = rows_of(frames, percentiles.percents());
     const std::string why = lag.empty() ? std::string{} : fmt::format("\n{}", lag);
     return summary_head(session.report) + why + "\n" + table(rows, percentiles) +
-           negative_lines(rows) + error_lines(frames) + summary_notes(session.report) + "\n" +
+           below_zero_lines(frames) + error_lines(frames) + summary_notes(session.report) + "\n" +
            worst_frames(frames) + summary_counts(session.report);
 }
 

@@ -257,21 +257,6 @@ std::string distribution_note(std::span<const Distribution> both) {
     return note;
 }
 
-/// Only a row's emission may come before what is counted as the display's.
-std::vector<std::string> negative_lines(const FrameLog& frames) {
-    const std::string row_key = stage_name(static_cast<std::size_t>(latency::Stage::Row)).key;
-    std::vector<std::string> lines;
-    for (const DurationColumn& column : frames.columns()) {
-        if (column.negative() > 0 && column.key() != row_key) {
-            const std::string& label = column.label();
-            lines.push_back(fmt::format(
-                "Below 0: {} in {} of {} frames. A stamp or a clock is wrong there.",
-                label.substr(label.find_first_not_of(' ')), column.negative(), column.known()));
-        }
-    }
-    return lines;
-}
-
 data section_data(const PageSection& section) {
     data item("id", section.id);
     item.set("title", section.title);
@@ -362,7 +347,7 @@ std::string report_page(const PageContents& contents) {
     page.set("why", texts(contents.why));
     page.set("why_known", !contents.why.empty());
     page.set("stage_table", table_data(stage_table(frames, contents.percentiles)));
-    page.set("negative", texts(negative_lines(frames)));
+    page.set("negative", texts(below_zero(frames)));
     page.set("notes", texts(lines_of(summary_notes(report))));
     data sections = list();
     for (const PageSection& section : contents.sections) {
