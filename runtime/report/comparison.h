@@ -19,7 +19,7 @@ struct ComparedRow {
     Unit unit = Unit::Nanoseconds;
     std::uint64_t frames_before = 0;
     std::uint64_t frames_after = 0;
-    /// None: one of the two has too few frames for it.
+    /// None: one of the two has too few frames for it, or its neighbours are too alike.
     std::optional<statistics::Difference> mean{};
     std::vector<std::optional<statistics::Difference>> percentiles{};  ///< as asked for
     std::string refused{};  ///< why the two say nothing of each other; empty: they do

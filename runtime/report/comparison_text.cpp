@@ -33,15 +33,23 @@ std::string_view trimmed(std::string_view label) {
     return label.substr(std::min(label.find_first_not_of(' '), label.size()));
 }
 
-/// With its sign, and as many digits as the interval beside it.
-std::string change(double value) { return fmt::format("{:+.3f}", value); }
+/// With its sign, and as many digits as the figures beside it.
+std::string change(double value) {
+    return std::abs(value) < 1000.0 ? fmt::format("{:+.3f}", value) : fmt::format("{:+.0f}", value);
+}
 
 std::string line(std::string_view label, std::string_view name, std::string_view unit,
                  const statistics::Difference& difference) {
-    return fmt::format("{:<22}{:<7}{:>10}{:>10}{:>10}  {} to {}{}\n", label, name,
-                       figure(difference.before), figure(difference.after),
-                       change(difference.change()), change(difference.low), change(difference.high),
-                       difference.may_be_chance() ? "  may be chance" : fmt::format(" {}", unit));
+    std::string text =
+        fmt::format("{:<22}{:<7}{:>9} {:>9} {:>9}  {} to {}", label, name,
+                    figure(difference.before), figure(difference.after),
+                    change(difference.change()), change(difference.low), change(difference.high));
+    if (difference.may_be_chance()) {
+        text += "  may be chance";
+    } else if (!unit.empty()) {
+        text += fmt::format(" {}", unit);
+    }
+    return text + "\n";
 }
 
 std::string lines_of(const ComparedRow& row, const std::vector<std::string>& names) {
@@ -118,7 +126,7 @@ std::string comparison_text(const Comparison& comparison, const Percentiles& per
     for (const std::string& doubt : comparison.doubts) {
         text += fmt::format("DOUBTFUL: {}\n", doubt);
     }
-    text += fmt::format("{:<22}{:<7}{:>10}{:>10}{:>10}  {:.0f} % interval of the change\n", "", "",
+    text += fmt::format("{:<22}{:<7}{:>9} {:>9} {:>9}  {:.0f} % interval of the change\n", "", "",
                         "before", "now", "change", 100.0 * comparison.options.level);
     std::string same;
     std::string few;
@@ -135,7 +143,9 @@ std::string comparison_text(const Comparison& comparison, const Percentiles& per
         }
     }
     text += same.empty() ? "" : wrapped_row("no change beyond chance: ", same);
-    text += few.empty() ? "" : wrapped_row("too few frames to compare: ", few);
+    text += few.empty()
+                ? ""
+                : wrapped_row("no interval, for too few frames or neighbours too alike: ", few);
     text += path_line(comparison.path) + disparity_lines(comparison.disparities);
     return text;
 }
