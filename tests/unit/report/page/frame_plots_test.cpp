@@ -9,6 +9,7 @@
 #include "runtime/report/page/event_line.h"
 #include "runtime/report/page/violations.h"
 #include "runtime/report/row_names.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::report::page {
 namespace {
@@ -31,7 +32,7 @@ frame::FrameRecord frame_of(std::uint64_t index, std::int64_t age_ns) {
     record.stamps.display = measured(wake_up + 20 * kMs);
     for (gaze::FoveaPoint& eye : record.fovea.eyes) {
         eye.state = gaze::FoveaState::Tracking;
-        eye.sampled = measured(wake_up + 20 * kMs - age_ns);
+        eye.sampled = measured(time::saturated(static_cast<__int128>(wake_up) + 20 * kMs - age_ns));
         eye.arrived = measured(wake_up);
     }
     return record;
