@@ -358,10 +358,10 @@ Expected<latency::LatencyBudget> load_budget(std::string_view name) {
     }
     read.refuse_others();
     if (!any && read.complaint().empty()) {
-        return std::unexpected(
-            Error{ErrorKind::BadInput,
-                  fmt::format("{}: a budget needs total_ms, or a limit of a stage under [stages_ms]",
-                              profile->origin)});
+        return std::unexpected(Error{
+            ErrorKind::BadInput,
+            fmt::format("{}: a budget needs total_ms, or a limit of a stage under [stages_ms]",
+                        profile->origin)});
     }
     if (!read.complaint().empty()) {
         return std::unexpected(Error{ErrorKind::BadInput, read.complaint()});
