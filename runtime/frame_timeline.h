@@ -74,7 +74,7 @@ class FrameTimeline {
 /// Wall clock; display times and periods are as the target announces them. Where the gaze source
 /// recorded the head, the views are that head's: the world is moved around the target's head, and
 /// where the target's origin is does not matter.
-class LiveTimeline final : public FrameTimeline {
+class LiveTimeline : public FrameTimeline {
   public:
     explicit LiveTimeline(std::int64_t start_ns) : start_ns_(start_ns) {}
 

@@ -24,7 +24,7 @@ void expect_no_allocations(const std::vector<WatchedFrame>& frames) {
     for (std::size_t i = kWarmUp; i < frames.size(); ++i) {
         EXPECT_EQ(frames[i].allocations, 0U) << "in frame " << i;
         EXPECT_GT(frames[i].calls, 10U) << "frame " << i << " was not watched";
-        with_gaze += frames[i].gaze_ns > 0 ? 1 : 0;
+        with_gaze += frames[i].gaze.vulkan_ns > 0 ? 1 : 0;
     }
     EXPECT_GT(with_gaze, frames.size() / 2);
 }

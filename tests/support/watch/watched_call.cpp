@@ -16,8 +16,8 @@ std::int64_t thread_cpu_ns() {
 thread_local unsigned depth = 0;
 thread_local Spent at_entry;
 thread_local Spent inside;
-thread_local std::int64_t gaze_mark_ns = -1;
-thread_local std::int64_t gaze_ns = -1;
+thread_local std::int64_t gaze_mark_ns = 0;
+thread_local SinceGaze since{.fovea_ns = 0, .vulkan_ns = 0};
 
 Spent total() { return {thread_cpu_ns(), allocations_of_this_thread(), 0}; }
 
@@ -56,17 +56,22 @@ std::int64_t cpu_ns_of_watching_a_call() {
 }
 
 void mark_gaze() {
+    since = {};
     gaze_mark_ns = spent_outside_calls().cpu_ns;
-    gaze_ns = -1;
 }
 
-void end_gaze_mark() {
-    if (gaze_mark_ns >= 0) {
-        gaze_ns = spent_outside_calls().cpu_ns - gaze_mark_ns;
-        gaze_mark_ns = -1;
+void mark_foveae() {
+    if (since.fovea_ns < 0) {
+        since.fovea_ns = spent_outside_calls().cpu_ns - gaze_mark_ns;
     }
 }
 
-std::int64_t last_gaze_ns() { return gaze_ns; }
+void mark_vulkan() {
+    if (since.fovea_ns >= 0 && since.vulkan_ns < 0) {
+        since.vulkan_ns = spent_outside_calls().cpu_ns - gaze_mark_ns;
+    }
+}
+
+SinceGaze since_gaze() { return since; }
 
 }  // namespace gazeloop::tests

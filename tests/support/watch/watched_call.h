@@ -32,10 +32,14 @@ class WatchedCall {
 /// part of every figure. Measured once.
 [[nodiscard]] std::int64_t cpu_ns_of_watching_a_call();
 
-/// CPU time of this thread's own work from mark_gaze() to the next call of Vulkan; nothing if there
-/// was none since.
+/// CPU time of this thread's own work since it looked for gaze. -1: it has not got so far.
+struct SinceGaze {
+    std::int64_t fovea_ns = -1;   ///< until the foveae were known
+    std::int64_t vulkan_ns = -1;  ///< until the first call of Vulkan after that
+};
 void mark_gaze();
-void end_gaze_mark();  ///< called by Vulkan's watched calls
-[[nodiscard]] std::int64_t last_gaze_ns();
+void mark_foveae();  ///< the first one after mark_gaze() counts
+void mark_vulkan();  ///< called by Vulkan's watched calls; the first one after mark_foveae() counts
+[[nodiscard]] SinceGaze since_gaze();
 
 }  // namespace gazeloop::tests

@@ -65,6 +65,16 @@ class MarkingSource final : public drivers::GazeSource {
     std::unique_ptr<drivers::GazeSource> source_;
 };
 
+/// Notes when the foveae are known: the loop then asks for the time.
+class MarkingTimeline final : public LiveTimeline {
+  public:
+    using LiveTimeline::LiveTimeline;
+    time::Stamp now() override {
+        mark_foveae();
+        return LiveTimeline::now();
+    }
+};
+
 /// Comes last among the observers and draws the line between frames.
 class FrameWatch final : public frame::FrameObserver {
   public:
@@ -75,7 +85,7 @@ class FrameWatch final : public frame::FrameObserver {
         const Spent now = spent_outside_calls();
         const Spent spent = now - before_;
         WatchedFrame frame{.cpu_ns = spent.cpu_ns,
-                           .gaze_ns = record.should_render ? last_gaze_ns() : -1,
+                           .gaze = record.should_render ? since_gaze() : SinceGaze{},
                            .allocations = spent.allocations,
                            .calls = spent.calls};
         if (every_ > 0 && record.index % every_ == 0) {
@@ -156,7 +166,7 @@ std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
         .target = *target,
         .renderer = renderer,
         .gaze = gaze,
-        .make_timeline = [] { return std::make_unique<LiveTimeline>(time::measured_now().ns); },
+        .make_timeline = [] { return std::make_unique<MarkingTimeline>(time::measured_now().ns); },
         .make_source =
             [&](std::int64_t start_ns) {
                 std::unique_ptr<drivers::GazeSource> source;

@@ -6,14 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/watch/watched_call.h"
+
 namespace gazeloop::tests {
 
 /// What the loop's own code did in one frame, from the end of the one before to its end, outside
 /// calls of Vulkan and OpenXR.
 struct WatchedFrame {
-    std::int64_t cpu_ns = 0;    ///< with cpu_ns_of_watching_a_call() for every call
-    std::int64_t gaze_ns = -1;  ///< CPU time from looking for gaze to the first Vulkan call after
-                                ///< the foveae are known; -1: nothing was drawn
+    std::int64_t cpu_ns = 0;  ///< with cpu_ns_of_watching_a_call() for every call
+    SinceGaze gaze{};         ///< -1 in both: nothing was drawn
     std::size_t allocations = 0;
     std::uint64_t calls = 0;
     std::size_t resident_bytes = 0;  ///< of the process; only where asked for

@@ -16,7 +16,7 @@ struct Watched<Member> {
     static inline Result(VKAPI_PTR* original)(Arguments...) = nullptr;
 
     static VKAPI_ATTR Result VKAPI_CALL call(Arguments... arguments) {
-        end_gaze_mark();
+        mark_vulkan();
         const WatchedCall watched;
         return original(arguments...);
     }
