@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "runtime/latency/weakest_kind.h"
+
 namespace gazeloop::latency {
 
-time::StampKind DurationRow::kind() const {
-    // The enumerators stand in the order of certainty (see weaker()).
-    for (std::size_t kind = time::kStampKindCount - 1; kind > 0; --kind) {
-        if (frames_by_kind[kind] > 0) {
-            return static_cast<time::StampKind>(kind);
-        }
-    }
-    return time::StampKind::Unknown;
-}
+time::StampKind DurationRow::kind() const { return weakest_kind(frames_by_kind); }
 
 bool DurationRow::mixed() const {
     return std::count_if(frames_by_kind.begin() + 1, frames_by_kind.end(),

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "runtime/latency/weakest_kind.h"
 #include "runtime/report/session_rows.h"
 
 namespace gazeloop::report {
@@ -25,14 +26,6 @@ std::vector<double> values_of(const DurationColumn& column) {
     return values;
 }
 
-time::StampKind weakest_kind(const DurationColumn& column) {
-    time::StampKind weakest = time::StampKind::Unknown;
-    for (std::size_t kind = 1; kind < time::kStampKindCount; ++kind) {
-        weakest = column.frames_by_kind()[kind] > 0 ? static_cast<time::StampKind>(kind) : weakest;
-    }
-    return weakest;
-}
-
 bool reaches_the_display(std::string_view key) {
     return key == kGazeAgeAtDisplay.key || key == kHeldGazeAge.key;
 }
@@ -41,8 +34,8 @@ bool reaches_the_display(std::string_view key) {
 std::string refusal(const DurationColumn& before, const DurationColumn& after,
                     const latency::SummaryConfig& display_before,
                     const latency::SummaryConfig& display_after) {
-    const time::StampKind kind_before = weakest_kind(before);
-    const time::StampKind kind_after = weakest_kind(after);
+    const time::StampKind kind_before = latency::weakest_kind(before.frames_by_kind());
+    const time::StampKind kind_after = latency::weakest_kind(after.frames_by_kind());
     if (kind_before != kind_after) {
         return fmt::format("{} before, {} now", time::name(kind_before), time::name(kind_after));
     }

@@ -13,6 +13,18 @@ constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::min();
 
 }  // namespace
 
+std::string_view unit_suffix(Unit unit) {
+    switch (unit) {
+        case Unit::Nanoseconds:
+            return "_ms";
+        case Unit::Microdegrees:
+            return "_degrees";
+        case Unit::Count:
+            break;
+    }
+    return "";
+}
+
 void NumberColumn::add(std::optional<std::int64_t> number) {
     if (size_ % kBlockRows == 0) {
         blocks_.emplace_back();

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/time/span.h"
@@ -56,6 +57,9 @@ enum class Unit : std::uint8_t {
     Microdegrees,  ///< 1e-6 degrees
     Count,
 };
+
+/// Ends the names that programs read: "_ms", "_degrees", nothing for counts.
+std::string_view unit_suffix(Unit unit);
 
 /// What a reduced plot shows of some rows that follow each other.
 struct Bin {

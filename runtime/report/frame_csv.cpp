@@ -13,18 +13,6 @@ constexpr std::size_t kPieceBytes = 1 << 20;
 constexpr std::size_t kMillion = 1'000'000;
 constexpr std::size_t kDecimals = 6;
 
-std::string_view unit_suffix(Unit unit) {
-    switch (unit) {
-        case Unit::Nanoseconds:
-            return "_ms";
-        case Unit::Microdegrees:
-            return "_degrees";
-        case Unit::Count:
-            break;
-    }
-    return "";
-}
-
 template <typename Integer>
 void append(std::string& text, Integer number) {
     std::array<char, std::numeric_limits<Integer>::digits10 + 3> digits;

@@ -1,7 +1,10 @@
 #include "runtime/report/session_json.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
+#include "runtime/latency/weakest_kind.h"
 #include "runtime/report/session_rows.h"
 #include "runtime/report/summary_json.h"
 
@@ -14,34 +17,14 @@ constexpr std::size_t kWorstFrames = 10;
 
 Json or_null(const auto& value) { return value ? Json(*value) : Json(nullptr); }
 
-std::string suffix(Unit unit) {
-    switch (unit) {
-        case Unit::Nanoseconds:
-            return "_ms";
-        case Unit::Microdegrees:
-            return "_degrees";
-        case Unit::Count:
-            break;
-    }
-    return "";
-}
-
-time::StampKind weakest(const SessionRow& row) {
-    time::StampKind kind = time::StampKind::Unknown;
-    for (std::size_t place = 1; place < time::kStampKindCount; ++place) {
-        kind = row.frames_by_kind[place] > 0 ? static_cast<time::StampKind>(place) : kind;
-    }
-    return kind;
-}
-
 Json row_json(const SessionRow& row, const Percentiles& percentiles) {
     Json kinds = Json::object();
     for (std::size_t kind = 0; kind < time::kStampKindCount; ++kind) {
         kinds[std::string(time::kStampKindNames[kind])] = row.frames_by_kind[kind];
     }
-    const std::string unit = suffix(row.unit);
+    const std::string unit{unit_suffix(row.unit)};
     Json json{{"frames", row.known},
-              {"kind", time::name(weakest(row))},
+              {"kind", time::name(latency::weakest_kind(row.frames_by_kind))},
               {"frames_by_kind", std::move(kinds)},
               {"negative_frames", row.negative},
               {"min" + unit, or_null(row.least)},
@@ -66,7 +49,7 @@ Json worst_json(const FrameLog& frames) {
                                  : Json(nullptr)}};
         for (const DurationColumn& column : frames.columns()) {
             const std::optional<std::int64_t> number = column.at(row);
-            const std::string key = column.key() + suffix(column.unit());
+            const std::string key = fmt::format("{}{}", column.key(), unit_suffix(column.unit()));
             if (!number) {
                 one[key] = nullptr;
             } else if (column.unit() == Unit::Count) {

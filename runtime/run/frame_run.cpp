@@ -21,7 +21,6 @@
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/render/off_screen.h"
 #include "runtime/render/snapshot.h"
-#include "runtime/report/budget_account.h"
 #include "runtime/report/lag_reasons.h"
 #include "runtime/report/output_file.h"
 #include "runtime/report/prediction_text.h"
@@ -31,10 +30,9 @@
 #include "runtime/report/trace_account.h"
 #include "runtime/run/event_log.h"
 #include "runtime/run/interrupt.h"
-#include "runtime/run/monitor_feed.h"
-#include "runtime/run/monitor_output.h"
 #include "runtime/run/recording_observer.h"
 #include "runtime/run/run_checks.h"
+#include "runtime/run/run_monitor.h"
 #include "runtime/run/run_target.h"
 #include "runtime/run/trace_log.h"
 #include "runtime/run/tracker_figures.h"
@@ -81,7 +79,7 @@ class FrameRun {
         : request_(request),
           values_(request.settings->values()),
           display_(display_of(request)),
-          budget_(value_or_throw(profiles::budget_in_force(values_.profile, *request.settings))) {}
+          monitor_(value_or_throw(profiles::budget_in_force(values_.profile, *request.settings))) {}
 
     std::optional<ErrorKind> run() {
         check_request(request_);
@@ -133,7 +131,7 @@ class FrameRun {
         config.passes = renderer.passes();
         config.grids = renderer.grids();
         latency::LatencySummary summary(config);
-        open_monitor(config);
+        monitor_.open(monitor_options(config));
         run_loop(renderer, summary);
         preview_.reset();
         window_.reset();
@@ -201,24 +199,13 @@ class FrameRun {
         recording_ = std::make_unique<RecordingObserver>(*recorder_);
     }
 
-    /// Only where somebody watches, or a budget is in force.
-    void open_monitor(const latency::SummaryConfig& display) {
-        if (request_.monitor || request_.monitor_json) {
-            monitor_output_ = std::make_unique<MonitorOutput>(MonitorOutputOptions{
+    [[nodiscard]] RunMonitor::Options monitor_options(const latency::SummaryConfig& display) const {
+        constexpr double kNsPerS = 1e9;
+        return {.display = display,
                 .panel = request_.monitor,
                 .json_fd = request_.monitor_json,
-                .budget = budget_,
-                .clock = loop_clock() == latency::LoopClock::Wall ? "wall" : "virtual"});
-        }
-        if (monitor_output_ != nullptr || budget_) {
-            constexpr double kNsPerS = 1e9;
-            monitor_ = std::make_unique<MonitorFeed>(MonitorFeed::Options{
-                .display = display,
-                .budget = budget_,
                 .window_ns = std::llround(values_.monitor.window_s * kNsPerS),
-                .interval_ns = std::llround(values_.monitor.interval_s * kNsPerS),
-                .output = monitor_output_.get()});
-        }
+                .interval_ns = std::llround(values_.monitor.interval_s * kNsPerS)};
     }
 
     [[nodiscard]] std::unique_ptr<FrameTimeline> make_timeline() const {
@@ -275,10 +262,7 @@ class FrameRun {
         if (recording_ != nullptr) {
             parts.observers.push_back(recording_.get());
         }
-        if (monitor_ != nullptr) {
-            monitor_->tell(parts.observers);
-            parts.observers.push_back(monitor_.get());
-        }
+        monitor_.join(parts.observers);
         if (request_.hash) {
             parts.observers.push_back(&hash_);
         }
@@ -301,7 +285,7 @@ class FrameRun {
         options.stop = [this] { return why_stop(); };
         options.hidden_area = values_.render.hidden_area;
         options.wait_before_latch = values_.render.wait_before_latch;
-        options.budget_ns = budget_ ? budget_->total_ns : std::nullopt;
+        options.budget_ns = monitor_.budget() ? monitor_.budget()->total_ns : std::nullopt;
         try {
             result_ = run_frame_loop(parts, options);
             if (result_.end == LoopEnd::Interrupted) {
@@ -332,16 +316,7 @@ class FrameRun {
                             "close what else uses the device",
                             error.what()));
         }
-        close_monitor();
-    }
-
-    /// What the last frames broke is told while the others still listen. The panel goes.
-    void close_monitor() {
-        if (monitor_ != nullptr) {
-            last_of_monitor_ = monitor_->finish();
-            monitor_.reset();
-        }
-        monitor_output_.reset();
+        monitor_.close();
     }
 
     /// What its reader found is said wherever the run is spoken of.
@@ -472,7 +447,7 @@ class FrameRun {
         }
         const std::vector<NamedValue> settings = request_.settings->list();
         const report::LagFacts facts{.report = &report,
-                                     .budget = budget_ ? &*budget_ : nullptr,
+                                     .budget = monitor_.budget() ? &*monitor_.budget() : nullptr,
                                      .origin = lag_.origin(),
                                      .prediction = latency::check_prediction(
                                          tracker_figures(settings, lag_.origin()), report),
@@ -485,9 +460,7 @@ class FrameRun {
                                                      ? report::lag_paragraph(reasons)
                                                      : report::lag_text(reasons)) +
                     trace_.text();
-            if (budget_ && last_of_monitor_) {
-                text += "\n" + report::budget_account_text(*last_of_monitor_, *budget_);
-            }
+            text += monitor_.text();
         }
         if (check_) {
             text += check_->text();
@@ -504,9 +477,7 @@ class FrameRun {
         if (request_.json) {
             nlohmann::ordered_json json = report::summary_json(report);
             trace_.add_to(json);
-            if (budget_ && last_of_monitor_) {
-                json["budget"] = report::budget_account_json(*last_of_monitor_, *budget_);
-            }
+            monitor_.add_to(json);
             json["why_the_fovea_lags"] = report::lag_json(reasons);
             json["prediction"] = report::prediction_json(facts.prediction);
             if (request_.hash) {
@@ -577,10 +548,7 @@ class FrameRun {
     std::unique_ptr<render::Snapshot> snapshot_;
     std::unique_ptr<session::SessionRecorder> recorder_;
     std::unique_ptr<RecordingObserver> recording_;
-    std::optional<latency::LatencyBudget> budget_;
-    std::unique_ptr<MonitorOutput> monitor_output_;
-    std::unique_ptr<MonitorFeed> monitor_;
-    std::optional<latency::MonitorSnapshot> last_of_monitor_;
+    RunMonitor monitor_;
     report::TraceAccount trace_;
     report::LagObserver lag_;
     session::ReplayHash hash_;
