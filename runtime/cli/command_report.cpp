@@ -216,7 +216,16 @@ nlohmann::ordered_json json_of(const Report& made) {
 }
 
 std::string page_of(const ReportCommand& command, const Report& made) {
-    std::vector<report::page::PageSection> sections;
+    std::vector<report::page::PageSection> sections{
+        report::page::section_of(report::prediction_table(made.prediction, made.summary.report))};
+    if (const std::string runtime = made.summary.runtime.text(); !runtime.empty()) {
+        sections.push_back(
+            report::page::section_of_lines("runtime", "The runtime's own account", runtime));
+    }
+    if (made.measured) {
+        sections.push_back(report::page::section_of_lines("probe", "Eye to photon, as measured",
+                                                          probe::comparison_text(*made.measured)));
+    }
     if (made.gate) {
         sections.push_back(report::page::section_of(*made.gate));
     }

@@ -102,52 +102,65 @@ std::string prediction_sentence(const latency::PredictionCheck& check) {
     return text + ", which it keeps";
 }
 
-std::string prediction_text(const latency::PredictionCheck& check,
-                            const latency::SummaryReport& report) {
-    std::string text;
-    auto out = std::back_inserter(text);
-    constexpr std::string_view kRow = "{:<24}{:>11}{:>11}{:>9}{:>9}{:>9}{:>9}{:>9}\n";
-    fmt::format_to(out, kRow, "predicted, milliseconds", "best", "worst", "min", "p50", "p95",
-                   "p99", "max");
-    const auto append = [&](std::string_view label, const std::string& best,
-                            const std::string& worst, const latency::DurationRow* row) {
+PredictionTable prediction_table(const latency::PredictionCheck& check,
+                                 const latency::SummaryReport& report) {
+    PredictionTable table;
+    const auto add = [&](std::string_view label, const std::string& best, const std::string& worst,
+                         const latency::DurationRow* row) {
         const latency::DurationRow none;
         const latency::DurationRow& measured = row != nullptr ? *row : none;
-        fmt::format_to(out, kRow, label, best, worst, cell(measured.min_ms), cell(measured.p50_ms),
-                       cell(measured.p95_ms), cell(measured.p99_ms), cell(measured.max_ms));
+        table.rows.push_back(
+            {std::string(label),
+             {best, worst, cell(measured.min_ms), cell(measured.p50_ms), cell(measured.p95_ms),
+              cell(measured.p99_ms), cell(measured.max_ms)}});
     };
-    const auto append_sum = [&](std::string_view label, const latency::PredictedSum& sum,
-                                const latency::DurationRow* row) {
-        append(label, sum_cell(sum.best_ns, sum.best_at_least),
-               sum_cell(sum.worst_ns, sum.worst_at_least), row);
+    const auto add_sum = [&](std::string_view label, const latency::PredictedSum& sum,
+                             const latency::DurationRow* row) {
+        add(label, sum_cell(sum.best_ns, sum.best_at_least),
+            sum_cell(sum.worst_ns, sum.worst_at_least), row);
     };
-    append_sum("gaze age at display", check.predicted.gaze_age(), &report.gaze_age_at_display);
+    add_sum("gaze age at display", check.predicted.gaze_age(), &report.gaze_age_at_display);
     for (std::size_t p = 0; p < latency::kPartCount; ++p) {
         const Part part{static_cast<std::uint8_t>(p)};
         const latency::PartRange& range = check.predicted.parts[p];
         if (part != Part::Phase) {
-            append("  " + std::string(words(part)), cell(to_ms(range.least_ns)),
-                   cell(to_ms(range.greatest_ns)), latency::measured_row(report, part));
+            add("  " + std::string(words(part)), cell(to_ms(range.least_ns)),
+                cell(to_ms(range.greatest_ns)), latency::measured_row(report, part));
         }
     }
     const latency::PartRange& phase = check.predicted.parts[static_cast<std::size_t>(Part::Phase)];
-    append(words(Part::Phase), cell(to_ms(phase.least_ns)), cell(to_ms(phase.greatest_ns)),
-           nullptr);
-    append_sum("eye to photon", check.predicted.eye_to_photon(), nullptr);
+    add(words(Part::Phase), cell(to_ms(phase.least_ns)), cell(to_ms(phase.greatest_ns)), nullptr);
+    add_sum("eye to photon", check.predicted.eye_to_photon(), nullptr);
     for (const latency::OutsidePrediction& outside : check.outside) {
-        text += wrapped_row("", "Outside: " + outside_text(outside) + ".", 0);
+        table.notes.push_back("Outside: " + outside_text(outside) + ".");
     }
     if (check.tracker_uncertainty_ns.value_or(0) > 0) {
-        text += wrapped_row("",
-                            fmt::format("The tracker's delay is uncertain by {:.1f} ms, either "
-                                        "way: that moves all of these ages alike.",
-                                        to_ms(*check.tracker_uncertainty_ns)),
-                            0);
+        table.notes.push_back(
+            fmt::format("The tracker's delay is uncertain by {:.1f} ms, either "
+                        "way: that moves all of these ages alike.",
+                        to_ms(*check.tracker_uncertainty_ns)));
     }
     if (!check.unknown.empty()) {
-        text += wrapped_row(
-            "", "Unknown, so that the worst case is at least that: " + unknown_text(check) + ".",
-            0);
+        table.notes.push_back(
+            "Unknown, so that the worst case is at least that: " + unknown_text(check) + ".");
+    }
+    return table;
+}
+
+std::string prediction_text(const latency::PredictionCheck& check,
+                            const latency::SummaryReport& report) {
+    const PredictionTable table = prediction_table(check, report);
+    std::string text;
+    const auto append = [&](std::string_view label, const auto& cells) {
+        fmt::format_to(std::back_inserter(text), "{:<24}{:>11}{:>11}{:>9}{:>9}{:>9}{:>9}{:>9}\n",
+                       label, cells[0], cells[1], cells[2], cells[3], cells[4], cells[5], cells[6]);
+    };
+    append("predicted, milliseconds", PredictionTable::kHeads);
+    for (const PredictionTable::Row& row : table.rows) {
+        append(row.label, row.cells);
+    }
+    for (const std::string& note : table.notes) {
+        text += wrapped_row("", note, 0);
     }
     return text;
 }

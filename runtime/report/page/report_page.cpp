@@ -276,6 +276,9 @@ data section_data(const PageSection& section) {
         }
     }
     item.set("table", table_data(table));
+    if (!section.lines.empty()) {
+        item.set("lines", section.lines);
+    }
     return item;
 }
 

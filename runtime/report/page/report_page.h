@@ -11,14 +11,15 @@
 
 namespace gazeloop::report::page {
 
-/// What another part of the report has to say on the page: a heading, paragraphs, and a table with
-/// a row of heads (empty: none). The first cell of a row is its label.
+/// What another part of the report has to say on the page: a heading, paragraphs, a table with a
+/// row of heads (empty: none), and lines. The first cell of a row is its label.
 struct PageSection {
     std::string id;  ///< of the heading, for links: letters and hyphens
     std::string title;
     std::vector<std::string> paragraphs{};
     std::vector<std::string> heads{};
     std::vector<std::vector<std::string>> rows{};
+    std::string lines{};  ///< as in a terminal: their blanks count
 };
 
 /// Everything that a page shows. Texts are any bytes: what they hold is shown, and never becomes a

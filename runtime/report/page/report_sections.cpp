@@ -57,6 +57,27 @@ PageSection section_of(const BudgetGate& gate) {
     return section;
 }
 
+PageSection section_of(const PredictionTable& prediction) {
+    PageSection section{.id = "prediction",
+                        .title = "Prediction from the parts",
+                        .paragraphs = prediction.notes,
+                        .heads = {"milliseconds"}};
+    section.heads.insert(section.heads.end(), PredictionTable::kHeads.begin(),
+                         PredictionTable::kHeads.end());
+    for (const PredictionTable::Row& row : prediction.rows) {
+        section.rows.push_back({row.label});
+        section.rows.back().insert(section.rows.back().end(), row.cells.begin(), row.cells.end());
+    }
+    return section;
+}
+
+PageSection section_of_lines(std::string id, std::string title, std::string_view lines) {
+    const std::size_t first = std::min(lines.find_first_not_of('\n'), lines.size());
+    lines.remove_prefix(first);
+    lines = lines.substr(0, lines.find_last_not_of('\n') + 1);
+    return {.id = std::move(id), .title = std::move(title), .lines = std::string(lines)};
+}
+
 PageSection section_of(const Comparison& comparison, const Percentiles& percentiles,
                        const std::string& before) {
     PageSection section{

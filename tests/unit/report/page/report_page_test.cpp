@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "runtime/report/page/report_sections.h"
+
 namespace gazeloop::report::page {
 namespace {
 
@@ -75,14 +77,31 @@ TEST(ReportPage, ShowsTextsOfOthersAsTheyAre) {
                                        .title = "Prediction {{file}} <i>",
                                        .paragraphs = {"5 < 6 & \xff\xfe"},
                                        .heads = {"part", "least, ms"},
-                                       .rows = {{"</script>", "23.00"}, {}}}});
+                                       .rows = {{"</script>", "23.00"}, {}},
+                                       .lines = "a  <b>\n  c"}});
     EXPECT_THAT(page, HasSubstr("a&lt;b&gt;&quot;&amp;&apos;.gaze"));
     EXPECT_THAT(page, HasSubstr("Because of &lt;the&gt; tracker."));
     EXPECT_THAT(page, HasSubstr("Prediction {{file}} &lt;i&gt;"));
     EXPECT_THAT(page, HasSubstr("5 &lt; 6 &amp; \xff\xfe"));
     EXPECT_THAT(page, HasSubstr("&lt;/script&gt;"));
     EXPECT_THAT(page, HasSubstr("<td>23.00</td>"));
+    EXPECT_THAT(page, HasSubstr("<pre>a  &lt;b&gt;\n  c</pre>"));
     EXPECT_THAT(page, Not(HasSubstr("a<b>")));
+}
+
+TEST(ReportPage, HasAPlaceForThePredictionAndForWhatATerminalShows) {
+    PredictionTable prediction;
+    prediction.rows = {{"gaze age at display", {"23.00", ">=40.00", "-", "-", "-", "-", "-"}}};
+    prediction.notes = {"Outside: p99."};
+    const PageSection section = section_of(prediction);
+    EXPECT_EQ(section.paragraphs, prediction.notes);
+    EXPECT_EQ(section.heads.size(), 1 + PredictionTable::kHeads.size());
+    ASSERT_EQ(section.rows.size(), 1U);
+    EXPECT_EQ(section.rows[0], (std::vector<std::string>{"gaze age at display", "23.00", ">=40.00",
+                                                         "-", "-", "-", "-", "-"}));
+    EXPECT_EQ(section_of_lines("probe", "Probe", "\n\n a\n b\n").lines, " a\n b");
+    EXPECT_EQ(section_of_lines("probe", "Probe", "\n").lines, "");
+    EXPECT_EQ(section_of_lines("probe", "Probe", "").lines, "");
 }
 
 TEST(ReportPage, FlagsWhatIsBelow0) {
