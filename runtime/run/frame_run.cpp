@@ -195,7 +195,9 @@ class FrameRun {
         }
         header.device.push_back({"vulkan device", context_->device_name()});
         header.device.push_back({"vulkan driver", context_->driver()});
-        recorder_ = value_or_throw(session::SessionRecorder::create(*request_.record, header));
+        recorder_ = value_or_throw(session::SessionRecorder::create(
+            *request_.record, header,
+            request_.clock == RunClock::Wall ? session::WhenFull::Drop : session::WhenFull::Wait));
         recording_ = std::make_unique<RecordingObserver>(*recorder_);
     }
 

@@ -49,16 +49,21 @@ class SignalsBlocked {
 
 class SessionRecorder::Impl {
   public:
-    explicit Impl(std::filesystem::path file)
-        : file_(std::move(file)), writer_(std::in_place, file_) {
+    Impl(std::filesystem::path file, WhenFull when_full)
+        : file_(std::move(file)), when_full_(when_full), writer_(std::in_place, file_) {
         const SignalsBlocked blocked;
         thread_ = std::thread([this] { run(); });
     }
 
     template <typename T>
-    void add(T&& record) {
-        if (!failed_.load(std::memory_order_acquire) && !queue_.try_push(std::forward<T>(record))) {
-            dropped_.fetch_add(1, std::memory_order_relaxed);
+    void add(const T& record) {
+        constexpr std::chrono::milliseconds kLook{1};
+        while (!failed_.load(std::memory_order_acquire) && !queue_.try_push(record)) {
+            if (when_full_ == WhenFull::Drop) {
+                dropped_.fetch_add(1, std::memory_order_relaxed);
+                return;
+            }
+            std::this_thread::sleep_for(kLook);
         }
     }
 
@@ -159,6 +164,7 @@ class SessionRecorder::Impl {
     }
 
     std::filesystem::path file_;
+    WhenFull when_full_;
     SpscQueue<Record> queue_{kQueueRecords};
     std::atomic<std::uint64_t> dropped_{0};
     std::atomic<bool> failed_{false};
@@ -172,12 +178,12 @@ class SessionRecorder::Impl {
 };
 
 Expected<std::unique_ptr<SessionRecorder>> SessionRecorder::create(
-    const std::filesystem::path& file, const SessionHeader& header) {
+    const std::filesystem::path& file, const SessionHeader& header, WhenFull when_full) {
     if (std::optional<Error> error = create_session(file, header)) {
         return std::unexpected(std::move(*error));
     }
     try {
-        auto impl = std::make_unique<Impl>(file);
+        auto impl = std::make_unique<Impl>(file, when_full);
         return std::unique_ptr<SessionRecorder>(new SessionRecorder(std::move(impl)));
     } catch (const std::exception& error) {  // SQLite, memory, or the thread
         remove_session(file);

@@ -22,8 +22,15 @@ struct RecordingStatus {
     [[nodiscard]] bool complete() const { return dropped == 0 && failure.empty(); }
 };
 
+/// What the recorder does with a record while its queue is full.
+enum class WhenFull : std::uint8_t {
+    Drop,  ///< loses and counts it: real time waits for no disk
+    Wait,  ///< waits for the disk: for runs whose time is not the wall's
+};
+
 /// Writes a session file (SQLite, WAL) on a thread of its own. The loop feeds it through a bounded
-/// lock-free queue, as its only producer. Nothing here blocks the loop or allocates on its thread.
+/// lock-free queue, as its only producer. Nothing here allocates on the loop's thread, nor blocks
+/// it, unless it is to wait.
 ///
 /// Records are committed within 50 ms, so a process killed at any moment loses at most the last 100
 /// ms. Only while the disk does not answer may it lose more, which the queue then holds. A full or
@@ -39,7 +46,8 @@ class SessionRecorder {
     ///  - the header has a name twice;
     ///  - the system has no memory or no thread left.
     static Expected<std::unique_ptr<SessionRecorder>> create(const std::filesystem::path& file,
-                                                             const SessionHeader& header);
+                                                             const SessionHeader& header,
+                                                             WhenFull when_full = WhenFull::Drop);
     /// What create() would refuse at once, to ask before a long set-up. Creates nothing.
     static Expected<void> check(const std::filesystem::path& file);
     SessionRecorder(const SessionRecorder&) = delete;

@@ -5,7 +5,6 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "runtime/error.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/measured_program.h"
 #include "tests/support/cache_folder.h"
@@ -17,7 +16,6 @@ namespace {
 constexpr const char* kBench = "report";
 constexpr const char* kCase = "1h";
 
-/// Pictures that cost just enough for the disk to keep up with the recording.
 constexpr const char* kDisplay = R"toml(
 description = "tiny, 90 Hz"
 assumed = []
@@ -53,9 +51,7 @@ void record_hour(const std::string& program, const std::filesystem::path& sessio
          "--spp",    kSamples,   "--display", display,   "--frames", kFramesOfAnHour,
          "--record", session,    "--quiet"},
         {.timeout = std::chrono::seconds(600)});
-    // A few records that the disk was too slow for are lacking to all programs alike.
-    if (result.exit_code != 0 &&
-        result.exit_code != static_cast<int>(ErrorKind::RecordingIncomplete)) {
+    if (result.exit_code != 0) {
         throw std::runtime_error(result.err);
     }
 }

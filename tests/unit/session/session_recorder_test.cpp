@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -313,6 +314,31 @@ TEST_F(Recording, CountsWhatTheQueueCannotTake) {
     for (std::uint64_t i = 0; i < session.samples.size(); ++i) {
         ASSERT_EQ(session.samples[i].sample.sequence, i);  // the newest are lost
     }
+}
+
+TEST_F(Recording, WaitsForTheDiskWhereItMay) {
+    const auto recorder = value_or_throw(SessionRecorder::create(file, kHeader, WhenFull::Wait));
+    sqlite3* other = nullptr;
+    ASSERT_EQ(sqlite3_open(file.c_str(), &other), SQLITE_OK);
+    ASSERT_EQ(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+    constexpr std::uint64_t kQueue = 32'768;
+    constexpr std::uint64_t kAdded = 40'000;
+    std::atomic<std::uint64_t> added{0};
+    std::thread loop([&] {
+        for (std::uint64_t index = 0; index < kAdded; ++index) {
+            recorder->add(sample(index), 0);
+            added.store(index + 1);
+        }
+    });
+    while (added.load() < kQueue) {
+        std::this_thread::yield();
+    }
+    sqlite3_exec(other, "ROLLBACK", nullptr, nullptr, nullptr);
+    sqlite3_close(other);
+    loop.join();
+
+    EXPECT_TRUE(recorder->close().complete());
+    EXPECT_EQ(read().samples.size(), kAdded);
 }
 
 TEST_F(Recording, AFullDiskEndsTheWritingOnly) {
