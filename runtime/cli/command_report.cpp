@@ -120,16 +120,17 @@ report::SessionSummary summary_of(const ReportCommand& command, const session::O
                                   report::page::EventLine& events) {
     std::optional<report::perfetto::PerfettoFile> perfetto;
     std::vector<frame::FrameObserver*> also{&events};
+    const bool every_sample = !command.perfetto.empty() && command.perfetto_samples == "all";
     if (!command.perfetto.empty()) {
         perfetto.emplace(command.perfetto, session.info().header,
-                         command.perfetto_samples == "all" ? report::perfetto::SampleDetail::All
-                                                           : report::perfetto::SampleDetail::Used);
+                         every_sample ? report::perfetto::SampleDetail::All
+                                      : report::perfetto::SampleDetail::Used);
         also.push_back(&perfetto->observer());
     }
     report::SessionSummary summary = value_or_throw(report::summarize(
         session, command.runtime,
         {.observers = also,
-         .gaze = perfetto ? session::PlayedGaze::Samples : session::PlayedGaze::Counts}));
+         .gaze = every_sample ? session::PlayedGaze::Samples : session::PlayedGaze::Counts}));
     if (perfetto) {
         for (const std::string& lack : perfetto->finish()) {
             spdlog::info("{} lacks {}", command.perfetto, lack);

@@ -53,6 +53,17 @@ void EventDrawing::add(const gaze::GazeSample& sample, bool each) {
     drawing_.write();
 }
 
+void EventDrawing::add(const frame::GazeCounts& counts, const time::Stamp& at) {
+    const frame::GazeCounts before = std::exchange(told_, counts);
+    if (counts.lost > before.lost) {
+        add_count(Subject::Samples, lost_, counts.lost - before.lost, at);
+    }
+    if (counts.out_of_order > before.out_of_order) {
+        add_count(Subject::Samples, out_of_order_, counts.out_of_order - before.out_of_order, at);
+    }
+    drawing_.write();
+}
+
 void EventDrawing::add_frame(std::uint64_t index, const time::Stamp& at) {
     const auto before = std::exchange(last_frame_, index);
     if (before && index > *before + 1) {

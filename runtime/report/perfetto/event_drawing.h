@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 
+#include "runtime/frame/frame_gaze.h"
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/latency/sample_counter.h"
 #include "runtime/report/perfetto/drawing.h"
@@ -19,10 +21,15 @@ class EventDrawing {
     /// In the order of arrival. What was lost or out of order is drawn always, the sample itself if
     /// `each`.
     void add(const gaze::GazeSample& sample, bool each);
+    /// What had become of all samples up to a frame, which read the gaze at `at`: for who is not
+    /// told of each.
+    void add(const frame::GazeCounts& counts, const time::Stamp& at);
     /// A frame, in the order of their indices; woken up at `at`.
     void add_frame(std::uint64_t index, const time::Stamp& at);
 
-    [[nodiscard]] std::uint64_t samples() const { return counter_.counts().received; }
+    [[nodiscard]] std::uint64_t samples() const {
+        return std::max(counter_.counts().received, told_.received);
+    }
 
   private:
     void add_count(Subject subject, NameId name, std::uint64_t count, const time::Stamp& at);
@@ -37,6 +44,7 @@ class EventDrawing {
     KeyId sequence_;
     KeyId count_;
     latency::SampleCounter counter_;
+    frame::GazeCounts told_;  ///< instead of each sample
     std::optional<std::uint64_t> last_frame_;
 };
 

@@ -23,7 +23,10 @@ void PerfettoObserver::on_sample(const gaze::GazeSample& sample, std::uint64_t) 
 void PerfettoObserver::on_frame(const frame::FrameRecord& record) {
     draw_pending();
     pending_.emplace(latency::FinishedFrame{.frame = record, .gpu = std::nullopt});
+    latch_ = record.stamps.latch;
 }
+
+void PerfettoObserver::on_gaze(const frame::FrameGaze& gaze) { events_.add(gaze.counts, latch_); }
 
 void PerfettoObserver::on_gpu(const frame::FrameGpuRecord& record) {
     if (pending_ && pending_->frame.index == record.index) {

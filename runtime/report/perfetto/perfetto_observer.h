@@ -15,7 +15,7 @@ namespace gazeloop::report::perfetto {
 
 /// Which samples are drawn. What was lost or out of order is drawn always.
 enum class SampleDetail : std::uint8_t {
-    Used,  ///< those that a frame rested on
+    Used,  ///< those that a frame rested on; the session may be played without samples
     All,   ///< each, about 40 bytes
 };
 
@@ -39,6 +39,7 @@ class PerfettoObserver final : public frame::FrameObserver {
     void on_sample(const gaze::GazeSample& sample, std::uint64_t frame) override;
     void on_frame(const frame::FrameRecord& record) override;
     void on_gpu(const frame::FrameGpuRecord& record) override;
+    void on_gaze(const frame::FrameGaze& gaze) override;
     void on_event(time::Stamp time, std::string_view kind, std::string_view text) override;
 
     /// Once, after the last of them: what is open is closed and handed over.
@@ -61,6 +62,7 @@ class PerfettoObserver final : public frame::FrameObserver {
     EventDrawing events_;
     GazeStates states_;
     std::optional<latency::FinishedFrame> pending_;
+    time::Stamp latch_;  ///< of the last frame
 };
 
 }  // namespace gazeloop::report::perfetto

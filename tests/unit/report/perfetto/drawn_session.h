@@ -18,6 +18,7 @@ class DrawnSession {
 
     void add(const frame::FrameRecord& frame) { observer_.on_frame(frame); }
     void add(const frame::FrameGpuRecord& gpu) { observer_.on_gpu(gpu); }
+    void add(const frame::FrameGaze& gaze) { observer_.on_gaze(gaze); }
     void add(const gaze::GazeSample& sample) { observer_.on_sample(sample, 0); }
     void add_event(const time::Stamp& time, std::string_view kind, std::string_view text) {
         observer_.on_event(time, kind, text);

@@ -377,6 +377,22 @@ TEST(PerfettoObserver, ElseDrawsThoseThatFramesRestedOnAndCountsTheRest) {
     EXPECT_EQ(session.observer().samples_left_out(), 3U);
 }
 
+TEST(PerfettoObserver, ReadsWhatBecameOfSamplesWhereItIsNotToldOfEach) {
+    DrawnSession session;
+    session.add_examples(1, 1);  // latches at 12 ms
+    session.add(frame::FrameGaze{.index = 1, .counts = {.received = 3, .lost = 2}, .error = {}});
+    session.add_examples(2, 1);  // 10 ms later
+    session.add(frame::FrameGaze{
+        .index = 2, .counts = {.received = 4, .lost = 2, .out_of_order = 1}, .error = {}});
+    const PerfettoTrace trace = session.read();
+    EXPECT_THAT(trace.faults, IsEmpty());
+    const auto samples = trace.on("samples");
+    ASSERT_THAT(samples, ElementsAre(slice_ms("lost", 12, 12), slice_ms("out of order", 22, 22)));
+    EXPECT_EQ(samples[0].annotations.at("count"), "2");
+    EXPECT_EQ(samples[1].annotations.at("count"), "1");
+    EXPECT_EQ(session.observer().samples_left_out(), 2U);
+}
+
 TEST(PerfettoObserver, StatesTheClockOfWallTime) {
     DrawnSession session;
     session.add_examples(1, 1);
