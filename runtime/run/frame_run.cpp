@@ -23,16 +23,15 @@
 #include "runtime/render/snapshot.h"
 #include "runtime/report/lag_reasons.h"
 #include "runtime/report/output_file.h"
-#include "runtime/report/prediction_text.h"
 #include "runtime/report/session_summary.h"
 #include "runtime/report/summary_json.h"
-#include "runtime/report/summary_text.h"
 #include "runtime/report/trace_account.h"
 #include "runtime/run/event_log.h"
 #include "runtime/run/interrupt.h"
 #include "runtime/run/recording_observer.h"
 #include "runtime/run/run_checks.h"
 #include "runtime/run/run_monitor.h"
+#include "runtime/run/run_summary.h"
 #include "runtime/run/run_target.h"
 #include "runtime/run/trace_log.h"
 #include "runtime/run/tracker_figures.h"
@@ -440,55 +439,34 @@ class FrameRun {
                              ? ": gazeloop devices says why a tracker gives none"
                              : ": the run ended before any had arrived, or all of it was lost");
         }
-        std::string text;
-        if (request_.clock == RunClock::Recorded && !request_.quiet) {
-            text += "replay of a recording: times are the recorded ones, passes are of this run\n";
-        }
-        if (result_.fixed_in_head && request_.clock == RunClock::Wall && !request_.quiet) {
-            text += "fixed gaze: no tracker; ages count from the latch\n";
-        }
         const std::vector<NamedValue> settings = request_.settings->list();
+        const auto& budget = monitor_.budget();
         const report::LagFacts facts{.report = &report,
-                                     .budget = monitor_.budget() ? &*monitor_.budget() : nullptr,
+                                     .budget = budget ? &*budget : nullptr,
                                      .origin = lag_.origin(),
                                      .prediction = latency::check_prediction(
                                          tracker_figures(settings, lag_.origin()), report),
                                      .use = lag_.use(),
                                      .smoothing = lag_.smoothing(),
                                      .settings = settings};
-        const report::LagReasons reasons = report::lag_reasons(facts);
-        if (!request_.quiet) {
-            text += report::summary_text(report, request_.clock == RunClock::Wall
-                                                     ? report::lag_paragraph(reasons)
-                                                     : report::lag_text(reasons)) +
-                    trace_.text();
-            text += monitor_.text();
-        }
-        if (check_) {
-            text += check_->text();
-            if (!check_->equal()) {
-                fail(ErrorKind::GateFailed, "the replay differs from the recording");
-            }
-        }
-        if (request_.hash) {
-            text += hash_.text();
+        const RunSummary said{.report = report,
+                              .reasons = report::lag_reasons(facts),
+                              .prediction = facts.prediction,
+                              .trace = trace_,
+                              .monitor = monitor_,
+                              .hash = request_.hash ? &hash_ : nullptr,
+                              .check = check_ ? &*check_ : nullptr,
+                              .clock = request_.clock,
+                              .fixed_in_head = result_.fixed_in_head};
+        if (check_ && !check_->equal()) {
+            fail(ErrorKind::GateFailed, "the replay differs from the recording");
         }
         // If JSON goes to stdout, nothing else does.
         std::FILE* const out = request_.json == "-" ? stderr : stdout;
-        std::fputs(text.c_str(), out);
+        std::fputs(run_summary_text(said, request_.quiet).c_str(), out);
         if (request_.json) {
-            nlohmann::ordered_json json = report::summary_json(report);
-            trace_.add_to(json);
-            monitor_.add_to(json);
-            json["why_the_fovea_lags"] = report::lag_json(reasons);
-            json["prediction"] = report::prediction_json(facts.prediction);
-            if (request_.hash) {
-                json["hash"] = hash_.json();
-            }
-            if (check_) {
-                json["replay"] = check_->json();
-            }
-            if (const auto written = report::write_text(*request_.json, report::json_text(json));
+            if (const auto written =
+                    report::write_text(*request_.json, report::json_text(run_summary_json(said)));
                 !written) {
                 fail(written.error().kind, written.error().message);
             }
