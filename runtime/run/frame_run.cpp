@@ -28,6 +28,7 @@
 #include "runtime/report/trace_account.h"
 #include "runtime/run/event_log.h"
 #include "runtime/run/interrupt.h"
+#include "runtime/run/picture_device.h"
 #include "runtime/run/recording_observer.h"
 #include "runtime/run/run_checks.h"
 #include "runtime/run/run_monitor.h"
@@ -192,8 +193,9 @@ class FrameRun {
         for (const auto& [name, value] : target_->properties()) {
             header.device.push_back({name, value});
         }
-        header.device.push_back({"vulkan device", context_->device_name()});
-        header.device.push_back({"vulkan driver", context_->driver()});
+        for (NamedValue& one : picture_device(*context_)) {
+            header.device.push_back(std::move(one));
+        }
         recorder_ = value_or_throw(session::SessionRecorder::create(
             *request_.record, header,
             request_.clock == RunClock::Wall ? session::WhenFull::Drop : session::WhenFull::Wait));
@@ -225,14 +227,21 @@ class FrameRun {
         return std::make_unique<LiveTimeline>(time::measured_now().ns);
     }
 
+    /// Why a replay's pictures need not be the recorded ones; empty if they must.
+    [[nodiscard]] std::string why_other_pictures() const {
+        return request_.same_rendering
+                   ? other_renderer(request_.recording->session->info().header.device,
+                                    picture_device(*context_))
+                   : "the settings differ from the recorded ones";
+    }
+
     void run_loop(render::FrameRenderer& renderer, latency::LatencySummary& summary) {
         gaze::GazeToFovea gaze(gaze::fovea_policy(values_.gaze));
         latency::SummaryObserver summing(summary);
         EventLog logging;
         report::TraceObserver tracing(trace_);
         if (request_.clock == RunClock::Recorded) {
-            check_.emplace(*request_.recording->session, request_.same_gaze,
-                           request_.same_rendering);
+            check_.emplace(*request_.recording->session, request_.same_gaze, why_other_pictures());
             add_recorded_events(summary);
         }
         LoopParts parts{

@@ -82,7 +82,7 @@ void ReplayCheck::on_frame(const frame::FrameRecord& record) {
 }
 
 void ReplayCheck::on_gpu(const frame::FrameGpuRecord& record) {
-    if (!same_rendering_ || !value_or_throw(move_to(finished_, record.index))) {
+    if (!other_pictures_.empty() || !value_or_throw(move_to(finished_, record.index))) {
         return;
     }
     const auto& recorded = finished_.row()->gpu.pixel_hash;
@@ -110,9 +110,9 @@ std::string ReplayCheck::text() const {
         text += fmt::format("replay: pictures equal in {} of {} frames\n", pixels_equal_,
                             pixels_compared_);
     } else {
-        text += fmt::format("replay: pictures not compared: {}\n",
-                            same_rendering_ ? "not hashed in both runs (--hash)"
-                                            : "the settings differ from the recorded ones");
+        text += fmt::format(
+            "replay: pictures not compared: {}\n",
+            other_pictures_.empty() ? "not hashed in both runs (--hash)" : other_pictures_);
     }
     if (first_difference_) {
         text += fmt::format("replay: first difference in frame {}\n", *first_difference_);

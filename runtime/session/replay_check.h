@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "runtime/frame/frame_observer.h"
 #include "runtime/session/cursor.h"
@@ -35,13 +36,14 @@ class ReplayHash final : public frame::FrameObserver {
 /// frame cannot be read.
 class ReplayCheck final : public frame::FrameObserver {
   public:
-    /// `session` must outlive this. Foveae are compared only if `same_gaze`, pixels only if
-    /// `same_rendering` as well.
-    ReplayCheck(const OpenSession& session, bool same_gaze, bool same_rendering)
+    /// `session` must outlive this. Foveae are compared only if `same_gaze`, pictures only if that
+    /// and nothing stands in their way: `other_pictures` says what does, empty if nothing.
+    ReplayCheck(const OpenSession& session, bool same_gaze, std::string other_pictures)
         : handed_over_(session),
           finished_(session),
           same_gaze_(same_gaze),
-          same_rendering_(same_gaze && same_rendering) {}
+          other_pictures_(same_gaze || !other_pictures.empty() ? std::move(other_pictures)
+                                                               : "gaze settings differ") {}
 
     void on_frame(const frame::FrameRecord& record) override;
     void on_gpu(const frame::FrameGpuRecord& record) override;
@@ -55,7 +57,7 @@ class ReplayCheck final : public frame::FrameObserver {
     FrameCursor handed_over_;  ///< at the frame of on_frame
     FrameCursor finished_;     ///< at that of on_gpu, some frames behind
     bool same_gaze_;
-    bool same_rendering_;
+    std::string other_pictures_;
     std::uint64_t foveae_equal_ = 0;
     std::uint64_t foveae_compared_ = 0;
     std::uint64_t pixels_equal_ = 0;
