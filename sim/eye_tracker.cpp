@@ -88,6 +88,7 @@ gaze::EyeRay EyeTracker::measured(const gaze::EyeRay& truth, std::size_t eye, bo
                                   (1.0 + terms_.noise_growth_percent * 0.01 * off_axis_deg);
             error.right_rad += sd_rad * noise_[eye].normal();
             error.up_rad += sd_rad * noise_[eye].normal();
+            ray.covariance = {sd_rad * sd_rad, 0.0, sd_rad * sd_rad};
         }
         ray.direction = turned_direction(d, error.right_rad, error.up_rad);
     }
@@ -98,6 +99,7 @@ gaze::EyeRay EyeTracker::measured(const gaze::EyeRay& truth, std::size_t eye, bo
         ray.valid = false;
         ray.confidence = 0.0;
         ray.direction = gaze::kStraightAhead;
+        ray.covariance.reset();
     }
     if (lost) {
         ray.openness = -1.0;
@@ -110,6 +112,7 @@ std::optional<gaze::GazeSample> EyeTracker::step(Person& person) {
     sample.sequence = sequence_;
     sample.device_ns = next_device_ns_;
     sample.sampled = {next_ns_, time::StampKind::Modelled};
+    sample.processing = gaze::GazeProcessing::Raw;
     std::int64_t arrived_ns = earliest_arrival_ns_;
     if (terms_.jitter_ms > 0.0) {
         const std::int64_t late_ns = std::llround(jitter_.exponential(terms_.jitter_ms) * 1e6);

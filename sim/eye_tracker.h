@@ -19,6 +19,7 @@ namespace gazeloop::sim {
 ///
 /// Errors are turns of the true direction, per eye. Bias: its direction is uniform and its size
 /// Rayleigh over seeds, which has a P95 of 2.1 times its median (the Vive Pro Eye's is 2.6 times).
+/// The covariance that it states is that of its noise, which is all that such a device knows.
 class EyeTracker {
   public:
     EyeTracker(const TrackerTerms& terms, std::uint64_t seed, std::int64_t start_ns);

@@ -11,7 +11,7 @@ namespace gazeloop::drivers {
 
 /// Trackers of one kind.
 struct DeviceKind {
-    std::string subsystem;    ///< whose udev events say that one came
+    std::string subsystem;    ///< whose udev events say that one came; empty: none do
     std::string thread_name;  ///< for top(1), at most 15 characters
     std::string absence;      ///< what is said while none is plugged in
     OpenTracker open;

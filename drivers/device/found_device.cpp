@@ -9,7 +9,8 @@
 namespace gazeloop::drivers {
 
 std::string FoundDevice::text() const {
-    return fmt::format("{} ({:04x}:{:04x}) at {}", name, vendor, product, path);
+    return has_ids() ? fmt::format("{} ({:04x}:{:04x}) at {}", name, vendor, product, path)
+                     : fmt::format("{} at {}", name, path);
 }
 
 void check_access(FoundDevice& device, const std::string& rule) {

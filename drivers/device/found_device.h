@@ -18,6 +18,8 @@ struct FoundDevice {
     /// The udev rule that cures that; empty if a missing rule is not the cause.
     std::string missing_rule;
 
+    /// Whether it is on a bus that knows makers and products.
+    [[nodiscard]] bool has_ids() const { return vendor != 0 || product != 0; }
     /// "NAME (054c:0cde) at /dev/hidraw0".
     [[nodiscard]] std::string text() const;
 };

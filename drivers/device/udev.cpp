@@ -71,7 +71,8 @@ std::vector<KernelDevice> kernel_devices(const std::string& subsystem, const std
     return devices;
 }
 
-DeviceWatch::DeviceWatch(const std::string& subsystem) : udev_(udev_new()) {
+DeviceWatch::DeviceWatch(const std::string& subsystem)
+    : udev_(subsystem.empty() ? nullptr : udev_new()) {
     if (udev_ == nullptr) {
         return;
     }

@@ -33,7 +33,7 @@ struct KernelDevice {
 /// Wakes its owner when a device comes or goes.
 class DeviceWatch {
   public:
-    /// Without udev (a container), waits still end, but only by time.
+    /// Without udev (a container), and for no subsystem (""), waits still end, but only by time.
     explicit DeviceWatch(const std::string& subsystem);
     DeviceWatch(const DeviceWatch&) = delete;
     DeviceWatch& operator=(const DeviceWatch&) = delete;

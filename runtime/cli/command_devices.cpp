@@ -11,6 +11,7 @@
 
 #include "drivers/hid/hid_source.h"
 #include "drivers/psvr2/psvr2_source.h"
+#include "drivers/steam_frame/steam_frame_source.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/doctor/checks.h"
@@ -114,16 +115,24 @@ ExitCode devices(const DevicesCommand& command) {
     configured.config_files = command.config_files;
     configured.assignments = command.assignments;
     value_or_throw(configured.apply_to(settings, true));
-    const profiles::TrackerProfile profile =
-        value_or_throw(profiles::tracker_in_force(settings.values().profile, settings));
-    const drivers::hid::HidOptions hid = run::hid_options(profile, settings.values());
-    value_or_throw(run::default_tracker("psvr2", settings));
-    const drivers::psvr2::Psvr2Options psvr2 = run::psvr2_options(
-        value_or_throw(profiles::tracker_in_force(settings.values().profile, settings)));
+    const auto profile_in_force = [&settings] {
+        return value_or_throw(profiles::tracker_in_force(settings.values().profile, settings));
+    };
+    const drivers::hid::HidOptions hid = run::hid_options(profile_in_force(), settings.values());
+    // Each has a profile of its own, unless one was chosen.
+    const bool chosen = !settings.is_built_in("profile.tracker");
+    const auto profile_of = [&](std::string_view source) {
+        return chosen ? profile_in_force()
+                      : value_or_throw(profiles::load_tracker(run::certain_tracker(source)));
+    };
+    const drivers::psvr2::Psvr2Options psvr2 = run::psvr2_options(profile_of("psvr2"));
+    const drivers::steam_frame::SteamFrameOptions steam_frame =
+        run::steam_frame_options(profile_of("steam-frame"), settings.values());
     if (command.watch) {
         drivers::hid::HidSource hid_source(hid);
         drivers::psvr2::Psvr2Source psvr2_source(psvr2);
-        return watch({&hid_source, &psvr2_source}, command);
+        drivers::steam_frame::SteamFrameSource steam_frame_source(steam_frame);
+        return watch({&hid_source, &psvr2_source, &steam_frame_source}, command);
     }
     if (!command.json.empty()) {
         value_or_throw(report::check_output(command.json));
@@ -134,6 +143,8 @@ ExitCode devices(const DevicesCommand& command) {
     std::vector<drivers::TrackerProbe> probes =
         drivers::hid::probe_trackers(drivers::hid::find_trackers(), hid, listen, stop);
     std::ranges::move(drivers::psvr2::probe_headsets(psvr2, listen, stop),
+                      std::back_inserter(probes));
+    std::ranges::move(drivers::steam_frame::probe_services(steam_frame, listen, stop),
                       std::back_inserter(probes));
     if (run::interrupted()) {
         fmt::print(stderr, "interrupted before every tracker was listened to\n");

@@ -5,6 +5,7 @@
 #include "drivers/trace/native_trace.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/cli/simulate_steam_frame.h"
 #include "runtime/cli/simulate_tracker.h"
 #include "runtime/profiles/profiles_in_force.h"
 #include "sim/gaze_generator.h"
@@ -50,6 +51,7 @@ void add_simulate_command(Command program) {
     Command app = program.command("simulate", "make input without a device");
     app.require_command();
     add_simulate_tracker_command(app);
+    add_simulate_steam_frame_command(app);
     Command gaze = app.command("gaze", "write a trace of simulated gaze");
     const auto command = std::make_shared<SimulateGazeCommand>();
     gaze.option("file", command->file, "the trace to write (overwritten)").required().type("OUT");

@@ -18,7 +18,7 @@ using drivers::TrackerProbe;
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kNone =
-    "No eye tracker was found on HID or USB.\n"
+    "No eye tracker was found on HID or USB, and no eye service of a Steam Frame.\n"
     "  PlayStation VR2: none on USB. Is it plugged in, powered, and not asleep?\n"
     "  HID: no device declares an eye tracker (usage page 0x12). Is it plugged in and powered? "
     "Most\n"
@@ -55,6 +55,10 @@ Json or_null(const std::optional<T>& value) {
 
 Json hex_or_null(const std::optional<std::uint32_t>& value) {
     return value ? Json(fmt::format("{:04x}", *value)) : Json(nullptr);
+}
+
+Json id_or_null(const drivers::FoundDevice& device, std::uint16_t id) {
+    return device.has_ids() ? Json(fmt::format("{:04x}", id)) : Json(nullptr);
 }
 
 /// What is meaningless until the fit has settled, or while its times are unusable, is null.
@@ -130,6 +134,9 @@ std::string devices_text(const std::vector<TrackerProbe>& probes) {
             if (probe.counts.damaged > 0) {
                 fmt::format_to(out, ", {} reports damaged", probe.counts.damaged);
             }
+            if (probe.counts.lost > 0) {
+                fmt::format_to(out, ", {} lost", probe.counts.lost);
+            }
             text += "\n";
         }
         append_pupils(text, probe.pupils_mm);
@@ -153,8 +160,8 @@ std::string devices_json(const std::vector<TrackerProbe>& probes, const Findings
         list.push_back({{"source", probe.support.source},
                         {"name", probe.device.name},
                         {"path", probe.device.path},
-                        {"vendor", fmt::format("{:04x}", probe.device.vendor)},
-                        {"product", fmt::format("{:04x}", probe.device.product)},
+                        {"vendor", id_or_null(probe.device, probe.device.vendor)},
+                        {"product", id_or_null(probe.device, probe.device.product)},
                         {"tried_on_hardware", false},
                         {"support", probe.support.verified},
                         {"accessible", !probe.device.access_problem.has_value()},

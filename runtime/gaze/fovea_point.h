@@ -32,18 +32,38 @@ enum class LossReason : std::uint8_t {
 inline constexpr std::array<std::string_view, 4> kLossReasonNames{"none", "invalid", "stale",
                                                                   "never"};
 
+/// What took the gaze away, in more detail than LossReason. A replay of a file from before there
+/// were causes reads None.
+enum class LossCause : std::uint8_t {
+    None,           ///< it is tracking; or none is known
+    NotSeen,        ///< the tracker vouches for neither eye
+    Blink,          ///< the lids are closed, or were until just now
+    LowConfidence,  ///< directions come with too little confidence
+    OutsideField,   ///< directions point farther out than eyes or optics allow
+    Unplugged,      ///< the tracker is gone
+    Stopped,        ///< no sample comes any more, and nobody says why
+    ClockStep,      ///< samples come with times before those that came already
+};
+inline constexpr std::array<std::string_view, 8> kLossCauseNames{
+    "none",          "not seen",  "blink",   "low confidence",
+    "outside field", "unplugged", "stopped", "clock step"};
+
 /// Where one eye's fovea is in one frame.
 struct FoveaPoint {
     PixelPosition position;                ///< finite always; may lie off screen
     glm::dvec3 direction{0.0, 0.0, -1.0};  ///< unit, in the eye's view frame
     FoveaState state = FoveaState::Ahead;
     LossReason reason = LossReason::Never;
+    LossCause cause = LossCause::None;
     std::uint64_t sample_sequence = 0;  ///< of the sample it rests on; 0 with Never
     time::Stamp sampled;                ///< of that sample; unknown with Never
     time::Stamp arrived;
     time::Stamp ready;                           ///< of that sample, as in GazeSample
     std::optional<std::int64_t> uncertainty_ns;  ///< of `sampled`
     std::optional<double> parallax_rad;          ///< of that sample, as in GazeSample
+    /// How far the eye may look from here when the frame is shown; none where that is not computed
+    /// (gaze/fovea_uncertainty.h).
+    std::optional<double> uncertainty_rad{};
 };
 
 /// The foveae of one frame: written once, before the frame's first gaze-dependent submit.

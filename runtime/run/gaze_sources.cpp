@@ -10,6 +10,7 @@
 #include "drivers/hid/hid_source.h"
 #include "drivers/psvr2/psvr2_source.h"
 #include "drivers/simulated/simulated_source.h"
+#include "drivers/steam_frame/steam_frame_source.h"
 #include "drivers/trace/read_trace.h"
 #include "drivers/trace/trace_source.h"
 #include "runtime/session/open_session.h"
@@ -17,8 +18,21 @@
 
 namespace gazeloop::run {
 
+namespace {
+
+constexpr std::string_view kSteamFrame = "steam-frame";
+
+std::string_view kind_of(std::string_view gaze) { return gaze.substr(0, gaze.find(':')); }
+
+}  // namespace
+
+std::string_view certain_tracker(std::string_view gaze) {
+    return gaze == "psvr2" ? "psvr2" : kind_of(gaze) == kSteamFrame ? "steam_frame" : "";
+}
+
 bool is_device(std::string_view gaze) {
-    return gaze == "openxr" || gaze == "psvr2" || gaze == "hid" || gaze.starts_with("hid:");
+    return gaze == "openxr" || gaze == "psvr2" || kind_of(gaze) == "hid" ||
+           kind_of(gaze) == kSteamFrame;
 }
 
 drivers::hid::HidOptions hid_options(const profiles::TrackerProfile& tracker,
@@ -33,16 +47,25 @@ drivers::psvr2::Psvr2Options psvr2_options(const profiles::TrackerProfile& track
     return {.delay = {tracker.delay_ns, tracker.delay_uncertainty_ns}};
 }
 
+drivers::steam_frame::SteamFrameOptions steam_frame_options(const profiles::TrackerProfile& tracker,
+                                                            const ProgramValues& values) {
+    return drivers::steam_frame::options_of(
+        values.steam_frame,
+        {.least_ns = tracker.delay_ns, .uncertainty_ns = tracker.delay_uncertainty_ns});
+}
+
 Expected<void> default_tracker(std::string_view gaze, settings::Settings& settings) {
-    return gaze == "psvr2" ? settings.set_default("profile.tracker", "psvr2", "--gaze psvr2")
-                           : Expected<void>();
+    const std::string_view tracker = certain_tracker(gaze);
+    return tracker.empty() ? Expected<void>()
+                           : settings.set_default("profile.tracker", tracker,
+                                                  fmt::format("--gaze {}", kind_of(gaze)));
 }
 
 Expected<MakeSource> gaze_source_named(std::string_view text,
                                        const profiles::TrackerProfile& tracker,
                                        const ProgramValues& values) {
     const std::size_t colon = text.find(':');
-    const std::string_view kind = text.substr(0, colon);
+    const std::string_view kind = kind_of(text);
     const std::string_view argument =
         colon == std::string_view::npos ? std::string_view{} : text.substr(colon + 1);
     if (kind == "trace" && !argument.empty()) {
@@ -85,8 +108,17 @@ Expected<MakeSource> gaze_source_named(std::string_view text,
             return std::make_unique<drivers::psvr2::Psvr2Source>(options);
         };
     }
-    const std::vector<std::string> known{"hid",        "hid:/dev/hidrawN", "psvr2", "openxr",
-                                         "trace:FILE", "fixed:AZ,EL",      "sim"};
+    if (kind == kSteamFrame && (colon == std::string_view::npos || !argument.empty())) {
+        drivers::steam_frame::SteamFrameOptions options = steam_frame_options(tracker, values);
+        if (!argument.empty()) {
+            options.file = argument;
+        }
+        return [options = std::move(options)](std::int64_t) {
+            return std::make_unique<drivers::steam_frame::SteamFrameSource>(options);
+        };
+    }
+    const std::vector<std::string> known{"hid",    "hid:/dev/hidrawN", "psvr2",       "steam-frame",
+                                         "openxr", "trace:FILE",       "fixed:AZ,EL", "sim"};
     return std::unexpected(
         Error{ErrorKind::Usage, "--gaze: " + settings::unknown_name("source", text, known)});
 }

@@ -7,6 +7,7 @@
 #include "drivers/gaze_source.h"
 #include "drivers/hid/tracker_session.h"
 #include "drivers/psvr2/headset.h"
+#include "drivers/steam_frame/eye_service.h"
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_trace.h"
 #include "runtime/profiles/profiles.h"
@@ -18,9 +19,9 @@ namespace gazeloop::run {
 
 using MakeSource = std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)>;
 
-/// The source that --gaze names: hid, hid:/dev/hidrawN, psvr2, trace:FILE, fixed:AZ,EL or sim.
-/// Reads a trace at once; a device may come later. Errors: Usage for an unknown source, otherwise
-/// the source's own.
+/// The source that --gaze names: hid, hid:/dev/hidrawN, psvr2, steam-frame, steam-frame:FILE,
+/// trace:FILE, fixed:AZ,EL or sim. Reads a trace at once; a device may come later. Errors: Usage
+/// for an unknown source, otherwise the source's own.
 Expected<MakeSource> gaze_source_named(std::string_view text,
                                        const profiles::TrackerProfile& tracker,
                                        const ProgramValues& values);
@@ -34,6 +35,13 @@ drivers::hid::HidOptions hid_options(const profiles::TrackerProfile& tracker,
 
 /// The configured options of a PlayStation VR2.
 drivers::psvr2::Psvr2Options psvr2_options(const profiles::TrackerProfile& tracker);
+
+/// The configured options of a Steam Frame.
+drivers::steam_frame::SteamFrameOptions steam_frame_options(const profiles::TrackerProfile& tracker,
+                                                            const ProgramValues& values);
+
+/// The name of the profile of a source that is one certain tracker; empty for any other.
+std::string_view certain_tracker(std::string_view gaze);
 
 /// Sets the tracker's profile if the source is one certain tracker, unless a profile is configured.
 Expected<void> default_tracker(std::string_view gaze, settings::Settings& settings);

@@ -7,8 +7,8 @@ namespace gazeloop::run {
 
 ProgramSettings::ProgramSettings() {
     // By name, so that none is forgotten.
-    auto& [gaze, hid, methods, monitor, openxr, profile, render, sim, target, trace, virtual_time,
-           vulkan] = values_;
+    auto& [gaze, hid, methods, monitor, openxr, profile, render, sim, steam_frame, target, trace,
+           virtual_time, vulkan] = values_;
     add(rows_of(gaze));
     add(rows_of(hid));
     add(rows_of(methods));
@@ -17,6 +17,7 @@ ProgramSettings::ProgramSettings() {
     add(rows_of(profile));
     add(rows_of(render, methods::rendered_methods()));
     add(rows_of(sim));
+    add(rows_of(steam_frame));
     add(rows_of(target));
     add(rows_of(trace));
     add(rows_of(virtual_time));

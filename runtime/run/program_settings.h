@@ -1,6 +1,7 @@
 #pragma once
 
 #include "drivers/hid/hid_settings.h"
+#include "drivers/steam_frame/steam_frame_settings.h"
 #include "drivers/trace/trace_settings.h"
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_settings.h"
@@ -27,6 +28,7 @@ struct ProgramValues {
     profiles::ProfileSettings profile;
     render::RenderSettings render;
     sim::GazeSimulation sim;
+    drivers::steam_frame::SteamFrameSettings steam_frame;
     TargetSettings target;
     drivers::TraceSettings trace;
     VirtualTimeSettings virtual_time;

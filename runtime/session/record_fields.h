@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -20,12 +21,12 @@ namespace gazeloop::session {
 
 // A new member changes its record's size, so that this does not compile any more. Decide whether a
 // session keeps it (SCHEMA.md), and let the property test draw it.
-static_assert(sizeof(gaze::GazeSample) == 304, "a new member: see above");
-static_assert(sizeof(gaze::FoveaPoint) == 136, "a new member: see above");
+static_assert(sizeof(gaze::GazeSample) == 376, "a new member: see above");
+static_assert(sizeof(gaze::FoveaPoint) == 152, "a new member: see above");
 static_assert(sizeof(gaze::EyeView) == 96, "a new member: see above");
 static_assert(sizeof(frame::FrameStamps) == 176, "a new member: see above");
 static_assert(sizeof(frame::GridCounts) == 40, "a new member: see above");
-static_assert(sizeof(frame::FrameRecord) == 1104, "a new member: see above");
+static_assert(sizeof(frame::FrameRecord) == 1136, "a new member: see above");
 static_assert(sizeof(frame::FrameGpuRecord) == 264, "a new member: see above");
 static_assert(sizeof(gaze::OriginChange) == 72, "a new member: see above");
 
@@ -71,6 +72,33 @@ void visit_clocked(Visitor& visit, Timed& timed) {
     }
 }
 
+/// A covariance that is not stated is not-a-number thrice, which becomes NULL.
+template <typename Visitor, typename Covariance>
+void visit_covariance(Visitor& visit, std::string_view eye, Covariance& covariance) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    gaze::DirectionCovariance stored =
+        covariance.value_or(gaze::DirectionCovariance{kNan, kNan, kNan});
+    visit(eye, "_cov_xx_rad2", stored.xx_rad2);
+    visit(eye, "_cov_xy_rad2", stored.xy_rad2);
+    visit(eye, "_cov_yy_rad2", stored.yy_rad2);
+    if constexpr (!std::is_const_v<Covariance>) {
+        const bool stated = !std::isnan(stored.xx_rad2) && !std::isnan(stored.xy_rad2) &&
+                            !std::isnan(stored.yy_rad2);
+        covariance = stated ? std::optional(stored) : std::nullopt;
+    }
+}
+
+/// A value whose first name means that nothing is known: that is NULL.
+template <typename Visitor, typename Named>
+void visit_named(Visitor& visit, std::string_view column, Named& named) {
+    using Value = std::remove_const_t<Named>;
+    auto stored = named != Value{} ? std::optional<Value>(named) : std::nullopt;
+    visit(column, "", stored);
+    if constexpr (!std::is_const_v<Named>) {
+        named = stored.value_or(Value{});
+    }
+}
+
 template <typename Visitor, typename Frame, typename Sample>
 void visit_sample(Visitor& visit, Frame& frame, Sample& sample) {
     visit("frame", "", frame);
@@ -100,6 +128,16 @@ void visit_sample(Visitor& visit, Frame& frame, Sample& sample) {
     }
     visit_clocked(visit, sample);
     visit("parallax", "_rad", sample.parallax_rad);  // missing in older files
+    for (const gaze::Eye eye : gaze::kEyes) {
+        visit_covariance(visit, gaze::kEyeNames[gaze::index(eye)],
+                         sample.eyes[gaze::index(eye)].covariance);
+    }
+    visit_named(visit, "processing", sample.processing);
+    auto gone = sample.tracker_gone ? std::optional(true) : std::nullopt;
+    visit("tracker_gone", "", gone);
+    if constexpr (!std::is_const_v<Sample>) {
+        sample.tracker_gone = gone.value_or(false);
+    }
 }
 
 /// A count. Where there is none it is 0, and NULL in the file.
@@ -241,6 +279,8 @@ void visit_fovea(Visitor& visit, Frame& frame, Eye& eye, Fovea& fovea) {
     visit_stamp(visit, "arrived", fovea.arrived);
     visit_clocked(visit, fovea);
     visit("parallax", "_rad", fovea.parallax_rad);
+    visit_named(visit, "cause", fovea.cause);
+    visit("uncertainty", "_rad", fovea.uncertainty_rad);
 }
 
 template <typename Visitor, typename Frame, typename Eye, typename Triangle>

@@ -65,7 +65,9 @@ CREATE TABLE gaze (
     left_cov_yy_rad2  ANY,
     right_cov_xx_rad2 ANY,
     right_cov_xy_rad2 ANY,
-    right_cov_yy_rad2 ANY
+    right_cov_yy_rad2 ANY,
+    processing        INTEGER,
+    tracker_gone      INTEGER
 ) STRICT;
 
 CREATE TABLE frame (
@@ -224,6 +226,7 @@ CREATE TABLE fovea (
     horizon_ns      INTEGER,
     uncertainty_rad ANY,
     filter_state    BLOB,
+    cause           INTEGER,
     PRIMARY KEY (frame, eye)
 ) STRICT, WITHOUT ROWID;
 

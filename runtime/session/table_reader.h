@@ -15,6 +15,7 @@
 #include "runtime/frame/frame_gaze.h"
 #include "runtime/gaze/eye.h"
 #include "runtime/gaze/fovea_point.h"
+#include "runtime/gaze/gaze_sample.h"
 #include "runtime/session/column_names.h"
 #include "runtime/session/database.h"
 #include "runtime/session/row_statement.h"
@@ -104,6 +105,12 @@ class TableReader {
     }
     void read(const Cell& cell, gaze::LossReason& value) const {
         read_name<gaze::kLossReasonNames.size()>(cell, value);
+    }
+    void read(const Cell& cell, gaze::LossCause& value) const {
+        read_name<gaze::kLossCauseNames.size()>(cell, value);
+    }
+    void read(const Cell& cell, gaze::GazeProcessing& value) const {
+        read_name<gaze::kGazeProcessingNames.size()>(cell, value);
     }
     void read(const Cell& cell, gaze::Eye& value) const { read_name<gaze::kEyeCount>(cell, value); }
     template <typename T>

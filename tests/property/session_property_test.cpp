@@ -22,8 +22,8 @@ namespace {
 using Bits = std::vector<std::uint64_t>;
 
 // A new member is drawn and compared below, or it is not tested.
-static_assert(sizeof(gaze::GazeSample) == 304 && sizeof(gaze::FoveaPoint) == 136 &&
-              sizeof(gaze::EyeView) == 96 && sizeof(frame::FrameRecord) == 1104 &&
+static_assert(sizeof(gaze::GazeSample) == 376 && sizeof(gaze::FoveaPoint) == 152 &&
+              sizeof(gaze::EyeView) == 96 && sizeof(frame::FrameRecord) == 1136 &&
               sizeof(frame::FrameGpuRecord) == 264);
 
 /// Draws any content of a record from a seed. Not-a-number is the quiet one, which is what a
@@ -41,7 +41,13 @@ class AnyRecord {
         clocked(sample);
         for (gaze::EyeRay& eye : sample.eyes) {
             eye = {vector(), vector(), real(), real(), coin()};
+            if (coin()) {
+                eye.covariance = {1e-300, coin() ? -0.0 : -1e-7, 3.0};
+            }
         }
+        sample.processing =
+            static_cast<gaze::GazeProcessing>(below(gaze::kGazeProcessingNames.size()));
+        sample.tracker_gone = coin();
         if (coin()) {
             sample.head = pose();
         }
@@ -78,6 +84,7 @@ class AnyRecord {
                      vector(),
                      static_cast<gaze::FoveaState>(below(gaze::kFoveaStateNames.size())),
                      static_cast<gaze::LossReason>(below(gaze::kLossReasonNames.size())),
+                     static_cast<gaze::LossCause>(below(gaze::kLossCauseNames.size())),
                      integer(),
                      stamp(),
                      stamp(),
@@ -85,6 +92,9 @@ class AnyRecord {
                      {},
                      {}};
             clocked(fovea);
+            if (coin()) {
+                fovea.uncertainty_rad = coin() ? 0.0 : 1e-3;
+            }
         }
         frame.fovea.latched = stamp();
         frame.samples.grid_count = static_cast<std::uint32_t>(below(frame::kMostGrids + 1));
@@ -244,7 +254,15 @@ Bits bits_of(const gaze::GazeSample& sample) {
         append(bits, eye.openness);
         append(bits, eye.confidence);
         append(bits, std::uint64_t{eye.valid});
+        append(bits, std::uint64_t{eye.covariance.has_value()});
+        const gaze::DirectionCovariance covariance =
+            eye.covariance.value_or(gaze::DirectionCovariance{});
+        append(bits, covariance.xx_rad2);
+        append(bits, covariance.xy_rad2);
+        append(bits, covariance.yy_rad2);
     }
+    append(bits, static_cast<std::uint64_t>(sample.processing));
+    append(bits, std::uint64_t{sample.tracker_gone});
     append(bits, std::uint64_t{sample.head.has_value()});
     append(bits, sample.head.value_or(gaze::Pose{}));
     return bits;
@@ -288,6 +306,9 @@ Bits bits_of(const frame::FrameRecord& frame) {
         append(bits, fovea.direction);
         append(bits, static_cast<std::uint64_t>(fovea.state));
         append(bits, static_cast<std::uint64_t>(fovea.reason));
+        append(bits, static_cast<std::uint64_t>(fovea.cause));
+        append(bits, std::uint64_t{fovea.uncertainty_rad.has_value()});
+        append(bits, fovea.uncertainty_rad.value_or(0.0));
         append(bits, fovea.sample_sequence);
         append(bits, fovea.sampled);
         append(bits, fovea.arrived);

@@ -25,7 +25,8 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
     {Concerns::Input,
      {"gaze.fixation_from_depth", "hid.eye_distance_m", "hid.screen_height_m", "hid.screen_width_m",
       "hid.viewing_distance_m", "profile.display", "profile.tracker", "render.scale",
-      "trace.accept_repairs", "trace.axes", "trace.longest_gap_s", "virtual_time.gpu_ms"}},
+      "steam_frame.file", "steam_frame.rays", "trace.accept_repairs", "trace.axes",
+      "trace.longest_gap_s", "virtual_time.gpu_ms"}},
     {Concerns::Foveae,
      {"gaze.fixation_distance_m", "gaze.hold_ms", "gaze.minimum_confidence", "gaze.return_ms",
       "gaze.stale_ms"}},
@@ -104,6 +105,7 @@ TEST(ProgramSettings, GiveEveryMemberARow) {
     };
     expect_all(gaze::GazeSettings());
     expect_all(drivers::hid::HidSettings());
+    expect_all(drivers::steam_frame::SteamFrameSettings());
     expect_all(methods::AcuitySettings());
     expect_all(methods::KfrSettings());
     expect_all(methods::LayersSettings());

@@ -47,6 +47,8 @@ TEST(DeviceFeed, LosesOnceWhatItHad) {
         feed.push(sample);
         EXPECT_EQ(lose(10 * round), 2U);
         EXPECT_FALSE(kept[1].eyes[0].valid || kept[1].eyes[1].valid);
+        EXPECT_TRUE(kept[1].tracker_gone);
+        EXPECT_FALSE(kept[0].tracker_gone);
         EXPECT_EQ(kept[1].arrived.ns, 10 * round);
         EXPECT_EQ(kept[1].device_ns, 77);
         EXPECT_EQ(kept[1].sequence, kept[0].sequence + 1);
