@@ -108,6 +108,10 @@ gaze::EyeRay EyeTracker::measured(const gaze::EyeRay& truth, std::size_t eye, bo
 }
 
 std::optional<gaze::GazeSample> EyeTracker::step(Person& person) {
+    return step(person.at(next_s_), person.head_moves());
+}
+
+std::optional<gaze::GazeSample> EyeTracker::step(const TrueGaze& truth, bool head_moves) {
     gaze::GazeSample sample;
     sample.sequence = sequence_;
     sample.device_ns = next_device_ns_;
@@ -119,11 +123,10 @@ std::optional<gaze::GazeSample> EyeTracker::step(Person& person) {
         arrived_ns += std::min(late_ns, std::numeric_limits<std::int64_t>::max() -
                                             std::max<std::int64_t>(arrived_ns, 0));
     }
-    const TrueGaze truth = person.at(next_s_);
     for (std::size_t eye = 0; eye < sample.eyes.size(); ++eye) {
         sample.eyes[eye] = measured(truth.eyes[eye], eye, eye_losses_[eye].next());
     }
-    if (person.head_moves()) {
+    if (head_moves) {
         sample.head = truth.head;
     }
     ++sequence_;

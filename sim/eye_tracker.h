@@ -26,6 +26,11 @@ class EyeTracker {
 
     /// Takes the next sample; none if it is lost. In the order of arrival. Not once finished().
     [[nodiscard]] std::optional<gaze::GazeSample> step(Person& person);
+    /// The same of what the eyes truly do at next_s(). Its head is known where the head moves.
+    [[nodiscard]] std::optional<gaze::GazeSample> step(const TrueGaze& truth, bool head_moves);
+
+    /// When the next sample is taken, seconds from the start.
+    [[nodiscard]] double next_s() const { return next_s_; }
 
     /// The next sample does not arrive before this.
     [[nodiscard]] std::int64_t earliest_arrival_ns() const { return earliest_arrival_ns_; }

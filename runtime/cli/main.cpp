@@ -51,6 +51,7 @@ int gazeloop_main(int count, char** arguments) {
         gazeloop::cli::add_run_command(program, command_line);
         gazeloop::cli::add_replay_command(program, command_line);
         gazeloop::cli::add_numerics_command(program);
+        gazeloop::cli::add_calibrate_command(program, command_line);
         gazeloop::cli::add_probe_command(program, command_line);
         gazeloop::cli::add_report_command(program);
         gazeloop::cli::add_gaze_command(program);

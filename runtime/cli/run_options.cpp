@@ -5,6 +5,7 @@
 
 #include <charconv>
 
+#include "runtime/calibration/calibration_settings.h"
 #include "runtime/preview/preview_memory.h"
 #include "runtime/preview/preview_window.h"
 #include "runtime/run/frame_run.h"
@@ -103,6 +104,10 @@ void RunOptions::add_settings_to(Command command) {
 Expected<void> RunOptions::apply_to(run::ProgramSettings& settings, bool standard_files) const {
     if (auto set = set_in(settings, standard_files); !set) {
         return set;
+    }
+    if (auto taken = calibration::take_calibration(settings.values().gaze.calibration, settings);
+        !taken) {
+        return taken;
     }
     return methods::take_kernel_table(settings.values().methods.kfr, settings);
 }

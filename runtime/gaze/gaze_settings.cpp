@@ -7,10 +7,17 @@
 namespace gazeloop::gaze {
 
 std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
+    using settings::Choice;
     using settings::Concerns;
     using settings::Number;
+    using settings::Path;
     constexpr double kForever_ms = 1e7;
     return {
+        // Samples are recorded corrected.
+        {"gaze.calibration", "the file that gazeloop calibrate made of this person and tracker",
+         Path{&gaze.calibration, ""}, Concerns::Input},
+        {"gaze.calibration_values", "what such a file says, as numbers with commas between",
+         Choice{&gaze.calibration_values}, Concerns::Input},
         {"gaze.fixation_distance_m",
          "distance at which gaze is held in world and one ray is split between the eyes, m",
          Number{&gaze.fixation_distance_m, 0.1, 1000.0}, Concerns::Foveae},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "runtime/error.h"
@@ -10,6 +11,8 @@ namespace gazeloop::gaze {
 
 /// The settings gaze.*
 struct GazeSettings {
+    std::string calibration;         ///< a file, until it is read (runtime/calibration)
+    std::string calibration_values;  ///< what it says
     double stale_ms = 100.0;
     double hold_ms = 300.0;
     double return_ms = 150.0;

@@ -13,8 +13,13 @@
 namespace gazeloop::probe {
 
 vk::Rect2D patch_area(const gaze::EyeView& view) {
-    const gaze::PixelPosition middle = gaze::project(gaze::kStraightAhead, view);
-    const double half = std::max(1.0, 0.125 * std::min(view.width_px, view.height_px));
+    constexpr double kShare = 0.25;
+    return patch_area(view, gaze::kStraightAhead, kShare);
+}
+
+vk::Rect2D patch_area(const gaze::EyeView& view, const glm::dvec3& direction, double share) {
+    const gaze::PixelPosition middle = gaze::project(direction, view);
+    const double half = std::max(1.0, 0.5 * share * std::min(view.width_px, view.height_px));
     const auto clamped = [](double px, std::uint32_t size) {
         return static_cast<std::uint32_t>(
             std::clamp(std::round(px), 0.0, static_cast<double>(size)));
@@ -51,6 +56,11 @@ PatchPainter::~PatchPainter() {
 }
 
 void PatchPainter::paint(const render::FrameView& view, bool white) {
+    const Patch patch{{patch_area(view.views[0]), patch_area(view.views[1])}, white ? 1.0F : 0.0F};
+    paint(view, {&patch, 1});
+}
+
+void PatchPainter::paint(const render::FrameView& view, std::span<const Patch> patches) {
     if (submitted_ >= slots_.size()) {
         // The loop has waited for that frame's passes; the patch that follows them takes no time.
         const std::uint64_t oldest = submitted_ - slots_.size() + 1;
@@ -61,21 +71,21 @@ void PatchPainter::paint(const render::FrameView& view, bool white) {
     slot.pool.reset();
     slot.commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
     using vulkan::Use;
-    const float light = white ? 1.0F : 0.0F;
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-        const vk::Rect2D area = patch_area(view.views[e]);
-        if (area.extent.width == 0 || area.extent.height == 0) {
-            continue;
+        for (const auto& [areas, light] : patches) {
+            if (areas[e].extent.width == 0 || areas[e].extent.height == 0) {
+                continue;
+            }
+            auto shown = vulkan::TrackedImage::in_use(
+                view.targets[e].image, vk::ImageAspectFlagBits::eColor, Use::ColorTarget);
+            shown.use(slot.commands, Use::ColorTarget);
+            const vk::RenderingAttachmentInfo attachment(
+                view.targets[e].view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
+                vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+                vk::ClearColorValue(std::array{light, light, light, 1.0F}));
+            slot.commands.beginRendering(vk::RenderingInfo({}, areas[e], 1, 0, attachment));
+            slot.commands.endRendering();
         }
-        auto shown = vulkan::TrackedImage::in_use(
-            view.targets[e].image, vk::ImageAspectFlagBits::eColor, Use::ColorTarget);
-        shown.use(slot.commands, Use::ColorTarget);
-        const vk::RenderingAttachmentInfo attachment(
-            view.targets[e].view, vk::ImageLayout::eColorAttachmentOptimal, {}, {}, {},
-            vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
-            vk::ClearColorValue(std::array{light, light, light, 1.0F}));
-        slot.commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, attachment));
-        slot.commands.endRendering();
     }
     slot.commands.end();
     const vk::CommandBufferSubmitInfo buffer(*slot.commands);

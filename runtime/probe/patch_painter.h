@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
@@ -13,6 +14,11 @@ namespace gazeloop::probe {
 /// near the middle, a quarter of the picture's shorter side wide; cut where it reaches out of the
 /// picture. Precondition: is_valid(view).
 [[nodiscard]] vk::Rect2D patch_area(const gaze::EyeView& view);
+
+/// A square about where that direction (unit, in the eye's view frame) is seen, `share` of the
+/// picture's shorter side wide; cut as above, so that it may be empty. Precondition: as above.
+[[nodiscard]] vk::Rect2D patch_area(const gaze::EyeView& view, const glm::dvec3& direction,
+                                    double share);
 
 /// Paints a white or black patch over both eyes' finished pictures, in a submit of its own after
 /// the frame's last pass, so that it can still follow the last look at the gaze whatever the method
@@ -28,6 +34,12 @@ class PatchPainter {
     /// The pictures lie in COLOR_ATTACHMENT_OPTIMAL, and are left there. Allocates nothing. Throws
     /// vk::SystemError.
     void paint(const render::FrameView& view, bool white);
+    /// The same in these parts of the pictures, each in one grey: 0 black .. 1 white.
+    struct Patch {
+        gaze::PerEye<vk::Rect2D> areas;
+        float light = 0.0F;
+    };
+    void paint(const render::FrameView& view, std::span<const Patch> patches);
 
   private:
     struct Slot {

@@ -13,6 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "drivers/anatomy/anatomy_source.h"
+#include "drivers/calibrated/calibrated_source.h"
+#include "runtime/calibration/calibration_settings.h"
 #include "runtime/environment.h"
 #include "runtime/latency/summary_observer.h"
 #include "runtime/methods/registry.h"
@@ -35,6 +37,7 @@
 #include "runtime/run/run_summary.h"
 #include "runtime/run/run_target.h"
 #include "runtime/run/trace_log.h"
+#include "runtime/run/trace_of_session.h"
 #include "runtime/run/tracker_figures.h"
 #include "runtime/scene/scenes.h"
 #include "runtime/session/replay_check.h"
@@ -79,6 +82,8 @@ class FrameRun {
         : request_(request),
           values_(request.settings->values()),
           display_(display_of(request)),
+          calibration_(value_or_throw(calibration::calibration_in_force(
+              values_.gaze.calibration_values, *request.settings))),
           monitor_(value_or_throw(profiles::budget_in_force(values_.profile, *request.settings))) {}
 
     std::optional<ErrorKind> run() {
@@ -256,6 +261,7 @@ class FrameRun {
                     if (request_.live_gaze) {
                         source = std::make_unique<drivers::AnatomySource>(std::move(source));
                     }
+                    source = calibrated(std::move(source));
                     spdlog::info("gaze: {}", source->description());
                     lag_.on_event(time::Stamp{}, frame::kGazeSourceEvent.name,
                                   source->description());
@@ -403,6 +409,18 @@ class FrameRun {
         }
     }
 
+    /// With the calibration in force, if there is one. A recorded session's gaze has been corrected
+    /// already, and gaze that is fixed in the head is no tracker's.
+    std::unique_ptr<drivers::GazeSource> calibrated(std::unique_ptr<drivers::GazeSource> source) {
+        const bool recorded =
+            request_.clock == RunClock::Recorded ||
+            (source->trace() != nullptr && source->trace()->format == kSessionFormat);
+        if (!calibration_ || recorded || source->fixed_in_head()) {
+            return source;
+        }
+        return std::make_unique<drivers::CalibratedSource>(std::move(source), *calibration_);
+    }
+
     /// What happened while it was recorded belongs to the times of a replay, which are the recorded
     /// ones.
     void add_recorded_events(latency::LatencySummary& summary) {
@@ -524,6 +542,7 @@ class FrameRun {
     const FrameRunRequest& request_;
     const ProgramValues& values_;
     display::DisplayProfile display_;
+    std::optional<calibration::Calibration> calibration_;
     // The target's swapchains live on the context's device: they go first.
     std::unique_ptr<vulkan::Context> context_;
     std::unique_ptr<present::FrameTarget> target_;

@@ -1,0 +1,186 @@
+#include "runtime/calibration/calibration_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "runtime/open_for_reading.h"
+
+namespace gazeloop::calibration {
+namespace {
+
+constexpr std::string_view kFormat = "gazeloop-calibration";
+constexpr std::int64_t kVersion = 1;
+constexpr std::size_t kLargestFile = 64 * 1024;
+
+/// As a TOML string: what could end it or its line is escaped.
+std::string toml_text(std::string_view text) {
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') {
+            quoted += '\\';
+            quoted += c;
+        } else if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') {
+            quoted += ' ';
+        } else {
+            quoted += c;
+        }
+    }
+    return quoted + '"';
+}
+
+/// Numbers that TOML takes for real ones, in the fewest digits that are read back to the same bits.
+std::string reals(std::span<const double> values) {
+    std::vector<std::string> texts;
+    for (const double value : values) {
+        std::string text = fmt::format("{}", value);
+        if (text.find_first_of(".e") == std::string::npos) {
+            text += ".0";
+        }
+        texts.push_back(std::move(text));
+    }
+    return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string text_of(const CalibrationFile& file) {
+    std::string text = fmt::format(
+        "# Made by gazeloop calibrate; --set gaze.calibration=FILE applies it.\n"
+        "# What is added to azimuth (right) and elevation (up), radians: coefficients of\n"
+        "# 1, x, y, x^2, xy, y^2 of azimuth x and elevation y. Held constant beyond the reach.\n"
+        "format = \"{}\"\nversion = {}\nuser = {}\ndevice = {}\n",
+        kFormat, kVersion, toml_text(file.user), toml_text(file.device));
+    for (const gaze::Eye eye : gaze::kEyes) {
+        if (const auto& of_eye = file.calibration[gaze::index(eye)]) {
+            text += fmt::format(
+                "\n[{}]\nazimuth = [{}]\nelevation = [{}]\nreach_rad = {}\n"
+                "expected_error_deg = {}\n",
+                gaze::kEyeNames[gaze::index(eye)], reals(of_eye->azimuth), reals(of_eye->elevation),
+                reals({&of_eye->reach_rad, 1}),
+                reals({&file.expected_error_deg[gaze::index(eye)], 1}));
+        }
+    }
+    return text;
+}
+
+std::unexpected<Error> bad(const std::filesystem::path& file, const std::string& what) {
+    return std::unexpected(Error{ErrorKind::BadInput, fmt::format("{}: {}", file.string(), what)});
+}
+
+/// Six numbers under that key; false where there are not.
+bool read_coefficients(const toml::table& table, std::string_view key,
+                       std::array<double, kTerms>& coefficients) {
+    const toml::array* const array = table[key].as_array();
+    if (array == nullptr || array->size() != kTerms) {
+        return false;
+    }
+    for (std::size_t i = 0; i < kTerms; ++i) {
+        const auto value = (*array)[i].value<double>();
+        if (!value) {
+            return false;
+        }
+        coefficients[i] = *value;
+    }
+    return true;
+}
+
+}  // namespace
+
+Expected<void> write_calibration(const CalibrationFile& calibration,
+                                 const std::filesystem::path& file) {
+    const std::string text = text_of(calibration);
+    const std::string partial = file.string() + ".partial";
+    const auto failed = [&file] {
+        return bad(file, fmt::format("cannot be written: {}", std::strerror(errno)));
+    };
+    unlink(partial.c_str());
+    const int fd = open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (fd < 0) {
+        return failed();
+    }
+    std::string_view rest = text;
+    while (!rest.empty()) {
+        const ssize_t written = write(fd, rest.data(), rest.size());
+        if (written < 0 && errno == EINTR) {
+            continue;
+        }
+        if (written < 0) {
+            const auto error = failed();
+            close(fd);
+            unlink(partial.c_str());
+            return error;
+        }
+        rest.remove_prefix(static_cast<std::size_t>(written));
+    }
+    if (fsync(fd) != 0 || close(fd) != 0 || rename(partial.c_str(), file.c_str()) != 0) {
+        const auto error = failed();
+        unlink(partial.c_str());
+        return error;
+    }
+    return {};
+}
+
+Expected<CalibrationFile> read_calibration(const std::filesystem::path& file) {
+    auto in = open_for_reading(file);
+    if (!in) {
+        return bad(file, fmt::format("the calibration cannot be read ({})", in.error()));
+    }
+    std::string text(kLargestFile + 1, '\0');
+    in->read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(in->gcount()));
+    if (text.size() > kLargestFile) {
+        return bad(file, "is larger than any calibration (64 KiB)");
+    }
+    toml::table table;
+    try {
+        table = toml::parse(text, file.string());
+    } catch (const toml::parse_error& error) {
+        return bad(file,
+                   fmt::format("line {}: {}", error.source().begin.line, error.description()));
+    }
+    if (table["format"].value<std::string>() != kFormat ||
+        table["version"].value<std::int64_t>() != kVersion) {
+        return bad(file, fmt::format("is no calibration: format = \"{}\" and version = {} are "
+                                     "missing",
+                                     kFormat, kVersion));
+    }
+    CalibrationFile result{.user = table["user"].value_or(std::string()),
+                           .device = table["device"].value_or(std::string()),
+                           .calibration = {}};
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const std::string_view name = gaze::kEyeNames[gaze::index(eye)];
+        const toml::table* const of_eye = table[name].as_table();
+        if (of_eye == nullptr) {
+            continue;
+        }
+        EyeCalibration& stored = result.calibration[gaze::index(eye)].emplace();
+        const auto reach = (*of_eye)["reach_rad"].value<double>();
+        if (!read_coefficients(*of_eye, "azimuth", stored.azimuth) ||
+            !read_coefficients(*of_eye, "elevation", stored.elevation) || !reach ||
+            !(*reach > 0.0)) {
+            return bad(file, fmt::format("[{}] needs azimuth and elevation, {} numbers each, and "
+                                         "reach_rad above 0",
+                                         name, kTerms));
+        }
+        stored.reach_rad = *reach;
+        result.expected_error_deg[gaze::index(eye)] = (*of_eye)["expected_error_deg"].value_or(0.0);
+    }
+    if (!result.calibration[0] && !result.calibration[1]) {
+        return bad(file, "calibrates no eye: it has neither [left] nor [right]");
+    }
+    // The same limits as for values that are given directly.
+    const auto checked = read_values(values_text(result.calibration));
+    if (!checked) {
+        return bad(file, checked.error().message);
+    }
+    return result;
+}
+
+}  // namespace gazeloop::calibration
