@@ -155,7 +155,8 @@ class FrameLoop {
         }
         record.stamps.latch = timeline_->latch();
         read_gaze(record.stamps.latch.ns);
-        record.fovea = parts_.gaze.latch(record.stamps.latch, planned_.head, planned_.views);
+        record.fovea = parts_.gaze.latch(record.stamps.latch, planned_.head, planned_.views,
+                                         record.stamps.display);
         record.stamps.filtered = timeline_->now();
         if (planned_.should_render) {
             finish(record);
@@ -311,17 +312,22 @@ class FrameLoop {
         for (const gaze::Eye eye : gaze::kEyes) {
             const gaze::FoveaPoint& point = fovea.eyes[gaze::index(eye)];
             Seen& seen = seen_[gaze::index(eye)];
-            if (seen.state == point.state && seen.reason == point.reason) {
+            if (seen.state == point.state && seen.reason == point.reason &&
+                seen.cause == point.cause) {
                 continue;
             }
-            seen = {point.state, point.reason};
+            seen = {point.state, point.reason, point.cause};
             std::array<char, 96> text{};
             const bool lost = point.reason != gaze::LossReason::None;
+            const bool why = point.cause != gaze::LossCause::None;
             const auto end = fmt::format_to_n(
-                text.data(), text.size(), "{} eye: {}{}{}{}", gaze::kEyeNames[gaze::index(eye)],
-                gaze::kFoveaStateNames[static_cast<std::size_t>(point.state)], lost ? " (" : "",
+                text.data(), text.size(), "{} eye: {}{}{}{}{}{}", gaze::kEyeNames[gaze::index(eye)],
+                gaze::kFoveaStateNames[static_cast<std::size_t>(point.state)],
+                lost || why ? " (" : "",
                 lost ? gaze::kLossReasonNames[static_cast<std::size_t>(point.reason)] : "",
-                lost ? ")" : "");
+                lost && why ? ": " : "",
+                why ? gaze::kLossCauseNames[static_cast<std::size_t>(point.cause)] : "",
+                lost || why ? ")" : "");
             report_event(fovea.latched, frame::kGazeEvent, {text.data(), end.size});
         }
     }
@@ -362,6 +368,7 @@ class FrameLoop {
     struct Seen {
         gaze::FoveaState state = gaze::FoveaState::Ahead;
         gaze::LossReason reason = gaze::LossReason::Never;
+        gaze::LossCause cause = gaze::LossCause::None;
     };
 
     const LoopParts& parts_;

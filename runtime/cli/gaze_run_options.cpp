@@ -26,6 +26,7 @@ std::optional<run::FrameRunRequest> GazeRunOptions::prepare(run::ProgramSettings
     value_or_throw(run::default_tracker(gaze, settings));
     const profiles::TrackerProfile tracker =
         value_or_throw(profiles::simulate_tracker_in_force(settings.values().profile, settings));
+    value_or_throw(run::default_widening(tracker, settings));
     if (options.print_config) {
         fmt::print("{}", settings.describe());
         return std::nullopt;

@@ -2,9 +2,27 @@
 
 #include <fmt/core.h>
 
+#include <glm/trigonometric.hpp>
+#include <string_view>
+
 #include "runtime/time/milliseconds.h"
 
 namespace gazeloop::gaze {
+namespace {
+
+constexpr std::string_view kReturn = "return";
+constexpr std::string_view kStay = "stay";
+
+UncertaintyPolicy uncertainty_policy(const GazeSettings& gaze) {
+    return {.median_error_deg = gaze.widen_error_deg,
+            .noise_deg = gaze.widen_noise_deg,
+            .pursuit_deg_per_s = gaze.widen_pursuit_deg_per_s,
+            .head_deg_per_s = gaze.widen_head_deg_per_s,
+            .lost_deg_per_s = gaze.widen_lost_deg_per_s,
+            .greatest_deg = gaze.widen_most_deg};
+}
+
+}  // namespace
 
 std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
     using settings::Choice;
@@ -13,11 +31,21 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
     using settings::Path;
     constexpr double kForever_ms = 1e7;
     return {
+        {"gaze.after_hold", "lost gaze: after the hold, return to straight ahead, or stay",
+         Choice{&gaze.after_hold, {std::string(kReturn), std::string(kStay)}}, Concerns::Foveae},
+        {"gaze.blink_hold_ms", "a blink (gaze.closed_below): hold the last point for this long",
+         Number{&gaze.blink_hold_ms, 0.0, kForever_ms}, Concerns::Foveae},
         // Samples are recorded corrected.
         {"gaze.calibration", "the file that gazeloop calibrate made of this person and tracker",
          Path{&gaze.calibration, ""}, Concerns::Input},
         {"gaze.calibration_values", "what such a file says, as numbers with commas between",
          Choice{&gaze.calibration_values}, Concerns::Input},
+        {"gaze.closed_below",
+         "an eye that is stated to be less open than this is shut, 0 to 1; 0: openness counts for "
+         "nothing",
+         Number{&gaze.closed_below, 0.0, 1.0}, Concerns::Foveae},
+        {"gaze.field_deg", "gaze farther than this from straight ahead is taken for an error",
+         Number{&gaze.field_deg, 1.0, 180.0}, Concerns::Foveae},
         {"gaze.fixation_distance_m",
          "distance at which gaze is held in world and one ray is split between the eyes, m",
          Number{&gaze.fixation_distance_m, 0.1, 1000.0}, Concerns::Foveae},
@@ -29,19 +57,47 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
          Number{&gaze.hold_ms, 0.0, kForever_ms}, Concerns::Foveae},
         {"gaze.minimum_confidence", "samples that state a lower confidence are invalid",
          Number{&gaze.minimum_confidence, 0.0, 1.0}, Concerns::Foveae},
+        {"gaze.reopen_ms", "after a blink (gaze.closed_below), use no sample for this long",
+         Number{&gaze.reopen_ms, 0.0, 1000.0}, Concerns::Foveae},
         {"gaze.return_ms", "lost gaze: after the hold, return to straight ahead in this time",
          Number{&gaze.return_ms, 0.0, kForever_ms}, Concerns::Foveae},
         {"gaze.stale_ms", "samples older than this when the gaze is read count as lost",
          Number{&gaze.stale_ms, 0.0, kForever_ms}, Concerns::Foveae},
+        {"gaze.unplugged_hold_ms", "a tracker that is gone: hold the last point for this long",
+         Number{&gaze.unplugged_hold_ms, 0.0, kForever_ms}, Concerns::Foveae},
+        {"gaze.widen", "widen the fovea by how uncertain it is where the eye looks", &gaze.widen,
+         Concerns::Foveae},
+        {"gaze.widen_error_deg", "gaze.widen: the tracker's median error, deg",
+         Number{&gaze.widen_error_deg, 0.0, 45.0}, Concerns::Foveae},
+        {"gaze.widen_head_deg_per_s",
+         "gaze.widen: speed of the head where its pose is not known, deg/s",
+         Number{&gaze.widen_head_deg_per_s, 0.0, 1000.0}, Concerns::Foveae},
+        {"gaze.widen_lost_deg_per_s", "gaze.widen: by how much per second of lost gaze, deg/s",
+         Number{&gaze.widen_lost_deg_per_s, 0.0, 1000.0}, Concerns::Foveae},
+        {"gaze.widen_most_deg", "gaze.widen: by no more than this, deg",
+         Number{&gaze.widen_most_deg, 0.0, 80.0}, Concerns::Foveae},
+        {"gaze.widen_noise_deg",
+         "gaze.widen: the tracker's noise (SD) where no sample states a covariance, deg",
+         Number{&gaze.widen_noise_deg, 0.0, 45.0}, Concerns::Foveae},
+        {"gaze.widen_pursuit_deg_per_s",
+         "gaze.widen: speed of an eye that follows something, deg/s",
+         Number{&gaze.widen_pursuit_deg_per_s, 0.0, 1000.0}, Concerns::Foveae},
     };
 }
 
 FoveaPolicy fovea_policy(const GazeSettings& gaze) {
-    return {.stale_ns = time::ms_to_ns(gaze.stale_ms),
-            .hold_ns = time::ms_to_ns(gaze.hold_ms),
-            .return_ns = time::ms_to_ns(gaze.return_ms),
-            .minimum_confidence = gaze.minimum_confidence,
-            .fixation_distance_m = gaze.fixation_distance_m};
+    return {.loss = {.stale_ns = time::ms_to_ns(gaze.stale_ms),
+                     .hold_ns = time::ms_to_ns(gaze.hold_ms),
+                     .return_ns = time::ms_to_ns(gaze.return_ms),
+                     .minimum_confidence = gaze.minimum_confidence,
+                     .blink_hold_ns = time::ms_to_ns(gaze.blink_hold_ms),
+                     .unplugged_hold_ns = time::ms_to_ns(gaze.unplugged_hold_ms),
+                     .reopen_ns = time::ms_to_ns(gaze.reopen_ms),
+                     .closed_below = gaze.closed_below,
+                     .field_rad = glm::radians(gaze.field_deg),
+                     .hold_for_ever = gaze.after_hold == kStay},
+            .fixation_distance_m = gaze.fixation_distance_m,
+            .uncertainty = gaze.widen ? std::optional(uncertainty_policy(gaze)) : std::nullopt};
 }
 
 Expected<void> check(const GazeSettings& gaze, const settings::Settings& all) {

@@ -11,12 +11,25 @@ namespace gazeloop::gaze {
 
 /// The settings gaze.*
 struct GazeSettings {
+    std::string after_hold = "return";
+    double blink_hold_ms = 300.0;
     std::string calibration;         ///< a file, until it is read (runtime/calibration)
     std::string calibration_values;  ///< what it says
+    double closed_below = 0.0;
+    double field_deg = 180.0;
     double stale_ms = 100.0;
     double hold_ms = 300.0;
+    double reopen_ms = 0.0;
     double return_ms = 150.0;
     double minimum_confidence = 0.6;
+    double unplugged_hold_ms = 300.0;
+    bool widen = false;
+    double widen_error_deg = 0.5;
+    double widen_head_deg_per_s = 40.0;
+    double widen_lost_deg_per_s = 30.0;
+    double widen_most_deg = 20.0;
+    double widen_noise_deg = 0.2;
+    double widen_pursuit_deg_per_s = 10.0;
     double fixation_distance_m = 1.5;
     bool fixation_from_depth = true;  ///< of sources with one ray for both eyes
 };

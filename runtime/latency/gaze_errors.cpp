@@ -14,7 +14,7 @@ namespace {
 
 /// Only what the loop itself would follow by default tells where an eye looked.
 std::optional<glm::dvec3> vouched_for(const gaze::EyeRay& ray) {
-    constexpr double kMinimum = gaze::FoveaPolicy{}.minimum_confidence;
+    constexpr double kMinimum = gaze::LossPolicy{}.minimum_confidence;
     const bool confident = ray.confidence == -1.0 || ray.confidence >= kMinimum;
     return ray.valid && confident ? gaze::unit(ray.direction) : std::nullopt;
 }

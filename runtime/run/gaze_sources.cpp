@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,9 +57,35 @@ drivers::steam_frame::SteamFrameOptions steam_frame_options(const profiles::Trac
 
 Expected<void> default_tracker(std::string_view gaze, settings::Settings& settings) {
     const std::string_view tracker = certain_tracker(gaze);
-    return tracker.empty() ? Expected<void>()
-                           : settings.set_default("profile.tracker", tracker,
-                                                  fmt::format("--gaze {}", kind_of(gaze)));
+    if (tracker.empty()) {
+        return {};
+    }
+    const std::string origin = fmt::format("--gaze {}", kind_of(gaze));
+    if (kind_of(gaze) == kSteamFrame) {
+        // Public users saw it never below about .2 when closed, and .75 to .9 when open.
+        if (auto set = settings.set_default("gaze.closed_below", "0.4", origin); !set) {
+            return set;
+        }
+    }
+    return settings.set_default("profile.tracker", tracker, origin);
+}
+
+Expected<void> default_widening(const profiles::TrackerProfile& tracker,
+                                settings::Settings& settings) {
+    for (const auto& [term, key] : {std::pair{"bias_deg", "gaze.widen_error_deg"},
+                                    std::pair{"noise_deg", "gaze.widen_noise_deg"}}) {
+        const auto found =
+            std::ranges::find(tracker.terms, term, &std::pair<std::string, double>::first);
+        if (found == tracker.terms.end()) {
+            continue;
+        }
+        if (auto set = settings.set_default(key, fmt::format("{}", found->second),
+                                            "tracker " + tracker.name);
+            !set) {
+            return set;
+        }
+    }
+    return {};
 }
 
 Expected<MakeSource> gaze_source_named(std::string_view text,

@@ -43,8 +43,14 @@ drivers::steam_frame::SteamFrameOptions steam_frame_options(const profiles::Trac
 /// The name of the profile of a source that is one certain tracker; empty for any other.
 std::string_view certain_tracker(std::string_view gaze);
 
-/// Sets the tracker's profile if the source is one certain tracker, unless a profile is configured.
+/// Sets the tracker's profile if the source is one certain tracker, and how open an eye counts as
+/// shut where it states that; unless they are configured.
 Expected<void> default_tracker(std::string_view gaze, settings::Settings& settings);
+
+/// Sets the error and the noise that gaze.widen counts with to what the profile states, unless they
+/// are configured.
+Expected<void> default_widening(const profiles::TrackerProfile& tracker,
+                                settings::Settings& settings);
 
 /// Plays a trace, `speed` times as fast as it was recorded. Every sample arrives `delay_ns` after
 /// it was taken, plus the delay that the trace gives.

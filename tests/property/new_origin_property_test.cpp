@@ -90,10 +90,10 @@ double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 FoveaPolicy policy() {
-    return {.stale_ns = 100'000'000,
-            .hold_ns = 200'000'000,
-            .return_ns = 150'000'000,
-            .minimum_confidence = 0.6,
+    return {.loss = {.stale_ns = 100'000'000,
+                     .hold_ns = 200'000'000,
+                     .return_ns = 150'000'000,
+                     .minimum_confidence = 0.6},
             .fixation_distance_m = kFixation_m};
 }
 

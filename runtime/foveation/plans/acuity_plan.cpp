@@ -43,7 +43,7 @@ Columns disc_band(const GazeFrame& frame, double eccentricity_rad, std::uint32_t
 
 void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profile,
                  const gaze::EyeView& view, const glm::dvec3& gaze, LogPolarPlan& plan,
-                 const HiddenArea* hidden) {
+                 const HiddenArea* hidden, double widening_deg) {
     const AcuityMap map(profile, GazeFrame(view, gaze));
     plan.lp = profile.lp();
     plan.fovea = {};
@@ -54,8 +54,9 @@ void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profil
     LogPolarPlan::InGazeFrame in_frame{.uniforms = gaze_frame_uniforms(map.frame())};
     double core_u = kNoCore;
     if (parameters.disc) {
-        const double disc_deg = std::max(map.disc_eccentricity_deg(plan.lp),
-                                         std::min(profile.display_limit_deg(), 90.0));
+        const double disc_deg =
+            std::max(map.disc_eccentricity_deg(plan.lp),
+                     std::min(profile.display_limit_deg() + widening_deg, 90.0));
         const double px_per_deg = pixels_per_degree(view, map.frame().nearest_in_view()).mean;
         const double border_deg = std::min(parameters.border_px / px_per_deg, 0.5 * disc_deg);
         plan.disc_radius_px = px_per_deg / kRadiansPerDegree *
@@ -101,7 +102,8 @@ Expected<void> AcuityPlan::prepare(const gaze::StereoView& views) {
 void AcuityPlan::plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
                       const HiddenArea* hidden, EyePlan& plan) const {
     plan_log_polar(plan, [&](LogPolarPlan& made) {
-        plan_acuity(parameters_, *profiles_[gaze::index(eye)], view, fovea.direction, made, hidden);
+        plan_acuity(parameters_, *profiles_[gaze::index(eye)], view, fovea.direction, made, hidden,
+                    fovea.uncertainty_rad.value_or(0.0) / kRadiansPerDegree);
     });
 }
 

@@ -12,12 +12,15 @@ namespace gazeloop::foveation {
 /// As in plan_kfr, the plan has exactly the texels that are read, rounded out to whole bands of
 /// kBandRows rows. A texel is read if the bilinear read of some pixel centre outside the disc's
 /// unblended core touches it. The disc is the circle of eccentricity
-/// AcuityMap::disc_eccentricity_deg, at least e_c. There is none without parameters.disc. The
-/// blend's border is border_px wide, in pixels at the gaze. `hidden` must be of this picture: only
-/// visible pixels count (up to their convex hull). Null: all count.
+/// AcuityMap::disc_eccentricity_deg, at least e_c + `widening_deg` (D, 0 or more): every place
+/// where the eye may look, and around it what only the display limits. So it costs nothing while
+/// the disc is wider than the eye asks for; beyond the disc the density stays that of D = 0. There
+/// is none without parameters.disc. The blend's border is border_px wide, in pixels at the gaze.
+/// `hidden` must be of this picture: only visible pixels count (up to their convex hull). Null: all
+/// count.
 void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profile,
                  const gaze::EyeView& view, const glm::dvec3& gaze, LogPolarPlan& plan,
-                 const HiddenArea* hidden = nullptr);
+                 const HiddenArea* hidden = nullptr, double widening_deg = 0.0);
 
 /// The acuity-derived map, made for one pair of fields of view.
 class AcuityPlan final : public MethodPlan {

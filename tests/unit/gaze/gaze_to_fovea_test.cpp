@@ -81,10 +81,10 @@ double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
 
 /// Held until 300 ms after the last valid sample, back at 500 ms.
 FoveaPolicy policy() {
-    return {.stale_ns = 100 * kMs,
-            .hold_ns = 300 * kMs,
-            .return_ns = 200 * kMs,
-            .minimum_confidence = 0.6,
+    return {.loss = {.stale_ns = 100 * kMs,
+                     .hold_ns = 300 * kMs,
+                     .return_ns = 200 * kMs,
+                     .minimum_confidence = 0.6},
             .fixation_distance_m = 1.5};
 }
 
@@ -250,7 +250,7 @@ TEST(GazeToFovea, SaysStaleWhenATrackerIsUnpluggedDuringABlink) {
 
 TEST(GazeToFovea, ReturnsAtOnceWhereThePolicyLeavesNoTime) {
     FoveaPolicy abrupt = policy();
-    abrupt.return_ns = 0;
+    abrupt.loss.return_ns = 0;
     GazeToFovea gaze(abrupt);
     gaze.add(sample_of(0, towards(20.0)));
     expect_state(left_at(gaze, 300), FoveaState::Held, LossReason::Stale);

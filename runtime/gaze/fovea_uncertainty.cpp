@@ -1,0 +1,36 @@
+#include "runtime/gaze/fovea_uncertainty.h"
+
+#include <algorithm>
+#include <glm/trigonometric.hpp>
+
+#include "runtime/gaze/direction_covariance.h"
+#include "runtime/gaze/gaze_uncertainty.h"
+
+namespace gazeloop::gaze {
+
+double uncertainty_rad(const UncertaintyPolicy& policy, const KnownGaze& known) {
+    const double greatest_rad = glm::radians(policy.greatest_deg);
+    const bool lost_for_good =
+        known.state == FoveaState::Ahead || known.state == FoveaState::Returning;
+    if (lost_for_good || !known.age_ns) {
+        return greatest_rad;
+    }
+    const double age_s = static_cast<double>(std::max<std::int64_t>(*known.age_ns, 0)) * 1e-9;
+    const double noise_deg =
+        known.covariance ? glm::degrees(greatest_sd_rad(*known.covariance)) : policy.noise_deg;
+    const auto deg = widening_deg({
+        .bias95_deg = bias95_deg(policy.median_error_deg),
+        .sample_sd_deg = noise_deg,
+        .pursuit_deg_s = policy.pursuit_deg_per_s,
+        .latency_s = age_s,
+        .head_rate_deg_s = known.head_known ? 0.0 : policy.head_deg_per_s,
+        .gaze_age_s = age_s,
+    });
+    if (!deg) {
+        return greatest_rad;  // a covariance that is none
+    }
+    const double lost_deg = known.state == FoveaState::Held ? policy.lost_deg_per_s * age_s : 0.0;
+    return std::min(glm::radians(*deg + lost_deg) + known.parallax_rad.value_or(0.0), greatest_rad);
+}
+
+}  // namespace gazeloop::gaze

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "runtime/gaze/fovea_point.h"
+#include "runtime/gaze/gaze_sample.h"
+
+namespace gazeloop::gaze {
+
+/// What is known of tracker, eye and head apart from the samples. Degrees, per second.
+struct UncertaintyPolicy {
+    double median_error_deg = 0.5;  ///< of the tracker: systematic
+    double noise_deg = 0.2;         ///< SD, where a sample states no covariance
+    double pursuit_deg_per_s = 10.0;
+    double head_deg_per_s = 40.0;  ///< where no head pose is known
+    double lost_deg_per_s = 30.0;  ///< while gaze is lost
+    double greatest_deg = 20.0;    ///< of what comes out
+};
+
+/// What is known of one eye's gaze in one frame.
+struct KnownGaze {
+    FoveaState state = FoveaState::Ahead;
+    std::optional<DirectionCovariance> covariance{};
+    std::optional<double> parallax_rad{};
+    bool head_known = false;
+    std::optional<std::int64_t> age_ns{};  ///< from the sample to the frame's display
+};
+
+/// How far from the fovea the eye may look when the frame is shown, radians: by widening_deg
+/// (gaze/gaze_uncertainty.h), with the age in place of the latency, and the parallax of a ray that
+/// is shared by both eyes on top. An unfinished saccade is not part of it. While gaze is held, it
+/// grows with its age; of gaze that is lost for good, or of unknown age, nothing is known, which is
+/// the greatest. In 0 .. greatest_deg.
+[[nodiscard]] double uncertainty_rad(const UncertaintyPolicy& policy, const KnownGaze& known);
+
+}  // namespace gazeloop::gaze
