@@ -10,6 +10,7 @@
 #include "drivers/steam_frame/poll_times.h"
 #include "drivers/steam_frame/shared_file.h"
 #include "runtime/time/clock.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::drivers::steam_frame {
 namespace {
@@ -115,7 +116,9 @@ class EyeService final : public TrackerDevice {
                                   static_cast<double>(arrived_ns - last_sample_ns_) * 1e-9));
         }
         last_sample_ns_ = arrived_ns;
-        poll_times_.found(arrived_ns, samples_.fit().period_ns());
+        const time::Span age = time::between(sample.sampled, sample.arrived);
+        poll_times_.found(arrived_ns, samples_.period_ns(),
+                          age.known() ? std::optional(age.ns) : std::nullopt);
     }
 
     Expected<bool> watch_silence(std::int64_t now_ns, DeviceFeed& feed) {

@@ -44,7 +44,11 @@ gaze::GazeSample GazeSamples::take(const GazeRecord& record, std::uint32_t count
         rays_ == Rays::Filtered ? gaze::GazeProcessing::Filtered : gaze::GazeProcessing::Raw;
     const bool eyes_can_be = set_eyes(record, sample);
     const bool time_can_be = set_times(record.time_s, arrived_ns, pair, sample);
+    if (counts_.samples > 0) {
+        follow_period(counter, record.time_s);
+    }
     count_lost(counter, arrived_ns);
+    last_time_s_ = record.time_s;
     ++counts_.reports;
     ++counts_.samples;
     if (!eyes_can_be || !time_can_be) {
@@ -140,6 +144,18 @@ void GazeSamples::count_lost(std::uint32_t counter, std::int64_t arrived_ns) {
     }
     last_counter_ = counter;
     last_arrived_ns_ = arrived_ns;
+}
+
+void GazeSamples::follow_period(std::uint32_t counter, double time_s) {
+    // By the counter, because whoever looks as seldom as the samples that it has found would never
+    // find more.
+    const std::uint32_t records = counter - last_counter_;  // modulo 2^32
+    const double step_ns = (time_s - last_time_s_) * 1e9 / static_cast<double>(records);
+    constexpr double kLongest_ns = 250e6;  // longer is a pause
+    if (records > 0 && step_ns > 0.0 && step_ns < kLongest_ns) {
+        constexpr double kShare = 0.125;
+        period_ns_ += (period_ns_ > 0.0 ? kShare : 1.0) * (step_ns - period_ns_);
+    }
 }
 
 std::optional<std::string> GazeSamples::take_change() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -39,6 +40,10 @@ class GazeSamples {
     /// published during a pause is no loss.
     [[nodiscard]] std::uint64_t lost_before_last() const { return lost_before_last_; }
 
+    /// The time between records, as their times and counter say: also where most of them are
+    /// missed. 0: not known yet.
+    [[nodiscard]] std::int64_t period_ns() const { return std::llround(period_ns_); }
+
     /// A line about what the last records changed; none where nothing is left to say.
     [[nodiscard]] std::optional<std::string> take_change();
 
@@ -63,12 +68,15 @@ class GazeSamples {
                    gaze::GazeSample& sample);
     void judge_age(bool possible, std::int64_t age_ns);
     void count_lost(std::uint32_t counter, std::int64_t arrived_ns);
+    void follow_period(std::uint32_t counter, double time_s);
 
     Rays rays_;
     SampleClock clock_;
     TrackerCounts counts_;
     std::uint64_t lost_before_last_ = 0;
     std::uint32_t last_counter_ = 0;
+    double last_time_s_ = 0.0;
+    double period_ns_ = 0.0;
     std::int64_t last_arrived_ns_ = 0;
     bool times_as_stated_ = true;
     int against_verdict_ = 0;  ///< ages in a row

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 namespace gazeloop::drivers::steam_frame {
 
@@ -10,12 +11,20 @@ namespace gazeloop::drivers::steam_frame {
 /// period, then looks often; when it is long overdue, seldom. Times in nanoseconds of one clock.
 class PollTimes {
   public:
-    /// A new sample was found at `now`. `period_ns` 0: not known yet.
-    void found(std::int64_t now_ns, std::int64_t period_ns) {
+    /// A new sample was found at `now`. `period_ns` 0: not known yet. `age_ns`: how old it was
+    /// then, by its own time; none: unknown. The next one is due a period after this one would have
+    /// come if nothing had held it up: what is late now says nothing of the next one.
+    void found(std::int64_t now_ns, std::int64_t period_ns, std::optional<std::int64_t> age_ns) {
         period_ns_ = period_ns;
         found_ns_ = now_ns;
+        std::int64_t late_ns = 0;
+        if (age_ns) {
+            // The least age of lately, which may have grown: by a hundredth of a period each time.
+            least_age_ns_ = std::min(least_age_ns_.value_or(*age_ns) + period_ns / 100, *age_ns);
+            late_ns = std::min(*age_ns - *least_age_ns_, period_ns);
+        }
         const std::int64_t early_ns = std::clamp(period_ns / 8, kShortest_ns, kEarliest_ns);
-        next_ns_ = now_ns + std::max(period_ns - early_ns, kShortest_ns);
+        next_ns_ = now_ns + std::max(period_ns - late_ns - early_ns, kShortest_ns);
     }
 
     /// Nothing new was there at `now`.
@@ -42,6 +51,7 @@ class PollTimes {
     std::int64_t period_ns_ = 0;
     std::int64_t found_ns_ = 0;
     std::int64_t next_ns_ = 0;
+    std::optional<std::int64_t> least_age_ns_;
 };
 
 }  // namespace gazeloop::drivers::steam_frame

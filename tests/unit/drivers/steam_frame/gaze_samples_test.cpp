@@ -137,6 +137,26 @@ TEST(SteamFrameSamples, CountWhatTheCounterLeavesOut) {
     EXPECT_EQ(samples.take_change(), std::optional<std::string>("its counter began anew"));
 }
 
+TEST(SteamFrameSamples, KnowTheirPeriodThoughMostAreMissed) {
+    GazeSamples samples(kDelay, Rays::Filtered);
+    const auto take = [&samples](std::uint32_t counter, double time_s) {
+        ClockPair pair = kPair;
+        pair.raw_ns += static_cast<std::int64_t>(time_s * 1e9);
+        pair.monotonic_ns += static_cast<std::int64_t>(time_s * 1e9);
+        (void)samples.take(good_record(99.983 + time_s), counter, pair.monotonic_ns, pair);
+    };
+    take(0xFFFFFFF0, 0.0);
+    EXPECT_EQ(samples.period_ns(), 0);
+    for (std::uint32_t i = 1; i <= 40; ++i) {
+        take(0xFFFFFFF0 + 9 * i, 0.1 * i);  // every ninth of 90 Hz
+        EXPECT_NEAR(static_cast<double>(samples.period_ns()), 11'111'111.0, 1e3) << i;
+    }
+    take(0xFFFFFFF0 + 9 * 40 + 1, 10.0);  // a pause
+    take(0xFFFFFFF0 + 9 * 40 + 1, 10.0);  // nothing new, and back in time
+    take(0xFFFFFFF0 + 9 * 40 + 2, 9.0);
+    EXPECT_NEAR(static_cast<double>(samples.period_ns()), 11'111'111.0, 1e3);
+}
+
 TEST(SteamFrameSamples, FallBackToTheFitWhereStatedTimesAreOfAnotherClock) {
     GazeSamples samples(kDelay, Rays::Filtered);
     std::vector<std::string> told;
@@ -209,16 +229,38 @@ TEST(PollTimes, FindASampleWithFewLooksAndSoon) {
                 EXPECT_EQ(published, taken + 1) << rate_hz;
             }
             taken = published;
-            poll.found(now_ns, taken > 10 ? period_ns : 0);
+            poll.found(now_ns, taken > 10 ? period_ns : 0, now_ns - published * period_ns);
         }
         EXPECT_LE(latest_ns, PollTimes::kStep_ns) << rate_hz;
         EXPECT_LT(static_cast<double>(looks), 6.0 * kSamples) << rate_hz;
     }
 }
 
+// Every fifth sample comes most of a period late; those after it come when they are due.
+TEST(PollTimes, AreNotPutOffByASampleThatIsLate) {
+    PollTimes poll;
+    std::int64_t taken = 0;
+    std::int64_t latest_ns = 0;
+    for (std::int64_t now_ns = 0; taken < 1000; now_ns = poll.next_ns()) {
+        const std::int64_t next = taken + 1;
+        const std::int64_t due_ns = next * kPeriod_ns;
+        const std::int64_t there_ns = due_ns + (next % 5 == 0 ? kPeriod_ns * 3 / 4 : 0);
+        if (now_ns < there_ns) {
+            poll.missed(now_ns);
+            continue;
+        }
+        if (taken > 10) {
+            latest_ns = std::max(latest_ns, now_ns - there_ns);
+        }
+        taken = next;
+        poll.found(now_ns, kPeriod_ns, now_ns - due_ns);
+    }
+    EXPECT_LE(latest_ns, 2 * PollTimes::kStep_ns);
+}
+
 TEST(PollTimes, LookSeldomIntoSilence) {
     PollTimes poll;
-    poll.found(0, kPeriod_ns);
+    poll.found(0, kPeriod_ns, std::nullopt);
     std::int64_t looks = 0;
     for (std::int64_t now_ns = poll.next_ns(); now_ns < 1'000 * kMs; now_ns = poll.next_ns()) {
         poll.missed(now_ns);
