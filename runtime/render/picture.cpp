@@ -1,17 +1,12 @@
 #include "runtime/render/picture.h"
 
-#include <fmt/core.h>
-#include <png.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
-#include <limits>
-#include <memory>
 
+#include "runtime/render/srgb.h"
 #include "runtime/vulkan/run_once.h"
 
 namespace gazeloop::render {
@@ -21,15 +16,8 @@ std::uint8_t to_byte(double value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
 }
 
-/// IEC 61966-2-1.
 std::uint8_t encode_srgb(float linear) {
-    const double c = std::clamp(static_cast<double>(linear), 0.0, 1.0);
-    return to_byte(255.0 * (c < 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055));
-}
-
-float decode_srgb(std::uint8_t byte) {
-    const double c = byte / 255.0;
-    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    return to_byte(255.0 * srgb_encoded(static_cast<double>(linear)));
 }
 
 std::uint32_t bytes_per_pixel(vk::Format format) {
@@ -108,8 +96,7 @@ LinearPicture read_back_linear(const vulkan::Context& context, vk::Image image, 
         const Picture encoded = read_back(context, image, extent, format, layout);
         picture.pixels.reserve(encoded.pixels.size());
         for (const auto& pixel : encoded.pixels) {
-            picture.pixels.emplace_back(decode_srgb(pixel[0]), decode_srgb(pixel[1]),
-                                        decode_srgb(pixel[2]));
+            picture.pixels.push_back(linear_of(pixel));
         }
         return picture;
     }
@@ -152,21 +139,6 @@ void mark_fovea(Picture& picture, const gaze::PixelPosition& fovea, double radiu
             }
         }
     }
-}
-
-Expected<void> write_png(const Picture& picture, const std::filesystem::path& file) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = picture.width;
-    image.height = picture.height;
-    image.format = PNG_FORMAT_RGB;
-    if (png_image_write_to_file(&image, file.c_str(), 0, picture.pixels.data(), 0, nullptr) == 0) {
-        return std::unexpected(
-            Error{ErrorKind::BadInput, fmt::format("{}: the picture could not be written ({}); "
-                                                   "is the folder there and writable?",
-                                                   file.string(), image.message)});
-    }
-    return {};
 }
 
 }  // namespace gazeloop::render

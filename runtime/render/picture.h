@@ -1,31 +1,13 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <filesystem>
-#include <glm/vec3.hpp>
 #include <vector>
 
-#include "runtime/error.h"
 #include "runtime/gaze/view.h"
+#include "runtime/render/host_picture.h"
+#include "runtime/render/png_file.h"
 #include "runtime/vulkan/memory.h"
 
 namespace gazeloop::render {
-
-/// A picture on the host: 8 bits per channel, sRGB-encoded RGB, top row first.
-struct Picture {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::vector<std::array<std::uint8_t, 3>> pixels;
-};
-
-/// A picture on the host in linear light, Rec.709 primaries, top row first. In units of the scene's
-/// radiance; what an 8-bit target held is decoded and lies in [0, 1].
-struct LinearPicture {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::vector<glm::vec3> pixels;
-};
 
 /// Reads back an image that lies in `layout` (and is left in it); waits for the queue. Formats:
 /// R8G8B8A8, B8G8R8A8 (SRGB or UNORM: bytes as they are) and R16G16B16A16_SFLOAT (linear: clamped
@@ -48,8 +30,5 @@ inline constexpr double kRingWithoutDisc_px = 24.0;
 
 /// Draws a ring and a cross around a position; parts beyond the picture are left out.
 void mark_fovea(Picture& picture, const gaze::PixelPosition& fovea, double radius_px);
-
-/// Errors (BadInput): the file cannot be written; it names file and reason.
-Expected<void> write_png(const Picture& picture, const std::filesystem::path& file);
 
 }  // namespace gazeloop::render

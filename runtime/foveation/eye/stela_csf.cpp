@@ -78,14 +78,28 @@ StelaDecay stela_decay(double nasal) {
             std::lerp(kTemporalSide.per_deg_cpd, kNasalSide.per_deg_cpd, nasal)};
 }
 
+double stela_sustained_sensitivity(double frequency_cpd, const StelaConditions& conditions) {
+    return sustained(conditions.luminance_cd_m2)(frequency_cpd, conditions.area_deg2);
+}
+
+double stela_transient_sensitivity(double frequency_cpd, const StelaConditions& conditions) {
+    return transient(conditions.luminance_cd_m2)(frequency_cpd, conditions.area_deg2);
+}
+
+double stela_sustained_response(double temporal_hz) {
+    return std::exp(-std::pow(temporal_hz, 1.3314) / 15.8409);
+}
+
+double stela_transient_response(double temporal_hz) {
+    const double off_peak = std::pow(temporal_hz, 0.1898) - std::pow(5.0, 0.1898);
+    return std::exp(-off_peak * off_peak / 0.156257);
+}
+
 double stela_foveal_sensitivity(double frequency_cpd, const StelaConditions& conditions) {
-    const double w = conditions.temporal_hz;
-    const double sustained_response = std::exp(-std::pow(w, 1.3314) / 15.8409);
-    const double off_peak = std::pow(w, 0.1898) - std::pow(5.0, 0.1898);
-    const double transient_response = std::exp(-off_peak * off_peak / 0.156257);
-    const double area = conditions.area_deg2;
-    return sustained_response * sustained(conditions.luminance_cd_m2)(frequency_cpd, area) +
-           transient_response * transient(conditions.luminance_cd_m2)(frequency_cpd, area);
+    return stela_sustained_response(conditions.temporal_hz) *
+               stela_sustained_sensitivity(frequency_cpd, conditions) +
+           stela_transient_response(conditions.temporal_hz) *
+               stela_transient_sensitivity(frequency_cpd, conditions);
 }
 
 }  // namespace gazeloop::foveation

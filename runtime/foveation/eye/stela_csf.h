@@ -41,4 +41,14 @@ struct StelaDecay {
 [[nodiscard]] double stela_foveal_sensitivity(double frequency_cpd,
                                               const StelaConditions& conditions);
 
+/// Its two parts by space alone, whatever conditions.temporal_hz: each is weighed by its response
+/// to time, and the sum is the above.
+[[nodiscard]] double stela_sustained_sensitivity(double frequency_cpd,
+                                                 const StelaConditions& conditions);
+[[nodiscard]] double stela_transient_sensitivity(double frequency_cpd,
+                                                 const StelaConditions& conditions);
+/// Those responses, in [0, 1]: the sustained part is 1 at 0 Hz, the transient one at 5 Hz.
+[[nodiscard]] double stela_sustained_response(double temporal_hz);
+[[nodiscard]] double stela_transient_response(double temporal_hz);
+
 }  // namespace gazeloop::foveation
