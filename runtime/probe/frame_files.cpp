@@ -90,16 +90,15 @@ Expected<FrameFiles> FrameFiles::find(const fs::path& folder) {
                                   folder.string(), failure.message()));
     }
     if (found == 0) {
-        return refuse(fmt::format(
-            "{}: has no PNG files; gazeloop probe --help says how to extract a video's frames",
-            folder.string()));
+        return refuse(fmt::format("{}: has no PNG files: frames are named as 000001.png is",
+                                  folder.string()));
     }
     // Only now the shortest number is known, and with it every name.
     for (std::uint64_t number = files.first_;; ++number) {
         if (!fs::is_regular_file(folder / files.name_of(number), failure)) {
             return refuse(fmt::format(
-                "{}: is missing between {} and {}, so that times would be wrong: extract all "
-                "frames again",
+                "{}: is missing between {} and {}, so that times would be wrong: make all frames "
+                "again",
                 (folder / files.name_of(number)).string(), files.name_of(files.first_),
                 files.name_of(files.last_)));
         }

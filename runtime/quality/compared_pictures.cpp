@@ -41,7 +41,7 @@ Expected<void> check(const char* which, const render::LinearPicture& picture) {
 }  // namespace
 
 Expected<void> check_pictures(const render::LinearPicture& reference,
-                              const render::LinearPicture& test) {
+                              const render::LinearPicture& test, const gaze::EyeView& view) {
     if (auto checked = check("reference", reference); !checked) {
         return checked;
     }
@@ -52,6 +52,11 @@ Expected<void> check_pictures(const render::LinearPicture& reference,
         return refuse(fmt::format(
             "the reference has {}x{} pixels, the test picture {}x{}: compare pictures of one size",
             reference.width, reference.height, test.width, test.height));
+    }
+    if (reference.width != view.width_px || reference.height != view.height_px) {
+        return refuse(fmt::format(
+            "the pictures have {}x{} pixels where {}x{} are expected: compare pictures of one size",
+            reference.width, reference.height, view.width_px, view.height_px));
     }
     return {};
 }

@@ -15,7 +15,7 @@ struct FlipResult {
 
 /// The pixels per degree that FLIP's authors assume where nothing is known of the display.
 inline constexpr double kFlipUsualPixelsPerDegree = 67.0206;
-inline constexpr double kFlipLeastPixelsPerDegree = 1.0;
+inline constexpr double kFlipLeastPixelsPerDegree = 0.01;
 inline constexpr double kFlipMostPixelsPerDegree = 300.0;
 
 /// LDR-FLIP (Andersson et al. 2020, "FLIP: a difference evaluator for alternating images"): how

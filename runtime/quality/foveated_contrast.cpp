@@ -74,14 +74,8 @@ class FoveatedContrast::Work {
     Expected<ContrastDifference> compare(const render::LinearPicture& reference,
                                          const render::LinearPicture& test, const glm::dvec3& gaze,
                                          std::optional<double> seconds, bool with_map) {
-        if (auto checked = check_pictures(reference, test); !checked) {
+        if (auto checked = check_pictures(reference, test, view_); !checked) {
             return std::unexpected(checked.error());
-        }
-        if (reference.width != view_.width_px || reference.height != view_.height_px) {
-            return std::unexpected(Error{
-                ErrorKind::BadInput,
-                fmt::format("the pictures have {}x{} pixels, the first ones had {}x{}",
-                            reference.width, reference.height, view_.width_px, view_.height_px)});
         }
         if (auto looked = look(gaze); !looked) {
             return std::unexpected(looked.error());

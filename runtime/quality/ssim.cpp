@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <vector>
 
 #include "runtime/quality/encoded_colour.h"
 
@@ -67,8 +67,8 @@ struct Moments {
 
 }  // namespace
 
-Expected<double> ssim(const render::LinearPicture& reference, const render::LinearPicture& test,
-                      const Plane& weights, const RowWork& work) {
+Expected<Plane> ssim_map(const render::LinearPicture& reference, const render::LinearPicture& test,
+                         const RowWork& work) {
     const std::uint32_t width = reference.width;
     const std::uint32_t height = reference.height;
     if (std::min(width, height) < kSsimWindow_px) {
@@ -80,10 +80,8 @@ Expected<double> ssim(const render::LinearPicture& reference, const render::Line
     const Window window = gaussian_window();
     const Plane a = luma(reference, work);
     const Plane b = luma(test, work);
-    const std::uint32_t rows = height - 2 * kReach;
-    std::vector<double> similarities(rows);
-    std::vector<double> weight_sums(rows);
-    work.over(rows, [&](std::uint32_t from, std::uint32_t to) {
+    Plane map(width - 2 * kReach, height - 2 * kReach);
+    work.over(map.height, [&](std::uint32_t from, std::uint32_t to) {
         std::vector<Moments> columns(width);
         for (std::uint32_t top = from; top < to; ++top) {
             std::ranges::fill(columns, Moments{});
@@ -96,19 +94,31 @@ Expected<double> ssim(const render::LinearPicture& reference, const render::Line
                     columns[x].add(window[i], {va, vb, va * va, vb * vb, va * vb});
                 }
             }
-            const float* const weight = weights.row(top + kReach);
-            for (std::uint32_t x = kReach; x + kReach < width; ++x) {
+            float* const row = map.row(top);
+            for (std::uint32_t x = 0; x < map.width; ++x) {
                 Moments moments;
                 for (std::uint32_t i = 0; i < kSsimWindow_px; ++i) {
-                    moments.add(window[i], columns[x - kReach + i]);
+                    moments.add(window[i], columns[x + i]);
                 }
-                similarities[top] += static_cast<double>(weight[x]) * moments.similarity();
-                weight_sums[top] += static_cast<double>(weight[x]);
+                row[x] = static_cast<float>(moments.similarity());
             }
         }
     });
-    return std::accumulate(similarities.begin(), similarities.end(), 0.0) /
-           std::accumulate(weight_sums.begin(), weight_sums.end(), 0.0);
+    return map;
+}
+
+double mean_ssim(const Plane& map, const Plane& weights) {
+    double similarity = 0.0;
+    double total = 0.0;
+    for (std::uint32_t y = 0; y < map.height; ++y) {
+        const float* const row = map.row(y);
+        const float* const weight = weights.row(y + kReach) + kReach;
+        for (std::uint32_t x = 0; x < map.width; ++x) {
+            similarity += static_cast<double>(weight[x]) * static_cast<double>(row[x]);
+            total += static_cast<double>(weight[x]);
+        }
+    }
+    return similarity / total;
 }
 
 }  // namespace gazeloop::quality
