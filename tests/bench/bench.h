@@ -57,6 +57,10 @@ std::vector<Figure> report(const Options& options);
 /// to the monitor's thread, for windows of the default length and of the longest.
 std::vector<Figure> monitor(const Options& options);
 
+/// What the picture metrics take per frame, with two threads: wall time, and processor time, which
+/// a busy machine leaves alone.
+std::vector<Figure> quality(const Options& options);
+
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.
 [[nodiscard]] double median(std::vector<double> values);
 

@@ -26,7 +26,8 @@ constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
                               Named{"maps", maps},
                               Named{"devices", devices},
                               Named{"report", report},
-                              Named{"monitor", monitor}};
+                              Named{"monitor", monitor},
+                              Named{"quality", quality}};
 
 /// Preload libraries count from a program's start: it begins once more, under umockdev's.
 void begin_under_umockdev(char** arguments) {
