@@ -13,6 +13,7 @@
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/compared_gaze.h"
+#include "runtime/cli/quality_options.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/probe/frame_files.h"
 #include "runtime/profiles/profiles_in_force.h"
@@ -33,13 +34,10 @@ struct CompareCommand {
     std::string reference;
     std::string test;
     std::string gaze = "0,0";
-    std::string eye = "left";
-    std::vector<std::string> metrics;
+    QualityOptions quality;
     std::vector<std::string> limits;
-    quality::DisplayLight light;
     std::optional<double> frames_per_second;
     std::string heat_map;
-    std::uint64_t threads = 0;
 };
 
 /// The pictures of one side: one file, or a folder's numbered frames.
@@ -63,25 +61,6 @@ class ComparedFiles {
     fs::path path_;
     std::optional<probe::FrameFiles> frames_;
 };
-
-quality::MetricChoice chosen_metrics(const std::vector<std::string>& names) {
-    if (names.empty()) {
-        return quality::kEveryMetric;
-    }
-    const std::vector<std::string> known(quality::kMetricNames.begin(),
-                                         quality::kMetricNames.end());
-    quality::MetricChoice choice{};
-    for (const std::string& name : names) {
-        const auto found = std::ranges::find(known, name);
-        if (found == known.end()) {
-            throw SetupError(
-                ErrorKind::Usage,
-                fmt::format("--metric: {}", settings::unknown_name("metric", name, known)));
-        }
-        choice[static_cast<std::size_t>(found - known.begin())] = true;
-    }
-    return choice;
-}
 
 /// A figure that must not be worse than this.
 struct Limit {
@@ -193,7 +172,7 @@ ExitCode compare(const CompareCommand& command) {
     }
     const display::DisplayProfile display =
         value_or_throw(profiles::display_in_force(settings.values().profile, settings));
-    const quality::MetricChoice metrics = chosen_metrics(command.metrics);
+    const quality::MetricChoice metrics = command.quality.metric_choice();
     std::vector<Limit> limits;
     for (const std::string& text : command.limits) {
         limits.push_back(parse_limit(text));
@@ -221,7 +200,7 @@ ExitCode compare(const CompareCommand& command) {
         prepare_heat_maps(command, metrics, sequence);
     }
 
-    const gaze::Eye eye = command.eye == "left" ? gaze::Eye::Left : gaze::Eye::Right;
+    const gaze::Eye eye = command.quality.which_eye();
     const ComparedGaze gaze = value_or_throw(ComparedGaze::parse(command.gaze, eye));
     const double frame_seconds = 1.0 / command.frames_per_second.value_or(display.refresh_hz);
 
@@ -245,8 +224,7 @@ ExitCode compare(const CompareCommand& command) {
                     display::profile_view(display, eye, of_reference.width, of_reference.height),
                 .eye = eye,
                 .metrics = metrics,
-                .contrast = {.light = command.light,
-                             .threads = static_cast<unsigned>(command.threads)},
+                .contrast = command.quality.contrast(),
                 .line = {.slope = settings.values().methods.acuity.mar},
                 .frame_seconds = sequence ? std::optional(frame_seconds) : std::nullopt,
                 .with_maps = !command.heat_map.empty()};
@@ -309,17 +287,10 @@ void add_compare_command(Command program) {
                "direction of gaze, degrees to the right and up, or a trace whose first sample is "
                "the first frame's")
         .type("AZ,EL|trace:FILE");
-    app.option("--eye", command->eye, "left or right").one_of({"left", "right"});
-    app.option("--metric", command->metrics,
-               "contrast, flip, ssim or psnr; may be repeated; all without it");
+    command->quality.add_to(app);
     app.option("--fps", command->frames_per_second,
                "frames per second of a sequence; the display's refresh rate without it")
         .number_between(0.1, 1e4);
-    app.option("--peak", command->light.peak_cd_m2, "luminance of the display's white, cd/m2 (100)")
-        .number_between(quality::DisplayLight::kMinPeak, quality::DisplayLight::kMaxPeak);
-    app.option("--black", command->light.black_cd_m2,
-               "what is added to all luminance by leaks and stray light, cd/m2 (0.1)")
-        .number_between(0.0, quality::DisplayLight::kMaxPeak);
     app.option("--limit", command->limits,
                "exit code 1 if this figure's mean is worse; may be repeated")
         .type("FIGURE=NUMBER");
@@ -327,9 +298,6 @@ void add_compare_command(Command program) {
                "where the pictures differ, as PNG: contrast in thresholds, else FLIP; a folder for "
                "a sequence")
         .type("FILE|DIR");
-    app.option("--threads", command->threads,
-               "at most so many; as many as the machine has without it")
-        .whole_number(64);
     app.option("--json", options.json, "write the result as JSON; without a file, to stdout")
         .value_optional("-")
         .type("[FILE]");

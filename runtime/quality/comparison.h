@@ -65,6 +65,9 @@ class Comparison {
     Expected<FrameQuality> compare(const render::LinearPicture& reference,
                                    const render::LinearPicture& test, const glm::dvec3& gaze);
 
+    /// The next frame is the first of a sequence again.
+    void forget() { contrast_.forget(); }
+
   private:
     Comparison(const ComparisonQuestion& question, FoveatedContrast contrast)
         : question_(question), contrast_(std::move(contrast)), work_(question.contrast.threads) {}

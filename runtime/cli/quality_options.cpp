@@ -1,0 +1,47 @@
+#include "runtime/cli/quality_options.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "runtime/error.h"
+#include "runtime/settings/nearest_name.h"
+
+namespace gazeloop::cli {
+
+void QualityOptions::add_to(Command command) {
+    command.option("--eye", eye, "whose view is compared: left or right").one_of({"left", "right"});
+    command.option("--metric", metrics,
+                   "contrast, flip, ssim or psnr; may be repeated; all without it");
+    command.option("--peak", light.peak_cd_m2, "luminance of the display's white, cd/m2 (100)")
+        .number_between(quality::DisplayLight::kMinPeak, quality::DisplayLight::kMaxPeak);
+    command
+        .option("--black", light.black_cd_m2,
+                "what is added to all luminance by leaks and stray light, cd/m2 (0.1)")
+        .number_between(0.0, quality::DisplayLight::kMaxPeak);
+    command
+        .option("--threads", threads,
+                "metrics use at most so many; as many as the machine has without it")
+        .whole_number(64);
+}
+
+quality::MetricChoice QualityOptions::metric_choice() const {
+    if (metrics.empty()) {
+        return quality::kEveryMetric;
+    }
+    const std::vector<std::string> known(quality::kMetricNames.begin(),
+                                         quality::kMetricNames.end());
+    quality::MetricChoice choice{};
+    for (const std::string& name : metrics) {
+        const auto found = std::ranges::find(known, name);
+        if (found == known.end()) {
+            throw SetupError(
+                ErrorKind::Usage,
+                fmt::format("--metric: {}", settings::unknown_name("metric", name, known)));
+        }
+        choice[static_cast<std::size_t>(found - known.begin())] = true;
+    }
+    return choice;
+}
+
+}  // namespace gazeloop::cli

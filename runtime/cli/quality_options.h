@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/cli/command_line.h"
+#include "runtime/quality/comparison.h"
+
+namespace gazeloop::cli {
+
+/// The options of the commands that compare pictures.
+struct QualityOptions {
+    std::vector<std::string> metrics;
+    quality::DisplayLight light;
+    std::uint64_t threads = 0;
+    std::string eye = "left";
+
+    void add_to(Command command);
+
+    /// Throws SetupError (Usage) for a metric that there is not.
+    [[nodiscard]] quality::MetricChoice metric_choice() const;
+    [[nodiscard]] quality::ContrastOptions contrast() const {
+        return {.light = light, .threads = static_cast<unsigned>(threads)};
+    }
+    [[nodiscard]] gaze::Eye which_eye() const {
+        return eye == "left" ? gaze::Eye::Left : gaze::Eye::Right;
+    }
+};
+
+}  // namespace gazeloop::cli

@@ -1,0 +1,91 @@
+#include "runtime/trade/sweep_points.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace gazeloop::trade {
+namespace {
+
+std::unexpected<Error> refuse(std::string text) {
+    return std::unexpected(Error{ErrorKind::Usage, std::move(text)});
+}
+
+bool is_of(const std::string& key, const std::string& method) {
+    return key.starts_with(method + '.');
+}
+
+}  // namespace
+
+std::string SweepPoint::settings_text() const {
+    std::string text;
+    for (const auto& [key, value] : settings) {
+        text += fmt::format("{}{}={}", text.empty() ? "" : " ", key, value);
+    }
+    return text;
+}
+
+Expected<Varied> parse_varied(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+        return refuse(fmt::format("'{}' must be KEY=V1,V2,..., e.g. kfr.sigma=1.2,1.8", text));
+    }
+    Varied varied{.key = text.substr(0, equals), .values = {}};
+    for (std::size_t from = equals + 1; from <= text.size();) {
+        const std::size_t end = std::min(text.find(',', from), text.size());
+        if (end == from) {
+            return refuse(fmt::format("'{}' has an empty value", text));
+        }
+        varied.values.push_back(text.substr(from, end - from));
+        from = end + 1;
+    }
+    if (varied.values.empty() || text.ends_with(',')) {
+        return refuse(fmt::format("'{}' has an empty value", text));
+    }
+    return varied;
+}
+
+Expected<std::vector<SweepPoint>> sweep_points(const std::vector<std::string>& methods,
+                                               const std::vector<Varied>& varied) {
+    if (methods.empty()) {
+        return refuse("there is nothing to sweep: name a method");
+    }
+    for (auto one = varied.begin(); one != varied.end(); ++one) {
+        if (std::ranges::find(one + 1, varied.end(), one->key, &Varied::key) != varied.end()) {
+            return refuse(fmt::format("{} is varied twice: give all its values at once", one->key));
+        }
+        if (std::ranges::none_of(methods, [&](const auto& m) { return is_of(one->key, m); })) {
+            return refuse(
+                fmt::format("{} is a setting of none of the methods that are swept; what "
+                            "all of them share is set with --set",
+                            one->key));
+        }
+    }
+    std::vector<SweepPoint> points;
+    for (const std::string& method : methods) {
+        std::vector<SweepPoint> of_method{{.method = method}};
+        for (const Varied& one : varied) {
+            if (!is_of(one.key, method)) {
+                continue;
+            }
+            if (of_method.size() * one.values.size() > kMostSweepPoints) {
+                return refuse(fmt::format("over {} points: vary less at a time", kMostSweepPoints));
+            }
+            std::vector<SweepPoint> longer;
+            for (const SweepPoint& point : of_method) {
+                for (const std::string& value : one.values) {
+                    longer.push_back(point);
+                    longer.back().settings.emplace_back(one.key, value);
+                }
+            }
+            of_method = std::move(longer);
+        }
+        points.insert(points.end(), of_method.begin(), of_method.end());
+    }
+    if (points.size() > kMostSweepPoints) {
+        return refuse(fmt::format("over {} points: vary less at a time", kMostSweepPoints));
+    }
+    return points;
+}
+
+}  // namespace gazeloop::trade

@@ -1,0 +1,106 @@
+// `gazeloop trade` as its users run it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/run_program.h"
+
+namespace gazeloop::tests {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+ProgramResult trade(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"trade", "--set", "render.scale=0.08"});
+    return run_gazeloop(arguments);
+}
+
+TEST(Trade, SetsCostAgainstQuality) {
+    const ScratchFolder folder;
+    const std::string csv = folder.file("trade.csv");
+    const std::string json_file = folder.file("trade.json");
+    const ProgramResult result =
+        trade({"--methods", "full,kfr", "--sigma", "1.2,3.2", "--alpha", "4", "--frames", "2",
+               "--rounds", "2", "--spp", "4", "--csv", csv, "--json", json_file});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("kfr.sigma=3.2 kfr.alpha=4"));
+    EXPECT_THAT(result.out, HasSubstr("stelaCSF"));
+    const json report = json::parse(std::ifstream(json_file));
+    EXPECT_EQ(report.at("frames"), 2);
+    EXPECT_EQ(report.at("reference_samples"), 16);
+    const json& points = report.at("points");
+    ASSERT_EQ(points.size(), 3U);
+    EXPECT_EQ(points[0].at("method"), "full");
+    EXPECT_NEAR(points[0].at("fewer_cells").get<double>(), 1.0, 1e-9);
+    EXPECT_NEAR(points[0].at("speedup").get<double>(), 1.0, 1e-9);
+    const auto contrast = [&](std::size_t point) {
+        return points[point].at("figures").at("contrast").at("mean").get<double>();
+    };
+    // Full resolution with fewer samples is no reference: it aliases more.
+    EXPECT_GT(contrast(0), 0.0);
+    EXPECT_GT(contrast(1), contrast(0));
+    EXPECT_GT(contrast(2), contrast(1));
+    EXPECT_GT(points[2].at("fewer_cells").get<double>(), points[1].at("fewer_cells").get<double>());
+    for (const json& point : points) {
+        EXPECT_GT(point.at("time_ms").at("median").get<double>(), 0.0);
+        EXPECT_LE(point.at("time_ms").at("least"), point.at("time_ms").at("greatest"));
+        EXPECT_TRUE(point.at("on_cells_front").get<bool>());
+        EXPECT_EQ(point.at("figures").size(), 10U);
+    }
+    std::ifstream lines(csv);
+    EXPECT_EQ(std::count(std::istreambuf_iterator<char>(lines), {}, '\n'), 4);
+}
+
+TEST(Trade, GivesTheSameQualityTwice) {
+    const std::vector<std::string> asked{"--methods", "acuity", "--mar",  "0.022", "--frames", "2",
+                                         "--rounds",  "1",      "--gaze", "5,3",   "--json",   "-"};
+    const json once = json::parse(trade(asked).out);
+    const json again = json::parse(trade(asked).out);
+    for (std::size_t point = 0; point < 2; ++point) {
+        EXPECT_EQ(once.at("points")[point].at("figures"), again.at("points")[point].at("figures"));
+    }
+}
+
+TEST(Trade, GoesOnWherePointsFail) {
+    const ProgramResult result = trade({"--methods", "kfr", "--sigma", "1.8,99", "--frames", "1",
+                                        "--rounds", "1", "--metric", "psnr", "--json", "-"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("kfr.sigma"));
+    const json points = json::parse(result.out).at("points");
+    ASSERT_EQ(points.size(), 3U);
+    EXPECT_TRUE(points[1].contains("figures"));
+    EXPECT_THAT(points[2].at("error").get<std::string>(), HasSubstr("99"));
+}
+
+TEST(Trade, RefusesWhatItCannotSweep) {
+    struct Case {
+        std::vector<std::string> arguments;
+        int exit_code;
+        const char* said;
+    };
+    for (const Case& bad : std::vector<Case>{
+             {{"--methods", "kfrr"}, 2, "kfr"},
+             {{"--methods", "layers"}, 2, "layers"},
+             {{"--methods", ""}, 2, "empty"},
+             {{"--vary", "kfr.sigma"}, 2, "KEY="},
+             {{"--vary", "render.spp=1,4"}, 2, "render.spp"},
+             {{"--methods", "acuity", "--sigma", "1.8"}, 2, "kfr.sigma"},
+             {{"--frames", "0"}, 2, "--frames"},
+             {{"--frames", "100000", "--set", "render.scale=1"}, 2, "--frames"},
+             {{"--scene", "nothing"}, 2, "nothing"},
+             {{"--gaze", "up"}, 2, "up"},
+             {{"--csv", "/nowhere/at/all.csv"}, 3, "/nowhere"},
+         }) {
+        const ProgramResult result = trade(bad.arguments);
+        EXPECT_EQ(result.exit_code, bad.exit_code) << bad.said << '\n' << result.err;
+        EXPECT_THAT(result.err, HasSubstr(bad.said));
+    }
+}
+
+}  // namespace
+}  // namespace gazeloop::tests
