@@ -27,7 +27,8 @@ constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
                               Named{"devices", devices},
                               Named{"report", report},
                               Named{"monitor", monitor},
-                              Named{"quality", quality}};
+                               Named{"quality", quality},
+                               Named{"gltf", gltf}};
 
 /// Preload libraries count from a program's start: it begins once more, under umockdev's.
 void begin_under_umockdev(char** arguments) {

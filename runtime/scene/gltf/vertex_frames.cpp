@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <vector>
 
 namespace gazeloop::scene::gltf {
@@ -105,13 +106,17 @@ void make_tangents(std::span<mesh::Vertex> vertices, std::span<const std::uint32
         const std::array corners{triangles[i], triangles[i + 1], triangles[i + 2]};
         const Frame frame =
             frame_of(vertices[corners[0]], vertices[corners[1]], vertices[corners[2]], uv_slot);
+        if (frame.handedness == 0.0) {
+            continue;
+        }
+        const glm::dvec3 a(vertices[corners[0]].position_m);
+        const glm::dvec3 b(vertices[corners[1]].position_m);
+        const glm::dvec3 c(vertices[corners[2]].position_m);
+        std::array<double, 3> angles{angle_rad(b - a, c - a), angle_rad(c - b, a - b), 0.0};
+        angles[2] = std::numbers::pi - angles[0] - angles[1];
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            const glm::dvec3 here(vertices[corners[corner]].position_m);
-            const double angle =
-                angle_rad(glm::dvec3(vertices[corners[(corner + 1) % 3]].position_m) - here,
-                          glm::dvec3(vertices[corners[(corner + 2) % 3]].position_m) - here);
-            frames[corners[corner]].along_u += angle * frame.along_u;
-            frames[corners[corner]].handedness += angle * frame.handedness;
+            frames[corners[corner]].along_u += angles[corner] * frame.along_u;
+            frames[corners[corner]].handedness += angles[corner] * frame.handedness;
         }
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) {

@@ -369,7 +369,7 @@ TEST(GltfGeometry, LargeShapesGetCoarserFormsOfTheSameVertices) {
     for (std::size_t i = 1; i < data.levels.size(); ++i) {
         const auto& finer = data.primitives[data.levels[i - 1].primitive];
         const auto& coarser = data.primitives[data.levels[i].primitive];
-        EXPECT_LT(coarser.index_count, finer.index_count * 8 / 10 + 1);
+        EXPECT_LE(coarser.index_count, finer.index_count / 2);
         EXPECT_EQ(coarser.first_vertex, finer.first_vertex);
         EXPECT_GE(data.levels[i].error_m, data.levels[i - 1].error_m);
         EXPECT_LE(data.levels[i].error_m, 0.02F);

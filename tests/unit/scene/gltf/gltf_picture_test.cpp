@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "runtime/scene/gltf/picture.h"
-#include "tests/unit/scene/gltf/encoded_pictures.h"
+#include "tests/support/encoded_pictures.h"
 #include "tests/unit/scene/gltf/loaded.h"
 
 namespace gazeloop::tests {
