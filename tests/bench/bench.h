@@ -65,6 +65,10 @@ std::vector<Figure> monitor(const Options& options);
 /// What the picture metrics take per frame, with two threads: wall time, and processor time, which
 /// a busy machine leaves alone.
 std::vector<Figure> quality(const Options& options);
+/// What the eyes do, told by the event detector and by two people (recordings of Andersson et al.
+/// 2017): Cohen's kappa per event and stimulus, on persons on whom no parameter was chosen and on
+/// all, beside coder against coder and plain I-VT; and what an hour of 1 kHz gaze costs.
+std::vector<Figure> events(const Options& options);
 
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.
 [[nodiscard]] double median(std::vector<double> values);

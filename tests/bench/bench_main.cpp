@@ -28,7 +28,8 @@ constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
                               Named{"report", report},
                               Named{"monitor", monitor},
                                Named{"quality", quality},
-                               Named{"gltf", gltf}};
+                               Named{"gltf", gltf},
+                               Named{"events", events}};
 
 /// Preload libraries count from a program's start: it begins once more, under umockdev's.
 void begin_under_umockdev(char** arguments) {

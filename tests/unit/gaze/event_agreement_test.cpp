@@ -1,0 +1,108 @@
+#include "tests/support/coded/event_agreement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+namespace gazeloop::tests {
+namespace {
+
+constexpr int kSaccade = 2;
+
+TEST(Kappa, IsAgreementBeyondChance) {
+    // Cohen 1960's kind of example: 20 and 15 agreed, 5 and 10 not: (.7 - .5) / (1 - .5).
+    Kappa kappa;
+    for (int i = 0; i < 50; ++i) {
+        kappa.add(i < 25, i < 20 || i >= 40);
+    }
+    EXPECT_NEAR(kappa.value(), 0.4, 1e-12);
+    EXPECT_TRUE(std::isnan(Kappa{}.value()));
+}
+
+class CodedRecordings : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (!std::filesystem::exists(coded_recordings_folder())) {
+            GTEST_SKIP() << "skipped: no recorded data";
+        }
+        all = read_coded_recordings(coded_recordings_folder());
+        for (const CodedRecording& recording : all) {
+            if (!recording.chosen_on) {
+                others[recording.stimulus].push_back(&recording);
+            }
+        }
+    }
+
+    std::vector<CodedRecording> all;
+    /// Of the persons on whom no parameter was chosen, by stimulus.
+    std::map<std::string, std::vector<const CodedRecording*>> others;
+};
+
+TEST_F(CodedRecordings, AreReadAsTheirCodersSawThem) {
+    ASSERT_EQ(all.size(), 22U);
+    std::map<std::string, std::vector<const CodedRecording*>> by_stimulus;
+    for (const CodedRecording& recording : all) {
+        by_stimulus[recording.stimulus].push_back(&recording);
+    }
+    // How far the two agree on saccades, as published for these recordings.
+    const std::map<std::string, double> published{{"img", 0.91}, {"video", 0.89}};
+    for (const auto& [stimulus, kappa] : published) {
+        EXPECT_NEAR(agreement(
+                        by_stimulus[stimulus], kSaccade,
+                        [](const CodedRecording& r) { return labels_of_coder(r, 0); },
+                        [](const CodedRecording& r) { return labels_of_coder(r, 1); }),
+                    kappa, 0.03)
+            << stimulus;
+    }
+}
+
+TEST_F(CodedRecordings, ShowSaccadesAsCodersSeeThem) {
+    // Against the one coder and the other, of persons on whom nothing was chosen.
+    const std::map<std::string, std::pair<double, double>> least{
+        {"img", {0.76, 0.73}}, {"dots", {0.80, 0.68}}, {"video", {0.80, 0.74}}};
+    const std::map<std::string, double> least_on_average{
+        {"img", 0.75}, {"dots", 0.72}, {"video", 0.78}};
+    for (const auto& [stimulus, kappas] : least) {
+        SCOPED_TRACE(stimulus);
+        const auto against = [&](int coder, const auto& rater) {
+            return agreement(others[stimulus], kSaccade, rater,
+                             [&](const CodedRecording& r) { return labels_of_coder(r, coder); });
+        };
+        const double first = against(0, detected_labels);
+        const double second = against(1, detected_labels);
+        EXPECT_GT(first, kappas.first);
+        EXPECT_GT(second, kappas.second);
+        EXPECT_GT(0.5 * (first + second), least_on_average.at(stimulus));
+        for (const double threshold_deg_per_s : {45.0, 60.0}) {
+            const auto plain = [&](const CodedRecording& r) {
+                return velocity_threshold_labels(r, threshold_deg_per_s);
+            };
+            EXPECT_GT(first, against(0, plain));
+            EXPECT_GT(second, against(1, plain));
+        }
+    }
+}
+
+TEST_F(CodedRecordings, ShowSaccadesToSlowerTrackersToo) {
+    for (const auto& [every, least] : {std::pair{2U, 0.74}, {5U, 0.55}}) {
+        for (const auto& [stimulus, recordings] : others) {
+            std::vector<CodedRecording> thin;
+            for (const CodedRecording* const recording : recordings) {
+                thin.push_back(thinned(*recording, every));
+            }
+            std::vector<const CodedRecording*> pointers;
+            for (const CodedRecording& recording : thin) {
+                pointers.push_back(&recording);
+            }
+            EXPECT_GT(agreement(pointers, kSaccade, detected_labels,
+                                [](const CodedRecording& r) { return labels_of_coder(r, 0); }),
+                      least)
+                << stimulus << " " << 500 / every << " Hz";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace gazeloop::tests
