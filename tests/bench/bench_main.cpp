@@ -29,7 +29,8 @@ constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
                               Named{"monitor", monitor},
                                Named{"quality", quality},
                                Named{"gltf", gltf},
-                               Named{"events", events}};
+                               Named{"events", events},
+                               Named{"prediction", prediction}};
 
 /// Preload libraries count from a program's start: it begins once more, under umockdev's.
 void begin_under_umockdev(char** arguments) {

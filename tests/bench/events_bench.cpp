@@ -2,15 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <functional>
-#include <numbers>
-#include <random>
 
 #include "runtime/gaze/events/event_detector.h"
-#include "runtime/gaze/main_sequence.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/hour_of_gaze.h"
 #include "tests/support/coded/event_agreement.h"
 
 namespace gazeloop::bench {
@@ -70,60 +67,27 @@ void add_agreements(std::vector<Figure>& figures, const std::string& name,
     }
 }
 
-/// Saccades of 1 to 12 deg every .3 s, with noise, at 1000 Hz, in a loop of ten seconds.
-std::vector<glm::dvec3> ten_seconds_of_gaze() {
-    constexpr int kSamples = 10'000;
-    std::mt19937 engine{1};
-    std::normal_distribution<double> noise_rad(0.0, 0.02 * std::numbers::pi / 180.0);
-    std::vector<glm::dvec3> directions;
-    double deg = 0.0;
-    for (int i = 0; i < kSamples;) {
-        const double amplitude_deg = 1.0 + i % 12;
-        const gaze::SaccadeCourse course(amplitude_deg, 1.0);
-        const double to_deg = deg > 0.0 ? -amplitude_deg : amplitude_deg;
-        for (int in = 0; in < 300 && i < kSamples; ++in, ++i) {
-            const double done = course.progress(in * 1e-3);
-            const double right_rad =
-                (deg + done * to_deg) * std::numbers::pi / 180.0 + noise_rad(engine);
-            directions.emplace_back(std::sin(right_rad), noise_rad(engine), -std::cos(right_rad));
-        }
-        deg += to_deg;
-    }
-    return directions;
-}
-
-/// Of this thread, so that what else the machine does counts less.
-double processor_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double seconds_for_an_hour() {
-    const std::vector<glm::dvec3> directions = ten_seconds_of_gaze();
+double seconds_of_detection() {
     gaze::EventDetector detector;
-    constexpr std::int64_t kHour = 3'600'000;
     int saccades = 0;
-    const double begin_s = processor_seconds();
-    for (std::int64_t i = 0; i < kHour; ++i) {
-        detector.add(i * 1'000'000, directions[static_cast<std::size_t>(i) % directions.size()]);
+    const double seconds = seconds_for_an_hour([&](std::int64_t time_ns, const glm::dvec3& gaze) {
+        detector.add(time_ns, gaze);
         saccades += detector.event() == gaze::EyeEvent::Saccade ? 1 : 0;  // the work is used
-    }
-    const double took_s = processor_seconds() - begin_s;
-    return saccades > 0 ? took_s : std::nan("");
+    });
+    return saccades > 0 ? seconds : std::nan("");
 }
 
 }  // namespace
 
 std::vector<Figure> events(const Options& options) {
     std::vector<Figure> figures;
-    if (options.wants("hour of 1 kHz")) {
+    if (options.wants(kHourOfGaze)) {
         std::vector<double> seconds;
         for (unsigned round = 0; round < options.rounds; ++round) {
-            seconds.push_back(seconds_for_an_hour());
+            seconds.push_back(seconds_of_detection());
         }
         figures.push_back(
-            {kBench, "hour of 1 kHz", "detection, processor time", median(seconds), "s", "lower"});
+            {kBench, kHourOfGaze, "detection, processor time", median(seconds), "s", "lower"});
     }
     if (!std::filesystem::exists(tests::coded_recordings_folder())) {
         fmt::print(stderr, "events: agreement is skipped: no recorded data\n");

@@ -92,7 +92,9 @@ void EventDetector::rest(std::int64_t time_ns) {
 
 void EventDetector::start_saccade(std::int64_t time_ns, double speed) {
     event_ = EyeEvent::Saccade;
-    movement_ = {.begin_ns = time_ns, .from = history_.back(2).direction, .peak_deg_per_s = speed};
+    movement_ = {.begin_ns = time_ns,
+                 .from = history_.back(window_samples_).direction,
+                 .peak_deg_per_s = speed};
     peak_velocity_ = velocity_;
 }
 
@@ -130,9 +132,9 @@ void EventDetector::add(std::int64_t time_ns, const std::optional<glm::dvec3>& d
         }
         return;
     }
-    const std::size_t oldest = std::max(history_.oldest_within(0, kSpeed_ns), kFewest - 1);
-    velocity_ = history_.velocity_deg_per_s(oldest);
-    window_s_ = history_.elapsed_s(oldest, 0);
+    window_samples_ = std::max(history_.oldest_within(0, kSpeed_ns), kFewest - 1);
+    velocity_ = history_.velocity_deg_per_s(window_samples_);
+    window_s_ = history_.elapsed_s(window_samples_, 0);
     const double speed = glm::length(velocity_);
     const double departure = glm::length(velocity_ - slow_);
     const double floor = std::min(kBegin_deg_per_s, kLeastAmplitude_deg / window_s_);

@@ -78,7 +78,8 @@ class EventDetector {
     glm::dvec3 velocity_{0.0};
     glm::dvec3 peak_velocity_{0.0};
     glm::dvec3 slow_{0.0};
-    double window_s_ = 0.0;  ///< of velocity_
+    double window_s_ = 0.0;           ///< of velocity_
+    std::size_t window_samples_ = 0;  ///< the oldest in it lies so many back
     double speed_before_ = 0.0;
     std::int64_t restless_ns_ = 0;  ///< when it was last not calm, in an oscillation
     double pursuit_ = -0.5;         ///< evidence for it (positive) or against it

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <map>
 
+#include "tests/support/coded/prediction_errors.h"
+
 namespace gazeloop::tests {
 namespace {
 
@@ -100,6 +102,34 @@ TEST_F(CodedRecordings, ShowSaccadesToSlowerTrackersToo) {
                                 [](const CodedRecording& r) { return labels_of_coder(r, 0); }),
                       least)
                 << stimulus << " " << 500 / every << " Hz";
+        }
+    }
+}
+
+TEST_F(CodedRecordings, ShowThatPredictionIsBetterThanHoldingInSaccades) {
+    std::vector<const CodedRecording*> recordings;
+    for (const auto& [stimulus, of_stimulus] : others) {
+        recordings.insert(recordings.end(), of_stimulus.begin(), of_stimulus.end());
+    }
+    const auto errors = prediction_errors(recordings);
+    constexpr std::size_t kAfter20ms = 2;
+    static_assert(kHorizons_ms[kAfter20ms] == 20);
+    std::vector<double> in_saccades =
+        ratios_to_hold(errors, TargetClass::Saccade, kAfter20ms, Predictor::Ours);
+    ASSERT_GE(in_saccades.size(), 5U);
+    EXPECT_LT(percentile(in_saccades, 50.0), 0.78);
+    EXPECT_LT(percentile(in_saccades, 100.0), 1.0);
+    // What is held is held exactly, and where a saccade is taken for ended or not, little is lost.
+    for (std::size_t horizon = 0; horizon < kHorizons_ms.size(); ++horizon) {
+        for (const auto target : {TargetClass::Fixation, TargetClass::Oscillation,
+                                  TargetClass::Pursuit, TargetClass::Onset}) {
+            const auto ours = ratios_to_hold(errors, target, horizon, Predictor::Ours);
+            const auto linear = ratios_to_hold(errors, target, horizon, Predictor::Linear);
+            EXPECT_LT(percentile(ours, 50.0), 1.15)
+                << kTargetClassNames[static_cast<std::size_t>(target)] << horizon;
+            if (horizon >= kAfter20ms) {
+                EXPECT_LT(percentile(ours, 50.0), percentile(linear, 50.0) + 0.03);
+            }
         }
     }
 }

@@ -1,0 +1,113 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "runtime/gaze/events/gaze_predictor.h"
+#include "tests/bench/bench.h"
+#include "tests/bench/hour_of_gaze.h"
+#include "tests/support/coded/prediction_errors.h"
+
+namespace gazeloop::bench {
+namespace {
+
+constexpr const char* kBench = "prediction";
+
+using tests::Predictor;
+using tests::TargetClass;
+
+/// A saccade 20 ms ahead: what its 95th percentile is to be at most, over that of holding.
+constexpr std::size_t kJudgedHorizon = 2;
+constexpr double kSaccadeTarget = 0.75;
+constexpr double kWorstSaccadeTarget = 0.85;
+
+void add_class(std::vector<Figure>& figures, const std::string& whose,
+               const std::map<std::string, tests::PersonErrors>& errors, std::size_t target) {
+    for (std::size_t h = 0; h < tests::kHorizons_ms.size(); ++h) {
+        const std::string what = fmt::format("{}, {} ms", whose, tests::kHorizons_ms[h]);
+        const auto add = [&](const std::string& metric, double value, const char* unit,
+                             std::optional<double> goal) {
+            figures.push_back({kBench, tests::kTargetClassNames[target],
+                               fmt::format("{}: {}", what, metric), value, unit, "lower",
+                               std::nullopt, goal});
+        };
+        std::vector<double> median_held;
+        std::vector<double> p95_held;
+        for (const auto& [person, of_person] : errors) {
+            const std::vector<double>& held = of_person[target][h].front();
+            if (held.size() >= tests::kFewestErrors) {
+                median_held.push_back(tests::percentile(held, 50.0));
+                p95_held.push_back(tests::percentile(held, 95.0));
+            }
+        }
+        if (p95_held.empty()) {
+            continue;
+        }
+        add("persons", static_cast<double>(p95_held.size()), "", {});
+        add("hold P50", median(median_held), "deg", {});
+        add("hold P95", median(p95_held), "deg", {});
+        for (const Predictor predictor : {Predictor::Linear, Predictor::OneEuro, Predictor::Ours}) {
+            const char* const name = tests::kPredictorNames[static_cast<std::size_t>(predictor)];
+            const std::vector<double> ratios =
+                tests::ratios_to_hold(errors, static_cast<TargetClass>(target), h, predictor);
+            const bool ours = predictor == Predictor::Ours;
+            const bool judged = ours && static_cast<TargetClass>(target) == TargetClass::Saccade &&
+                                h == kJudgedHorizon;
+            add(fmt::format("{} P95 over hold", name), median(ratios), "x",
+                judged ? std::optional(kSaccadeTarget) : std::nullopt);
+            add(fmt::format("{} worst person", name), *std::ranges::max_element(ratios), "x",
+                judged ? std::optional(kWorstSaccadeTarget)
+                : ours ? std::optional(1.0)
+                       : std::nullopt);
+        }
+    }
+}
+
+double seconds_of_prediction() {
+    constexpr std::int64_t kAhead_ns = 20'000'000;
+    gaze::GazePredictor predictor;
+    int extrapolated = 0;
+    const double seconds = seconds_for_an_hour([&](std::int64_t time_ns, const glm::dvec3& gaze) {
+        predictor.add(time_ns, gaze);
+        const gaze::GazePrediction prediction = predictor.predict(time_ns + kAhead_ns);
+        extrapolated += prediction.verdict == gaze::PredictionVerdict::Extrapolated ? 1 : 0;
+    });
+    return extrapolated > 0 ? seconds : std::nan("");
+}
+
+}  // namespace
+
+std::vector<Figure> prediction(const Options& options) {
+    std::vector<Figure> figures;
+    if (options.wants(kHourOfGaze)) {
+        std::vector<double> seconds;
+        for (unsigned round = 0; round < options.rounds; ++round) {
+            seconds.push_back(seconds_of_prediction());
+        }
+        figures.push_back({kBench, kHourOfGaze, "detection and a prediction per sample",
+                           median(seconds), "s", "lower", std::nullopt, 2.0});
+    }
+    if (!std::filesystem::exists(tests::coded_recordings_folder())) {
+        fmt::print(stderr, "prediction: skipped: no recorded data\n");
+        return figures;
+    }
+    const auto all = tests::read_coded_recordings(tests::coded_recordings_folder());
+    for (const bool chosen_on : {false, true}) {
+        std::vector<const tests::CodedRecording*> half;
+        for (const tests::CodedRecording& recording : all) {
+            if (recording.chosen_on == chosen_on) {
+                half.push_back(&recording);
+            }
+        }
+        const auto errors = tests::prediction_errors(half);
+        for (std::size_t target = 0; target < tests::kTargetClassNames.size(); ++target) {
+            if (options.wants(tests::kTargetClassNames[target])) {
+                add_class(figures, chosen_on ? "chosen on" : "others", errors, target);
+            }
+        }
+    }
+    return figures;
+}
+
+}  // namespace gazeloop::bench
