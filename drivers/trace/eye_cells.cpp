@@ -31,16 +31,19 @@ EyeCells::EyeCells(CsvTable& table, gaze::Eye eye, const EyeColumnNames& names, 
     const auto optional = [&](const std::string& name) {
         return name.empty() ? std::nullopt : table.column(name);
     };
-    const auto direction =
-        table.columns(views(names.direction), fmt::format("the {} eye's direction", name_of(eye)));
-    const auto valid = table.column(names.valid);
-    if (!direction || !valid) {
-        table.note(table.header_line(), fmt::format("no {} eye, for want of its direction or '{}'",
-                                                    name_of(eye), names.valid));
+    for (const std::string& name : names.direction) {
+        if (const auto column = table.column(name)) {
+            direction_.push_back(*column);
+        }
+    }
+    valid_ = optional(names.valid);
+    if (direction_.size() < names.direction.size() || (form.trust != nullptr && !valid_)) {
+        direction_.clear();
+        table.note(table.header_line(),
+                   fmt::format("no {} eye, for want of its direction{}", name_of(eye),
+                               names.valid.empty() ? "" : fmt::format(" or '{}'", names.valid)));
         return;
     }
-    valid_ = valid;
-    direction_ = *direction;
     origin_ = table.columns(views(names.origin), fmt::format("the {} eye's origin", name_of(eye)));
     openness_ = optional(names.openness);
     confidence_ = optional(names.confidence);
@@ -48,7 +51,7 @@ EyeCells::EyeCells(CsvTable& table, gaze::Eye eye, const EyeColumnNames& names, 
 
 gaze::EyeRay EyeCells::read(CsvTable& table, BadCells& bad) {
     gaze::EyeRay ray;
-    if (!valid_) {
+    if (direction_.empty()) {
         return ray;
     }
     const std::optional<EyeTrust> written = trust(table, bad);
@@ -70,17 +73,19 @@ gaze::EyeRay EyeCells::read(CsvTable& table, BadCells& bad) {
 }
 
 std::optional<EyeTrust> EyeCells::trust(CsvTable& table, BadCells& bad) const {
-    const std::optional<std::int64_t> written = table.whole(*valid_);
-    const std::optional<EyeTrust> vouched = written ? form_.trust(*written) : std::nullopt;
-    if (vouched) {
+    // A row may hold nothing at all of an eye.
+    const auto no_direction = [&] {
+        return std::all_of(direction_.begin(), direction_.end(),
+                           [&](std::size_t column) { return table.is_missing(column); });
+    };
+    if (form_.trust == nullptr) {
+        const bool there = !no_direction();
+        return EyeTrust{.direction = there, .origin = true, .openness = true};
+    }
+    if (const std::optional<EyeTrust> vouched = form_.trust(table, *valid_)) {
         return vouched;
     }
-    // A row may hold nothing at all of an eye.
-    const bool nothing_there =
-        table.is_missing(*valid_) &&
-        std::all_of(direction_.begin(), direction_.end(),
-                    [&](std::size_t column) { return table.is_missing(column); });
-    if (!nothing_there) {
+    if (!table.is_missing(*valid_) || !no_direction()) {
         bad.add(direction_of(eye_), table.line(), [&] {
             return fmt::format("{} does not say whether the eye is valid",
                                table.described(*valid_));
@@ -104,15 +109,21 @@ void EyeCells::count_refusals(const EyeTrust& trust, std::uint64_t line) {
 
 void EyeCells::read_direction(CsvTable& table, bool vouched, gaze::EyeRay& ray,
                               BadCells& bad) const {
+    glm::dvec3 numbers{0.0};
     glm::dvec3 written = ray.direction;
     std::optional<std::size_t> unreadable;
-    for (const int i : {0, 1, 2}) {
-        const std::size_t column = direction_[static_cast<std::size_t>(i)];
+    for (std::size_t i = 0; i < direction_.size(); ++i) {
+        const std::size_t column = direction_[i];
         if (const std::optional<double> value = table.real(column)) {
-            written[i] = form_.to_our_axes[i] * *value;
+            const int at = static_cast<int>(i);
+            numbers[at] = *value;
+            written[at] = form_.to_our_axes[at] * *value;
         } else if (!unreadable) {
             unreadable = column;
         }
+    }
+    if (form_.direction != nullptr) {
+        written = unreadable ? ray.direction : form_.direction(numbers);
     }
     ray.direction = written;
     if (!vouched) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "drivers/trace/bad_cells.h"
 #include "drivers/trace/text/csv_table.h"
@@ -16,8 +17,8 @@ namespace gazeloop::drivers {
 
 /// The columns of one eye, by name. Those whose names are empty no file has.
 struct EyeColumnNames {
-    std::string valid;
-    std::array<std::string, 3> direction;
+    std::string valid;                   ///< empty: the format has none
+    std::vector<std::string> direction;  ///< two or three
     std::array<std::string, 3> origin;
     std::string openness;
     std::string confidence;
@@ -32,10 +33,15 @@ struct EyeTrust {
 
 /// How a format writes an eye.
 struct EyeForm {
-    /// What a validity cell's number vouches for; none where the format has no such number.
-    std::optional<EyeTrust> (*trust)(std::int64_t valid);
+    /// What the validity cell in this column vouches for; none where the format has no such
+    /// number. Null: the format has no validity, and an eye is vouched for where one of its
+    /// direction's cells holds something.
+    std::optional<EyeTrust> (*trust)(CsvTable& table, std::size_t valid) = nullptr;
     glm::dvec3 to_our_axes{1.0};  ///< factors of x, y and z
     double metre = 1.0;           ///< per unit of the origin
+    /// Makes a direction in our axes of the numbers in the direction's columns, of which the third
+    /// is 0 where there are two. Null: to_our_axes does.
+    glm::dvec3 (*direction)(const glm::dvec3& numbers) = nullptr;
     /// The validity cell's bits for direction, origin and openness; none where it has no bits.
     std::optional<std::array<int, 3>> bits;
 };
@@ -71,8 +77,8 @@ class EyeCells {
 
     gaze::Eye eye_;
     EyeForm form_;
-    std::optional<std::size_t> valid_;  ///< none: the table lacks the eye
-    std::array<std::size_t, 3> direction_{};
+    std::optional<std::size_t> valid_;
+    std::vector<std::size_t> direction_;  ///< empty: the table lacks the eye
     std::optional<std::array<std::size_t, 3>> origin_;
     std::optional<std::size_t> openness_;
     std::optional<std::size_t> confidence_;

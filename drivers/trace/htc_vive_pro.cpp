@@ -2,13 +2,12 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/trigonometric.hpp>
 #include <optional>
 #include <string>
 
 #include "drivers/trace/eye_cells.h"
 #include "drivers/trace/trace_rows.h"
+#include "drivers/trace/unity_pose.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -62,12 +61,13 @@ constexpr int kOriginBit = 0;
 constexpr int kDirectionBit = 1;
 constexpr int kOpennessBit = 3;
 
-std::optional<EyeTrust> trust(std::int64_t valid) {
+std::optional<EyeTrust> trust(CsvTable& table, std::size_t column) {
     constexpr std::int64_t kAllBits = 31;
-    if (valid < 0 || valid > kAllBits) {
+    const std::optional<std::int64_t> valid = table.whole(column);
+    if (!valid || *valid < 0 || *valid > kAllBits) {
         return std::nullopt;
     }
-    const auto has = [&](int bit) { return (valid >> bit & 1) != 0; };
+    const auto has = [&](int bit) { return (*valid >> bit & 1) != 0; };
     return EyeTrust{
         .direction = has(kDirectionBit), .origin = has(kOriginBit), .openness = has(kOpennessBit)};
 }
@@ -90,19 +90,8 @@ EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
              .bits = {{kDirectionBit, kOriginBit, kOpennessBit}}}};
 }
 
-/// Unity's left-handed frame mirrored in z: positions change sign in z, and a mirror in z turns
-/// rotations about x and y around, but not those about z.
-gaze::Pose helmet_pose(const std::array<double, 6>& helmet) {
-    const auto turn = [](double angle_deg, const glm::dvec3& axis) {
-        return glm::angleAxis(glm::radians(angle_deg), axis);
-    };
-    const glm::dquat unity = turn(helmet[4], {0.0, 1.0, 0.0}) * turn(helmet[3], {1.0, 0.0, 0.0}) *
-                             turn(helmet[5], {0.0, 0.0, 1.0});
-    return {glm::normalize(glm::dquat{unity.w, -unity.x, -unity.y, unity.z}),
-            {helmet[0], helmet[1], -helmet[2]}};
-}
-
-Expected<gaze::GazeTrace> read(CsvTable& table, const ReadOptions& options) {
+Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
+                               const ReadOptions& options) {
     constexpr double kTime_ns = 100.0;
     constexpr double kTimeStamp_ns = 1e6;
     gaze::PerEye<EyeCells> eyes{eye_cells(table, gaze::Eye::Left),
@@ -125,7 +114,7 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const ReadOptions& options) {
         }
         if (helmet) {
             if (const auto pose = rows.head(*helmet)) {
-                row.head = helmet_pose(*pose);
+                row.head = pose_of_unity(*pose);
             }
         }
     });

@@ -4,17 +4,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 
 #include "drivers/trace/eye_cells.h"
+#include "drivers/trace/json_file.h"
+#include "drivers/trace/text/line_writer.h"
+#include "drivers/trace/text/text_output.h"
 #include "drivers/trace/trace_rows.h"
 #include "runtime/gaze/sample_rate.h"
 
@@ -27,7 +28,7 @@ constexpr std::string_view kSidecarAxes = "+x right, +y up, -z forward";
 constexpr int kSidecarVersion = 1;
 
 /// In the order in which they are written.
-constexpr std::array<std::string_view, 28> kColumns{
+constexpr std::array<std::string_view, 29> kColumns{
     "sequence",         "t_device_ns",      "t_host_ns",        "left_valid",
     "left_x",           "left_y",           "left_z",           "left_origin_x_m",
     "left_origin_y_m",  "left_origin_z_m",  "left_openness",    "left_confidence",
@@ -35,8 +36,10 @@ constexpr std::array<std::string_view, 28> kColumns{
     "right_origin_x_m", "right_origin_y_m", "right_origin_z_m", "right_openness",
     "right_confidence", "head_x_m",         "head_y_m",         "head_z_m",
     "head_qx",          "head_qy",          "head_qz",          "head_qw",
+    "parallax_rad",
 };
 constexpr std::size_t kHeadColumns = 7;
+constexpr std::size_t kAlwaysWritten = kColumns.size() - 1;
 
 constexpr std::array<std::string_view, 1> kNeededTime{"t_device_ns"};
 constexpr std::array<std::string_view, 4> kNeededLeft{"left_valid", "left_x", "left_y", "left_z"};
@@ -50,7 +53,8 @@ constexpr std::array<std::span<const ColumnNames>, 2> kNeeded{kTimes, kEyes};
 /// back exactly.
 constexpr double kUnitTolerance = 1e-9;
 
-std::optional<EyeTrust> trust(std::int64_t valid) {
+std::optional<EyeTrust> trust(CsvTable& table, std::size_t column) {
+    const std::optional<std::int64_t> valid = table.whole(column);
     if (valid != 0 && valid != 1) {
         return std::nullopt;
     }
@@ -69,15 +73,17 @@ EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
             {.trust = trust, .bits = {}}};
 }
 
-Expected<gaze::GazeTrace> read(CsvTable& table, const ReadOptions& options) {
+Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
+                               const ReadOptions& options) {
     gaze::PerEye<EyeCells> eyes{eye_cells(table, gaze::Eye::Left),
                                 eye_cells(table, gaze::Eye::Right)};
     std::array<std::string_view, kHeadColumns> head_names{};
-    std::copy_n(kColumns.end() - kHeadColumns, kHeadColumns, head_names.begin());
+    std::copy_n(kColumns.begin() + kAlwaysWritten - kHeadColumns, kHeadColumns, head_names.begin());
     const auto head = table.columns(head_names, "the head's pose");
     const auto sequence = table.column("sequence");
     const std::size_t device_clock = *table.column("t_device_ns");
     const auto host_clock = table.column("t_host_ns");
+    const auto parallax = table.column("parallax_rad");
     TraceRows rows(table, eyes,
                    {.file = table.name(), .format = kName, .device = "unknown device"});
     const auto head_pose = [&]() -> std::optional<gaze::Pose> {
@@ -100,42 +106,12 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const ReadOptions& options) {
         row.device_ticks = rows.ticks(device_clock, "nanoseconds");
         row.host_ns = rows.optional_ticks(host_clock);
         row.head = head_pose();
+        const auto parallax_rad = parallax ? table.real(*parallax) : std::nullopt;
+        if (parallax_rad && *parallax_rad >= 0.0) {
+            row.parallax_rad = parallax_rad;
+        }
     });
 }
-
-/// Puts numbers into a line without the locale having a say.
-class LineWriter {
-  public:
-    template <typename Number>
-    void add(Number value) {
-        std::array<char, 32> digits{};  // the longest double has 24
-        const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-        line_ += std::string_view(digits.data(), written.ptr);
-        line_ += ',';
-    }
-    void add_blank() { line_ += ','; }
-    void add_finite(double value) {
-        if (std::isfinite(value)) {
-            add(value);
-        } else {
-            add_blank();
-        }
-    }
-    void add_finite(const glm::dvec3& v) {
-        add_finite(v.x);
-        add_finite(v.y);
-        add_finite(v.z);
-    }
-
-    void end(std::ostream& out) {
-        line_.back() = '\n';
-        out.write(line_.data(), static_cast<std::streamsize>(line_.size()));
-        line_.clear();
-    }
-
-  private:
-    std::string line_;
-};
 
 std::string sidecar_file(const std::string& trace_file) { return trace_file + ".json"; }
 
@@ -151,24 +127,18 @@ const TraceFormat& native_trace() { return kFormat; }
 
 Expected<std::string> read_native_sidecar(const std::string& trace_file) {
     std::string file = sidecar_file(trace_file);
-    std::ifstream in(file, std::ios::binary);
     constexpr std::string_view kCompressed = ".gz";
-    if (!in && trace_file.ends_with(kCompressed)) {
+    if (!std::filesystem::exists(file) && trace_file.ends_with(kCompressed)) {
         file = sidecar_file(trace_file.substr(0, trace_file.size() - kCompressed.size()));
-        in.open(file, std::ios::binary);
     }
-    if (!in) {
+    const auto read = read_json_object(file);
+    if (!read) {
+        return std::unexpected(read.error());
+    }
+    if (!*read) {
         return std::string{};
     }
-    constexpr std::size_t kLargest = 1 << 20;
-    std::string text(kLargest, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(in.gcount()));
-
-    const nlohmann::json sidecar = nlohmann::json::parse(text, nullptr, false);
-    if (!sidecar.is_object()) {
-        return bad_input(fmt::format("{}: not a JSON object of at most 1 MiB", file));
-    }
+    const nlohmann::json& sidecar = **read;
     const auto must_be = [&](const char* key, const nlohmann::json& value) -> Expected<void> {
         const auto found = sidecar.find(key);
         if (found == sidecar.end() || *found != value) {
@@ -183,15 +153,16 @@ Expected<std::string> read_native_sidecar(const std::string& trace_file) {
             return std::unexpected(check.error());
         }
     }
-    const auto device = sidecar.find("device");
-    if (device == sidecar.end() || !device->is_string()) {
-        return std::string{};
-    }
-    return device->get<std::string>();
+    return text_in(sidecar, "device");
 }
 
 void write_native_trace(const gaze::GazeTrace& trace, std::ostream& out) {
-    out << fmt::format("{}\n", fmt::join(kColumns, ","));
+    const bool with_parallax = std::ranges::any_of(
+        trace.samples,
+        [](const gaze::GazeSample& sample) { return sample.parallax_rad.has_value(); });
+    out << fmt::format(
+        "{}\n",
+        fmt::join(std::span{kColumns}.first(kAlwaysWritten + (with_parallax ? 1U : 0U)), ","));
     LineWriter line;
     for (const gaze::GazeSample& sample : trace.samples) {
         line.add(sample.sequence);
@@ -199,7 +170,7 @@ void write_native_trace(const gaze::GazeTrace& trace, std::ostream& out) {
         if (sample.arrived.known()) {
             line.add(sample.arrived.ns);
         } else {
-            line.add_blank();
+            line.add_missing();
         }
         for (const gaze::EyeRay& ray : sample.eyes) {
             line.add(ray.valid ? 1 : 0);
@@ -215,29 +186,21 @@ void write_native_trace(const gaze::GazeTrace& trace, std::ostream& out) {
             line.add_finite(sample.head->orientation.w);
         } else {
             for (std::size_t i = 0; i < kHeadColumns; ++i) {
-                line.add_blank();
+                line.add_missing();
             }
+        }
+        if (with_parallax) {
+            line.add_finite(sample.parallax_rad.value_or(std::numeric_limits<double>::quiet_NaN()));
         }
         line.end(out);
     }
 }
 
-namespace {
-
-std::unexpected<Error> cannot_be_written(const std::string& file) {
-    return bad_input(fmt::format("{}: cannot be written ({})", file,
-                                 errno != 0 ? std::strerror(errno) : "unknown why"));
-}
-
-}  // namespace
-
 Expected<void> write_native_trace(const gaze::GazeTrace& trace, const std::string& file) {
-    errno = 0;
-    std::ofstream csv(file, std::ios::binary | std::ios::trunc);
-    write_native_trace(trace, csv);
-    csv.close();
-    if (!csv) {
-        return cannot_be_written(file);
+    TextOutput csv(file);
+    write_native_trace(trace, csv.stream());
+    if (Expected<void> written = csv.close(); !written) {
+        return written;
     }
 
     const nlohmann::ordered_json sidecar{
@@ -249,13 +212,9 @@ Expected<void> write_native_trace(const gaze::GazeTrace& trace, const std::strin
         {"device", trace.device},
         {"calibration", nullptr},
     };
-    std::ofstream json(sidecar_file(file), std::ios::binary | std::ios::trunc);
-    json << sidecar.dump(4) << '\n';
-    json.close();
-    if (!json) {
-        return cannot_be_written(sidecar_file(file));
-    }
-    return {};
+    TextOutput json(sidecar_file(file));
+    json.stream() << sidecar.dump(4, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    return json.close();
 }
 
 }  // namespace gazeloop::drivers

@@ -19,6 +19,7 @@ namespace gazeloop::drivers {
 ///     right_...                  the same
 ///     head_x_m, head_y_m, head_z_m, head_qx, head_qy, head_qz, head_qw
 ///                                head in world; all blank where unknown
+///     parallax_rad               as GazeSample has it; written where a sample has one
 ///
 /// Only t_device_ns and, of one eye, validity and direction are needed: what has no column, a blank
 /// cell or NaN is unknown. A direction or orientation that is not of unit length is made so; a
@@ -40,7 +41,8 @@ namespace gazeloop::drivers {
 /// numbers that are unknown or not finite are left blank.
 void write_native_trace(const gaze::GazeTrace& trace, std::ostream& out);
 
-/// Writes the CSV and its sidecar. Errors (BadInput): a file that cannot be written.
+/// Writes the CSV, gzip where the name ends with .gz, and its sidecar. Errors (BadInput): a file
+/// that cannot be written.
 [[nodiscard]] Expected<void> write_native_trace(const gaze::GazeTrace& trace,
                                                 const std::string& file);
 

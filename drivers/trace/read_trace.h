@@ -2,6 +2,8 @@
 
 #include <istream>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "drivers/trace/read_options.h"
 #include "runtime/error.h"
@@ -9,7 +11,11 @@
 
 namespace gazeloop::drivers {
 
-/// Reads a recorded trace. The format is options.format, or known by the header's column names.
+/// As --format and GazeTrace::format have them.
+[[nodiscard]] std::vector<std::string_view> trace_format_names();
+
+/// Reads a recorded trace. The format is options.format, or known by the header's column names, by
+/// a JSON object in the first line, or by a name as BIDS gives them.
 /// What the file has that is not usual, and what was not used or changed, is in the trace's report.
 ///
 /// Errors: Usage for a format that does not exist. BadInput, naming the file and where it applies
@@ -20,7 +26,8 @@ namespace gazeloop::drivers {
 [[nodiscard]] Expected<gaze::GazeTrace> read_trace(const std::string& file,
                                                    const ReadOptions& options = {});
 
-/// The same from a stream; `name` is the file's name in messages and in the trace. No sidecar.
+/// The same from a stream; `name` is the file's name in messages and in the trace. Nothing that
+/// stands beside a file is read; formats that need it are refused.
 [[nodiscard]] Expected<gaze::GazeTrace> read_trace(std::istream& in, const std::string& name,
                                                    const ReadOptions& options = {});
 

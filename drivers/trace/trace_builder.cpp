@@ -272,6 +272,7 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
             sample.uncertainty_ns = fitted.step_ns[i];
         }
         sample.eyes = row.eyes;
+        sample.parallax_rad = row.parallax_rad;
         sample.head = row.head;
         for (const gaze::Eye eye : gaze::kEyes) {
             report.valid[gaze::index(eye)] += row.eyes[gaze::index(eye)].valid ? 1 : 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace gazeloop::drivers {
@@ -16,6 +17,20 @@ std::optional<std::int64_t> TraceRows::ticks(std::size_t column, std::string_vie
             fmt::format("{} is no whole number of {}", table_.described(column), ticks));
     }
     return value;
+}
+
+std::optional<std::int64_t> TraceRows::decimal_ticks(std::size_t column, int digits,
+                                                     std::string_view unit) {
+    const std::optional<std::int64_t> value = table_.decimal(column, digits);
+    if (!value && !builder_.knows_unread_time()) {
+        builder_.unread_time(fmt::format("{} is no time in {}", table_.described(column), unit));
+    }
+    return value;
+}
+
+void TraceRows::only_where(std::function<bool()> is_gaze, std::string_view what) {
+    is_gaze_ = std::move(is_gaze);
+    others_ = what;
 }
 
 std::optional<std::int64_t> TraceRows::optional_ticks(std::optional<std::size_t> column) {
@@ -52,12 +67,37 @@ void TraceRows::refuse_head(std::size_t column, std::string_view why) {
              [&] { return fmt::format("{} {}", table_.described(column), why); });
 }
 
+void TraceRows::refuse_eyes(TraceRow& row, std::string_view why) {
+    auto refused = std::ranges::find(refused_, why, &Refused::why);
+    if (refused == refused_.end()) {
+        refused = refused_.insert(refused_.end(), {.why = why, .first_line = row.line});
+    }
+    ++refused->rows;
+    for (gaze::EyeRay& ray : row.eyes) {
+        ray.valid = false;
+    }
+}
+
 Expected<gaze::GazeTrace> TraceRows::finish(const ReadOptions& options) {
     gaze::TraceReport& report = builder_.report();
     table_.report_to(report);
     bad_.report_to(report);
     for (const EyeCells& eye : eyes_) {
         eye.report_to(report);
+    }
+    for (const Refused& refused : refused_) {
+        report.add({.kind = gaze::TraceFindingKind::RefusedByBit,
+                    .line = refused.first_line,
+                    .rows = refused.rows,
+                    .text = fmt::format("gaze not vouched for in {} {}: {}", refused.rows,
+                                        refused.rows == 1 ? "row" : "rows", refused.why)});
+    }
+    if (left_out_ > 0) {
+        report.add({.kind = gaze::TraceFindingKind::Text,
+                    .line = first_left_out_,
+                    .rows = left_out_,
+                    .text = fmt::format("{} {} {}: left out", left_out_,
+                                        left_out_ == 1 ? "row" : "rows", others_)});
     }
     if (rows_ == 0 || any_valid_) {
         return builder_.finish(options);

@@ -3,8 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "drivers/trace/bad_cells.h"
 #include "drivers/trace/clock/trace_row.h"
@@ -25,8 +28,13 @@ class TraceRows {
     /// The table and the eyes must outlive the rows.
     TraceRows(CsvTable& table, gaze::PerEye<EyeCells>& eyes, TraceOrigin origin);
 
-    /// Reads all rows; `take_apart(row)` fills in what is not line or eyes, by the functions below.
-    /// Errors: those of the table and of the builder; no row with a valid eye.
+    /// Rows of which `is_gaze` is false are those of another stream, as files with several sensors
+    /// have them: they are left out, and noted as `what`. The table's current row is asked for.
+    void only_where(std::function<bool()> is_gaze, std::string_view what);
+
+    /// Reads all rows; `take_apart(row)` fills in what is not line or eyes, by the functions below,
+    /// and may take an eye's validity back. Errors: those of the table and of the builder; no row
+    /// with a valid eye.
     template <typename TakeApart>
     [[nodiscard]] Expected<gaze::GazeTrace> read(const ReadOptions& options,
                                                  const TakeApart& take_apart);
@@ -34,6 +42,10 @@ class TraceRows {
     /// The reading of the clock that gives a row its time; none where the cell holds none, of which
     /// the first is kept for messages: it is no whole number of `ticks` ("nanoseconds").
     [[nodiscard]] std::optional<std::int64_t> ticks(std::size_t column, std::string_view ticks);
+    /// The same of a clock in units of its `digits`th decimal; `unit` as the file has it
+    /// ("seconds").
+    [[nodiscard]] std::optional<std::int64_t> decimal_ticks(std::size_t column, int digits,
+                                                            std::string_view unit);
     /// The same of a clock or counter that a row can do without.
     [[nodiscard]] std::optional<std::int64_t> optional_ticks(std::optional<std::size_t> column);
     [[nodiscard]] std::optional<std::uint64_t> optional_count(std::optional<std::size_t> column);
@@ -46,13 +58,28 @@ class TraceRows {
     /// Counts a pose whose numbers make none.
     void refuse_head(std::size_t column, std::string_view why);
 
+    /// Takes back the validity of eyes that the file itself does not vouch for, and counts the row
+    /// by the reason, which is a literal: "during a blink (blink id)".
+    void refuse_eyes(TraceRow& row, std::string_view why);
+
   private:
     void refuse_unless_missing(RowPart part, std::size_t column);
     [[nodiscard]] Expected<gaze::GazeTrace> finish(const ReadOptions& options);
 
     CsvTable& table_;
+    struct Refused {
+        std::string_view why;
+        std::uint64_t rows = 0;
+        std::uint64_t first_line = 0;
+    };
+
     gaze::PerEye<EyeCells>& eyes_;
     TraceBuilder builder_;
+    std::function<bool()> is_gaze_;  ///< empty: all are
+    std::string_view others_;
+    std::uint64_t left_out_ = 0;
+    std::uint64_t first_left_out_ = 0;
+    std::vector<Refused> refused_;
     BadCells bad_;
     std::uint64_t rows_ = 0;
     bool any_valid_ = false;
@@ -68,14 +95,17 @@ Expected<gaze::GazeTrace> TraceRows::read(const ReadOptions& options, const Take
         if (!*more) {
             return finish(options);
         }
+        if (is_gaze_ && !is_gaze_()) {
+            first_left_out_ = left_out_++ == 0 ? table_.line() : first_left_out_;
+            continue;
+        }
         TraceRow row;
         row.line = table_.line();
         for (const gaze::Eye eye : gaze::kEyes) {
-            gaze::EyeRay& ray = row.eyes[gaze::index(eye)];
-            ray = eyes_[gaze::index(eye)].read(table_, bad_);
-            any_valid_ = any_valid_ || ray.valid;
+            row.eyes[gaze::index(eye)] = eyes_[gaze::index(eye)].read(table_, bad_);
         }
         take_apart(row);
+        any_valid_ = any_valid_ || row.eyes[0].valid || row.eyes[1].valid;
         builder_.add(row);
         ++rows_;
     }

@@ -20,6 +20,7 @@ struct TraceRow {
     std::optional<std::int64_t> other_ticks;
     std::optional<std::int64_t> host_ns;  ///< the host's clock at the arrival, where recorded
     gaze::PerEye<gaze::EyeRay> eyes;      ///< in our axes and units
+    std::optional<double> parallax_rad;   ///< as GazeSample has it
     std::optional<gaze::Pose> head;
 };
 

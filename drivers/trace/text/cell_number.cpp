@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <system_error>
 
 namespace gazeloop::drivers {
@@ -78,6 +79,70 @@ std::optional<std::int64_t> whole_number(std::string_view cell, NumberSpelling& 
 
 std::optional<std::uint64_t> count_number(std::string_view cell, NumberSpelling& seen) {
     return parsed_whole<std::uint64_t>(cell, seen);
+}
+
+namespace {
+
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Digits with an exponent, as programs write small times.
+std::optional<std::int64_t> decimal_of_real(std::string_view cell, int digits,
+                                            NumberSpelling& seen) {
+    constexpr double kMost = 9.2e18;
+    const std::optional<double> value = real_number(cell, seen);
+    const double scaled = value.value_or(0.0) * std::pow(10.0, digits);
+    if (!value || !(std::abs(scaled) < kMost)) {
+        return std::nullopt;
+    }
+    return std::llround(scaled);
+}
+
+}  // namespace
+
+std::optional<std::int64_t> decimal_number(std::string_view cell, int digits,
+                                           NumberSpelling& seen) {
+    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+    std::string_view rest = without_plus(cell);
+    const bool negative = rest.starts_with('-');
+    rest.remove_prefix(negative ? 1 : 0);
+    std::int64_t value = 0;
+    int behind = -1;  // digits behind the point, once there is one
+    bool rounds_up = false;
+    bool any_digit = false;
+    bool comma = false;
+    for (const char c : rest) {
+        if ((c == '.' || c == ',') && behind < 0) {
+            behind = 0;
+            comma = c == ',';
+            continue;
+        }
+        if (!is_digit(c)) {
+            return c == 'e' || c == 'E' ? decimal_of_real(cell, digits, seen) : std::nullopt;
+        }
+        any_digit = true;
+        if (behind >= digits) {
+            rounds_up = behind == digits ? c >= '5' : rounds_up;
+            ++behind;
+            continue;
+        }
+        behind += behind >= 0 ? 1 : 0;
+        if (value > (kMost - 9) / 10) {
+            return std::nullopt;
+        }
+        value = 10 * value + (c - '0');
+    }
+    if (!any_digit) {
+        return std::nullopt;
+    }
+    for (int missing = digits - std::clamp(behind, 0, digits); missing > 0; --missing) {
+        if (value > kMost / 10) {
+            return std::nullopt;
+        }
+        value *= 10;
+    }
+    value += rounds_up && value < kMost ? 1 : 0;
+    seen.decimal_comma = seen.decimal_comma || comma;
+    return negative ? -value : value;
 }
 
 bool says_no_number(std::string_view cell) {

@@ -23,6 +23,12 @@ struct NumberSpelling {
 [[nodiscard]] std::optional<std::uint64_t> count_number(std::string_view cell,
                                                         NumberSpelling& seen);
 
+/// A number in units of its `digits`th decimal, as a clock in seconds is read in nanoseconds (9):
+/// exactly, and what is behind that is rounded. None where it does not fit 64 bits. `digits` is 0
+/// to 18.
+[[nodiscard]] std::optional<std::int64_t> decimal_number(std::string_view cell, int digits,
+                                                         NumberSpelling& seen);
+
 /// Whether the cell says that there is no number: blank, "NaN", "-nan(ind)", "inf", "n/a", "null"
 /// and the like, in any case.
 [[nodiscard]] bool says_no_number(std::string_view cell);

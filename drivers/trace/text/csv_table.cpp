@@ -46,6 +46,24 @@ std::string shown(std::string_view cell) {
     return fmt::format("'{}{}'", text, cell.size() > kLongest ? "..." : "");
 }
 
+constexpr std::string_view kAnyUnit = " [*]";
+
+/// A column's name taken apart: "Time [ms]" is "Time" and "ms".
+struct NameAndUnit {
+    std::string_view name;
+    std::string_view unit;
+};
+
+NameAndUnit apart(std::string_view column) {
+    for (const auto& [open, close] : {std::pair{" [", ']'}, std::pair{" (", ')'}}) {
+        const std::size_t at = column.find(open);
+        if (column.ends_with(close) && at != std::string_view::npos) {
+            return {column.substr(0, at), column.substr(at + 2, column.size() - at - 3)};
+        }
+    }
+    return {column, {}};
+}
+
 std::string_view said(LineCells::Problem problem) {
     return problem == LineCells::Problem::OpenQuote
                ? "a cell's double quote is not closed on its line: close it, or remove the line "
@@ -60,11 +78,26 @@ std::string_view said(LineCells::Problem problem) {
 CsvTable::CsvTable(TextLines lines) : lines_(std::move(lines)) {}
 
 Expected<CsvTable> CsvTable::open(std::istream& in, std::string name) {
-    CsvTable table{TextLines{in, std::move(name)}};
+    return open(TextLines{in, std::move(name)});
+}
+
+Expected<CsvTable> CsvTable::open(TextLines lines) {
+    CsvTable table{std::move(lines)};
     for (const auto step : {&CsvTable::skip_preamble, &CsvTable::read_header}) {
         if (const Expected<void> done = (table.*step)(); !done) {
             return std::unexpected(done.error());
         }
+    }
+    return table;
+}
+
+Expected<CsvTable> CsvTable::without_header(TextLines lines, char separator,
+                                            std::span<const std::string> columns) {
+    CsvTable table{std::move(lines)};
+    table.separator_ = separator;
+    const std::vector<std::string_view> names(columns.begin(), columns.end());
+    if (const Expected<void> taken = table.take_header(names); !taken) {
+        return std::unexpected(taken.error());
     }
     return table;
 }
@@ -167,16 +200,23 @@ Expected<void> CsvTable::read_header() {
         seen_quotes_ = true;
         note(lines_.line(), "cells in double quotes: read without them");
     }
-    for (const std::string_view cell : cells_.cells()) {
+    return take_header(cells_.cells());
+}
+
+Expected<void> CsvTable::take_header(std::span<const std::string_view> names) {
+    for (const std::string_view cell : names) {
         const std::size_t at = header_.size();
         const bool is_new = column_of_.try_emplace(std::string{cell}, at).second;
         if (!is_new && !cell.empty()) {
             return lines_.error_here(
                 fmt::format("column {} occurs twice: rename or remove one", shown(cell)));
         }
-        const auto [other, is_only] = column_of_lower_case_.try_emplace(lower_case(cell), at);
-        if (!is_only) {
-            other->second = kNowhere;
+        for (auto* const columns : {&column_of_lower_case_, &column_of_unitless_}) {
+            const std::string_view name = columns == &column_of_unitless_ ? apart(cell).name : cell;
+            const auto [other, is_only] = columns->try_emplace(lower_case(name), at);
+            if (!is_only) {
+                other->second = kNowhere;
+            }
         }
         header_.emplace_back(cell);
     }
@@ -186,6 +226,11 @@ Expected<void> CsvTable::read_header() {
 std::size_t CsvTable::find(std::string_view column_name) const {
     if (const auto exactly = column_of_.find(column_name); exactly != column_of_.end()) {
         return exactly->second;
+    }
+    if (column_name.ends_with(kAnyUnit)) {
+        column_name.remove_suffix(kAnyUnit.size());
+        const auto unitless = column_of_unitless_.find(lower_case(column_name));
+        return unitless != column_of_unitless_.end() ? unitless->second : kNowhere;
     }
     const auto in_other_case = column_of_lower_case_.find(lower_case(column_name));
     return in_other_case != column_of_lower_case_.end() ? in_other_case->second : kNowhere;
@@ -205,8 +250,9 @@ std::optional<std::size_t> CsvTable::column(std::string_view column_name) {
     if (at == kNowhere) {
         return std::nullopt;
     }
-    if (header_[at] != column_name && std::find(in_other_case_.begin(), in_other_case_.end(),
-                                                header_[at]) == in_other_case_.end()) {
+    if (header_[at] != column_name && !column_name.ends_with(kAnyUnit) &&
+        std::find(in_other_case_.begin(), in_other_case_.end(), header_[at]) ==
+            in_other_case_.end()) {
         in_other_case_.push_back(header_[at]);
     }
     return at;
@@ -289,6 +335,15 @@ std::optional<std::uint64_t> CsvTable::count(std::size_t column) {
     note(seen);
     return value;
 }
+
+std::optional<std::int64_t> CsvTable::decimal(std::size_t column, int digits) {
+    NumberSpelling seen;
+    const std::optional<std::int64_t> value = decimal_number(cells_[column], digits, seen);
+    note(seen);
+    return value;
+}
+
+std::string_view CsvTable::unit(std::size_t column) const { return apart(header_[column]).unit; }
 
 std::string CsvTable::described(std::size_t column) const {
     return fmt::format("column '{}': {}", header_[column], shown(cells_[column]));

@@ -24,8 +24,9 @@ namespace gazeloop::drivers {
 /// and gzip (text_lines.h). Cells are separated by whichever of ',', ';', tab and '|' the header
 /// has most of, or by what a line "sep=;" before it says; they may stand in double quotes. Blank
 /// lines, and lines with '#', '//' or a single cell (a title) before the header, are skipped.
-/// Column names are known in any case. Numbers are written with a decimal point, or with a comma
-/// where that separates no cells, whatever the locale.
+/// Column names are known in any case; a name asked for with " [*]" at its end is known by any unit
+/// behind it, "Time [ms]" or "Time (ms)", or without one. Numbers are written with a decimal point,
+/// or with a comma where that separates no cells, whatever the locale.
 ///
 /// Every error is BadInput and says "NAME:LINE: what, and what to do". What was read although it is
 /// not usual is noted (report_to). No cell is an error: what to make of a cell that holds no number
@@ -38,6 +39,12 @@ class CsvTable {
     /// Reads the header line. `in` must outlive the table; `name` stands in messages. Errors: an
     /// empty file, those of TextLines, a column name that occurs twice, quotes that do not close.
     [[nodiscard]] static Expected<CsvTable> open(std::istream& in, std::string name);
+    /// The same of lines of which none, or the first alone, was read and held.
+    [[nodiscard]] static Expected<CsvTable> open(TextLines lines);
+    /// A table without a header line, whose columns are known from elsewhere. Errors: a name that
+    /// occurs twice.
+    [[nodiscard]] static Expected<CsvTable> without_header(TextLines lines, char separator,
+                                                           std::span<const std::string> columns);
 
     [[nodiscard]] const std::string& name() const { return lines_.name(); }
     [[nodiscard]] std::uint64_t header_line() const { return header_line_; }
@@ -67,6 +74,12 @@ class CsvTable {
     [[nodiscard]] std::optional<double> real(std::size_t column);
     [[nodiscard]] std::optional<std::int64_t> whole(std::size_t column);
     [[nodiscard]] std::optional<std::uint64_t> count(std::size_t column);
+    /// In units of the `digits`th decimal: seconds as nanoseconds (9).
+    [[nodiscard]] std::optional<std::int64_t> decimal(std::size_t column, int digits);
+    /// The cell itself, until the next row.
+    [[nodiscard]] std::string_view text(std::size_t column) const { return cells_[column]; }
+    /// What stands in brackets or parentheses behind a column's name; empty where nothing does.
+    [[nodiscard]] std::string_view unit(std::size_t column) const;
     /// Whether the cell is blank or says in words that there is no number (cell_number.h).
     [[nodiscard]] bool is_missing(std::size_t column) const {
         return says_no_number(cells_[column]);
@@ -86,6 +99,7 @@ class CsvTable {
     /// Goes to the header's line.
     [[nodiscard]] Expected<void> skip_preamble();
     [[nodiscard]] Expected<void> read_header();
+    [[nodiscard]] Expected<void> take_header(std::span<const std::string_view> names);
     /// Whether the line says what separates; takes it over.
     [[nodiscard]] Expected<bool> takes_separator(std::string_view line);
     /// Rows may all end with a separator that the header's end does not have, or the reverse.
@@ -100,6 +114,7 @@ class CsvTable {
     std::vector<std::string> header_;
     std::map<std::string, std::size_t, std::less<>> column_of_;
     std::map<std::string, std::size_t, std::less<>> column_of_lower_case_;
+    std::map<std::string, std::size_t, std::less<>> column_of_unitless_;  ///< in lower case
     LineCells cells_{kLongestLine};
     std::size_t width_ = 0;  ///< of each row; 0: no row yet
     std::vector<gaze::TraceFinding> notes_;

@@ -15,6 +15,15 @@ TextLines::TextLines(std::istream& in, std::string name)
     : bytes_(in), name_(std::move(name)), buffer_(2 * (kLongestLine + 1)) {}
 
 Expected<bool> TextLines::next() {
+    if (std::exchange(held_, false)) {
+        return any_;
+    }
+    const Expected<bool> any = read_line();
+    any_ = any.value_or(false);
+    return any;
+}
+
+Expected<bool> TextLines::read_line() {
     ++line_;
     std::size_t at = begin_;  // the first byte that was not looked at
     while (true) {

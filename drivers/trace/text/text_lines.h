@@ -29,6 +29,10 @@ class TextLines {
     /// text, a file that is known as something else (file_kind.h) or cannot be decompressed.
     [[nodiscard]] Expected<bool> next();
 
+    /// The next call of next() gives the same once more: for whoever looks what a file is. After a
+    /// call that gave no error.
+    void hold() { held_ = true; }
+
     /// The line without its end; until the next one is asked for.
     [[nodiscard]] std::string_view text() const { return text_; }
     /// Whether the line has an end: the last line of a file may not.
@@ -42,6 +46,7 @@ class TextLines {
     void report_to(gaze::TraceReport& report) const;
 
   private:
+    [[nodiscard]] Expected<bool> read_line();
     /// Reads on behind what is in the buffer, whose used part is given up: false at the end.
     [[nodiscard]] Expected<bool> fill();
 
@@ -53,6 +58,8 @@ class TextLines {
     bool after_cr_ = false;  ///< the line before ended with CR, and what follows was not looked at
     bool started_ = false;
     bool ended_ = false;
+    bool held_ = false;  ///< the line, or that there is none, is to be given once more
+    bool any_ = false;   ///< what the last call of next() gave
     std::string_view text_;
     std::uint64_t line_ = 0;
     std::uint64_t lone_cr_line_ = 0;  ///< the first that ended so; 0: none

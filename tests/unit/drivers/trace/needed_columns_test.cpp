@@ -84,7 +84,8 @@ TEST(NeededColumns, AreThoseOfOneEye) {
                 ElementsAre("1: no right eye, for want of its direction or 'eye_valid_R'"));
     EXPECT_THAT(refusal(htc_of({"time(100ns)", "eye_valid_L", "gaze_direct_L.x", "eye_valid_R",
                                 "gaze_direct_R.y", "gaze_direct_R.z"})),
-                HasSubstr("gaze.csv:1: unknown header; known formats: gazeloop, htc-vive-pro; for "
+                HasSubstr("gaze.csv:1: unknown header; known formats: " + known_formats() +
+                          "; for "
                           "htc-vive-pro it lacks 'gaze_direct_R.x'"));
 }
 

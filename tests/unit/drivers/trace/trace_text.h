@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sstream>
 #include <string>
@@ -14,6 +15,11 @@ inline Expected<gaze::GazeTrace> read_text(const std::string& text,
                                            std::string_view format = "auto") {
     std::istringstream in(text);
     return read_trace(in, "gaze.csv", {.format = std::string{format}});
+}
+
+/// As messages list them.
+inline std::string known_formats() {
+    return fmt::format("{}", fmt::join(trace_format_names(), ", "));
 }
 
 inline constexpr std::string_view kHtcHeader =

@@ -18,6 +18,37 @@ std::optional<std::int64_t> whole(std::string_view cell) {
     return whole_number(cell, seen);
 }
 
+std::optional<std::int64_t> decimal(std::string_view cell, int digits) {
+    NumberSpelling seen;
+    return decimal_number(cell, digits, seen);
+}
+
+TEST(DecimalNumber, IsExactAndRounded) {
+    EXPECT_EQ(decimal("0.006684", 9), 6'684'000);
+    EXPECT_EQ(decimal("-1.5", 9), -1'500'000'000);
+    EXPECT_EQ(decimal("1700000000.123456789", 9), 1'700'000'000'123'456'789) << "no double has it";
+    EXPECT_EQ(decimal("12", 6), 12'000'000);
+    EXPECT_EQ(decimal("+.5", 3), 500);
+    EXPECT_EQ(decimal("7.", 1), 70);
+    EXPECT_EQ(decimal("0.0005", 3), 1) << "rounded by the first digit behind";
+    EXPECT_EQ(decimal("0.00049999", 3), 0);
+    EXPECT_EQ(decimal("-0.0005", 3), -1);
+    EXPECT_EQ(decimal("2.5", 0), 3);
+    EXPECT_EQ(decimal("1.5E-3", 9), 1'500'000);
+    EXPECT_EQ(decimal("9223372036854775799", 0), 9'223'372'036'854'775'799);
+    NumberSpelling seen;
+    EXPECT_EQ(decimal_number("1,25", 2, seen), 125);
+    EXPECT_TRUE(seen.decimal_comma);
+}
+
+TEST(DecimalNumber, RefusesWhatIsNoneOrDoesNotFit) {
+    for (const std::string_view cell :
+         {"", "-", "+", ".", "abc", "1.2.3", "1,2,3", "1 2", "nan", "inf", "n/a", "--1", "+-1",
+          "e5", "1e99", "1e", "99999999999", "12345678901234567890"}) {
+        EXPECT_FALSE(decimal(cell, 9)) << cell;
+    }
+}
+
 TEST(RealNumber, ReadsPointsAndCommas) {
     NumberSpelling seen;
     EXPECT_EQ(real_number("-0.25", seen), -0.25);

@@ -1,0 +1,126 @@
+#include "drivers/trace/formats/screen_pixels.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "drivers/trace/screen_geometry.h"
+#include "tests/unit/drivers/trace/formats/format_files.h"
+#include "tests/unit/drivers/trace/trace_findings.h"
+
+namespace gazeloop::drivers {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr std::string_view kSidecar =
+    R"({"screen_size_m": [0.4, 0.3], "screen_px": [1000, 600], "view_distance_m": 0.5,
+        "missing": "x and y are 0,0"})";
+
+ScreenGeometry screen() {
+    return {.size_m = {0.4, 0.3}, .size_px = {1000.0, 600.0}, .middle_m = {0.0, 0.0, -0.5}};
+}
+
+TEST(ScreenGeometry, TurnsPixelsIntoDirections) {
+    expect_near(screen().direction({500.0, 300.0}), {0.0, 0.0, -0.5});
+    expect_near(screen().direction({0.0, 0.0}), {-0.2, 0.15, -0.5});
+    expect_near(screen().direction({1000.0, 600.0}), {0.2, -0.15, -0.5});
+    expect_near(screen().direction({501.0, 300.0}), {0.0004, 0.0, -0.5});
+    expect_near(screen().direction({-1000.0, 300.0}), {-0.6, 0.0, -0.5});
+    EXPECT_NEAR(right_deg(screen().direction({1750.0, 300.0})), 45.0, 1e-9);
+    ScreenGeometry other = screen();
+    other.from_left = false;
+    other.from_top = false;
+    expect_near(other.direction({0.0, 0.0}), {0.2, -0.15, -0.5});
+    EXPECT_TRUE(std::isnan(screen().direction({std::numeric_limits<double>::quiet_NaN(), 0.0}).x));
+}
+
+TEST(ScreenGeometry, RefusesWhatIsNoScreen) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double inf = std::numeric_limits<double>::infinity();
+    EXPECT_TRUE(screen().check());
+    for (const double bad : {0.0, -1.0, nan, inf, 1e9}) {
+        for (const int axis : {0, 1}) {
+            ScreenGeometry size = screen();
+            size.size_m[axis] = bad;
+            EXPECT_FALSE(size.check()) << bad;
+            ScreenGeometry pixels = screen();
+            pixels.size_px[axis] = bad;
+            EXPECT_FALSE(pixels.check()) << bad;
+        }
+        ScreenGeometry distance = screen();
+        distance.middle_m.z = -bad;
+        EXPECT_FALSE(distance.check()) << bad;
+    }
+    ScreenGeometry large = screen();
+    large.size_px = {16384.0, 16384.0};
+    EXPECT_TRUE(large.check());
+    large.size_m = {520.0, 290.0};
+    EXPECT_THAT(large.check().error(), HasSubstr("write it in metres"));
+}
+
+TEST(ScreenPixels, NeedsTheSidecarsGeometry) {
+    RecordingFolder folder;
+    const std::string rows = "t_ms,x_px,y_px\n0.0,500,300\n2.0,1750,300\n4.0,0,0\n6.0,500,0\n";
+    const std::string file = folder.write("a.csv", rows);
+    EXPECT_THAT(refusal(file), HasSubstr("a.csv: no geometry of the screen; pixels have no "
+                                         "direction without screen_size_m"));
+    folder.write("a.json", R"({"screen_px": [1000, 600]})");
+    EXPECT_THAT(refusal(file), HasSubstr("a.json lacks one of them"));
+    folder.write("a.json", R"({"screen_size_m": [400, 300], "screen_px": [1000, 600],
+                               "view_distance_m": 500})");
+    EXPECT_THAT(refusal(file), HasSubstr("a.json: a size of 400 x 300 m is no screen's"));
+    folder.write("a.json", "[]");
+    EXPECT_THAT(refusal(file), HasSubstr("a.json: not a JSON object"));
+
+    folder.write("a.json", std::string{kSidecar});
+    const gaze::GazeTrace trace = value_or_throw(read_trace(file));
+    EXPECT_EQ(trace.format, "screen-px");
+    ASSERT_EQ(trace.samples.size(), 4U);
+    EXPECT_EQ(trace.samples[1].sampled.ns, 2'000'000);
+    expect_near(trace.samples[0].eyes[0].direction, {0.0, 0.0, -1.0});
+    EXPECT_NEAR(right_deg(trace.samples[1].eyes[1].direction), 45.0, 1e-9);
+    EXPECT_NEAR(up_deg(trace.samples[3].eyes[1].direction), glm::degrees(std::atan2(0.15, 0.5)),
+                1e-9);
+    EXPECT_FALSE(trace.samples[2].eyes[0].valid);
+    EXPECT_THAT(told(trace, gaze::TraceFindingKind::RefusedByBit),
+                ElementsAre("4: gaze not vouched for in 1 row: x and y are 0,0"));
+    EXPECT_TRUE(trace.samples[0].parallax_rad);
+}
+
+TEST(ScreenPixels, IsRefusedFromAStream) {
+    std::istringstream in("t_ms,x_px,y_px\n0,1,2\n");
+    const auto trace = read_trace(in, "stdin");
+    ASSERT_FALSE(trace);
+    EXPECT_THAT(trace.error().message, HasSubstr("no geometry of the screen"));
+}
+
+TEST(AnderssonRecordings, AreAllRead) {
+    const auto folder = recordings() / "andersson2017";
+    if (!std::filesystem::exists(folder)) {
+        GTEST_SKIP() << "no recorded data";
+    }
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (entry.path().extension() != ".csv") {
+            continue;
+        }
+        const gaze::GazeTrace trace = value_or_throw(read_trace(entry.path().string()));
+        EXPECT_NEAR(trace.report.rate_hz, 500.0, 1.0) << entry.path();
+        EXPECT_EQ(trace.report.rows_dropped(), 0U) << entry.path();
+        for (const gaze::GazeSample& sample : trace.samples) {
+            if (sample.eyes[0].valid) {
+                EXPECT_LT(sample.eyes[0].direction.z, 0.0);
+            }
+        }
+        ++files;
+    }
+    EXPECT_GE(files, 20U);
+}
+
+}  // namespace
+}  // namespace gazeloop::drivers
