@@ -1,0 +1,177 @@
+#include "runtime/gaze/gaze_quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <vector>
+
+#include "runtime/gaze/direction.h"
+#include "runtime/gaze/sample_rate.h"
+
+namespace gazeloop::gaze {
+namespace {
+
+/// A longer step than so many median intervals breaks a window.
+constexpr double kBreak = 1.75;
+
+double at_share(std::vector<double>& values, double share) {
+    const auto place =
+        values.begin() +
+        static_cast<std::ptrdiff_t>(std::llround(share * static_cast<double>(values.size() - 1)));
+    std::ranges::nth_element(values, place);
+    return *place;
+}
+
+double ms(std::int64_t ns) { return static_cast<double>(ns) * 1e-6; }
+
+std::vector<const GazeSample*> in_order(std::span<const GazeSample> samples) {
+    std::vector<const GazeSample*> ordered;
+    for (const GazeSample& sample : samples) {
+        if (sample.sampled.known() &&
+            (ordered.empty() || sample.sampled.ns > ordered.back()->sampled.ns)) {
+            ordered.push_back(&sample);
+        }
+    }
+    return ordered;
+}
+
+Intervals intervals_of(const std::vector<const GazeSample*>& samples, double rate_hz) {
+    std::vector<double> steps_ms;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        steps_ms.push_back(ms(samples[i]->sampled.ns - samples[i - 1]->sampled.ns));
+    }
+    Intervals intervals{.median_ms = at_share(steps_ms, 0.5),
+                        .p05_ms = at_share(steps_ms, 0.05),
+                        .p95_ms = at_share(steps_ms, 0.95)};
+    const double asked_for =
+        ms(samples.back()->sampled.ns - samples.front()->sampled.ns) * 1e-3 * rate_hz;
+    if (asked_for > 0.0) {
+        const double there = static_cast<double>(steps_ms.size());
+        intervals.missing_percent = std::max(0.0, 100.0 * (1.0 - there / asked_for));
+    }
+    return intervals;
+}
+
+Losses losses_of(const std::vector<const GazeSample*>& samples) {
+    constexpr double kShortestBlink_ms = 100.0;
+    constexpr double kLongestBlink_ms = 400.0;
+    Losses losses;
+    std::vector<double> lengths_ms;
+    double all_ms = 0.0;
+    std::optional<std::int64_t> seen_ns;  // the last sample with a valid eye
+    bool lost = false;
+    for (const GazeSample* const sample : samples) {
+        if (!sample->eyes[0].valid && !sample->eyes[1].valid) {
+            lost = true;
+            continue;
+        }
+        if (lost && seen_ns) {
+            const double length_ms = ms(sample->sampled.ns - *seen_ns);
+            lengths_ms.push_back(length_ms);
+            all_ms += length_ms;
+            losses.as_blinks +=
+                length_ms >= kShortestBlink_ms && length_ms <= kLongestBlink_ms ? 1U : 0U;
+        }
+        lost = false;
+        seen_ns = sample->sampled.ns;
+    }
+    losses.count = lengths_ms.size();
+    if (!lengths_ms.empty()) {
+        losses.median_ms = at_share(lengths_ms, 0.5);
+        losses.longest_ms = std::ranges::max(lengths_ms);
+        losses.percent =
+            100.0 * all_ms / ms(samples.back()->sampled.ns - samples.front()->sampled.ns);
+    }
+    return losses;
+}
+
+struct Window {
+    double step_rad;
+    double deviation_rad;
+};
+
+Window window_of(std::span<const glm::dvec3> directions) {
+    glm::dvec3 sum{0.0};
+    for (const glm::dvec3& direction : directions) {
+        sum += direction;
+    }
+    const glm::dvec3 mean = unit(sum).value_or(directions.front());
+    double steps = 0.0;
+    double distances = 0.0;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const double distance = angle_between(directions[i], mean);
+        distances += distance * distance;
+        if (i > 0) {
+            const double step = angle_between(directions[i], directions[i - 1]);
+            steps += step * step;
+        }
+    }
+    const auto count = static_cast<double>(directions.size());
+    return {std::sqrt(steps / (count - 1.0)), std::sqrt(distances / count)};
+}
+
+std::optional<EyePrecision> precision_of(const std::vector<const GazeSample*>& samples,
+                                         std::size_t eye, double median_ms) {
+    constexpr std::size_t kFewest = 4;  // samples of a window
+    std::vector<Window> windows;
+    std::vector<glm::dvec3> directions;
+    std::int64_t begin_ns = 0;
+    std::int64_t before_ns = 0;
+    for (const GazeSample* const sample : samples) {
+        const std::int64_t now_ns = sample->sampled.ns;
+        if (!directions.empty() &&
+            (!sample->eyes[eye].valid || ms(now_ns - before_ns) > kBreak * median_ms)) {
+            directions.clear();
+        }
+        before_ns = now_ns;
+        if (!sample->eyes[eye].valid) {
+            continue;
+        }
+        if (!directions.empty() && ms(now_ns - begin_ns) >= kQualityWindow_ms) {
+            if (directions.size() >= kFewest) {
+                windows.push_back(window_of(directions));
+            }
+            directions.clear();
+        }
+        begin_ns = directions.empty() ? now_ns : begin_ns;
+        directions.push_back(sample->eyes[eye].direction);
+    }
+    if (windows.empty()) {
+        return std::nullopt;
+    }
+    EyePrecision precision{.windows = windows.size()};
+    std::ranges::sort(windows, {}, &Window::deviation_rad);
+    windows.resize((windows.size() + 1) / 2);
+    std::vector<double> steps;
+    std::vector<double> deviations;
+    std::vector<double> ratios;
+    for (const Window& window : windows) {
+        steps.push_back(window.step_rad);
+        deviations.push_back(window.deviation_rad);
+        ratios.push_back(window.deviation_rad > 0.0 ? window.step_rad / window.deviation_rad : 0.0);
+    }
+    precision.sample_to_sample_deg = glm::degrees(at_share(steps, 0.5));
+    precision.deviation_deg = glm::degrees(at_share(deviations, 0.5));
+    precision.step_per_deviation = at_share(ratios, 0.5);
+    return precision;
+}
+
+}  // namespace
+
+GazeQuality gaze_quality(std::span<const GazeSample> samples) {
+    const std::vector<const GazeSample*> ordered = in_order(samples);
+    GazeQuality quality;
+    if (ordered.size() < 2) {
+        return quality;
+    }
+    quality.duration_s = ms(ordered.back()->sampled.ns - ordered.front()->sampled.ns) * 1e-3;
+    quality.intervals = intervals_of(ordered, sample_rate_hz(samples));
+    quality.losses = losses_of(ordered);
+    for (const Eye eye : kEyes) {
+        quality.precision[index(eye)] =
+            precision_of(ordered, index(eye), quality.intervals->median_ms);
+    }
+    return quality;
+}
+
+}  // namespace gazeloop::gaze
