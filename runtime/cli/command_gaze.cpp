@@ -4,53 +4,53 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "drivers/trace/axes_correction.h"
-#include "drivers/trace/read_trace.h"
 #include "runtime/cli/commands.h"
+#include "runtime/cli/recorded_gaze.h"
 #include "runtime/cli/run_options.h"
+#include "runtime/gaze/gaze_comparison.h"
+#include "runtime/report/gaze_comparison_text.h"
 #include "runtime/report/gaze_report.h"
 #include "runtime/report/output_file.h"
 #include "runtime/report/summary_json.h"
-#include "runtime/run/trace_of_session.h"
 
 namespace gazeloop::cli {
 namespace {
 
 struct GazeCommand {
     LogOptions log;
-    drivers::ReadOptions read;
+    RecordedGazeOptions recorded;
     std::string file;
-    std::string axes = "none";
+    std::string other;
     std::string json;
 };
 
-/// A trace of which too much was dropped or changed is looked at all the same; `refusal` then says
-/// what a run would.
-gaze::GazeTrace gaze_of(const GazeCommand& command, std::string& refusal) {
-    if (session::looks_like_session(command.file)) {
-        return run::trace_of_session(value_or_throw(session::OpenSession::open(command.file)));
+/// Two recordings of the same eyes.
+ExitCode compare(const GazeCommand& command) {
+    const gaze::GazeTrace one = recorded_gaze(command.file, command.recorded);
+    const gaze::GazeTrace other = recorded_gaze(command.other, command.recorded);
+    const gaze::GazeComparison comparison =
+        value_or_throw(gaze::compare_gaze(one.samples, other.samples));
+    if (command.json != "-") {
+        fmt::print("{}\n{}\n{}", one.file, other.file, report::gaze_comparison_text(comparison));
     }
-    drivers::ReadOptions options = command.read;
-    options.axes = drivers::axes_correction_named(command.axes);
-    auto trace = drivers::read_trace(command.file, options);
-    if (trace || options.accept_repairs) {
-        return value_or_throw(std::move(trace));
+    if (!command.json.empty()) {
+        nlohmann::ordered_json json{{"files", {one.file, other.file}},
+                                    {"comparison", report::gaze_comparison_json(comparison)}};
+        value_or_throw(report::write_text(command.json, report::json_text(json)));
     }
-    options.accept_repairs = true;
-    auto repaired = drivers::read_trace(command.file, options);
-    if (!repaired) {
-        throw SetupError(trace.error());
-    }
-    refusal = trace.error().message;
-    return std::move(*repaired);
+    return ExitCode::Ok;
 }
 
 ExitCode gaze(const GazeCommand& command) {
     if (!command.json.empty()) {
         value_or_throw(report::check_output(command.json));
     }
+    if (!command.other.empty()) {
+        return compare(command);
+    }
     std::string refusal;
-    const gaze::GazeTrace trace = gaze_of(command, refusal);
+    const gaze::GazeTrace trace =
+        recorded_gaze_even_refused(command.file, command.recorded, refusal);
     if (command.json != "-") {
         fmt::print("{}", report::gaze_text(trace));
     }
@@ -72,16 +72,15 @@ ExitCode gaze(const GazeCommand& command) {
 
 void add_gaze_command(Command program) {
     Command app = program.command(
-        "gaze", "what a recorded trace's reader found; exit code 3: run and replay refuse it");
+        "gaze", "how far recorded gaze can be trusted; exit code 3: run and replay refuse it");
     const auto command = std::make_shared<GazeCommand>();
     app.option("file", command->file, "a trace, or a session written by --record")
         .required()
         .type("TRACE|SESSION");
-    app.option("--format", command->read.format, "auto, gazeloop, htc-vive-pro");
-    app.option("--axes", command->axes, "turn its directions")
-        .one_of({drivers::kAxesCorrectionNames.begin(), drivers::kAxesCorrectionNames.end()});
-    app.flag("--accept-repairs", command->read.accept_repairs,
-             "it may be one of which much was dropped or changed");
+    app.option("other", command->other,
+               "another recording of the same eyes at the same time: lag, gain and offset")
+        .type("TRACE|SESSION");
+    command->recorded.add_to(app);
     app.option("--json", command->json, "write it as JSON; without a file, to stdout")
         .value_optional("-")
         .type("[FILE]");

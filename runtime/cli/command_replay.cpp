@@ -13,6 +13,7 @@
 #include "drivers/session/session_source.h"
 #include "drivers/trace/read_trace.h"
 #include "runtime/cli/commands.h"
+#include "runtime/cli/recorded_gaze.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/run/frame_run.h"
@@ -186,7 +187,7 @@ void add_replay_command(Command program, const std::string& command_line) {
     app.option("file", command->file, "a trace, or a session written by --record")
         .required()
         .type("TRACE|SESSION");
-    app.option("--format", command->format, "auto, gazeloop, htc-vive-pro");
+    app.option("--format", command->format, trace_formats_text());
     app.option("--clock", command->clock,
                "virtual: the same result on every run; wall: in real time")
         .one_of({"virtual", "wall"});

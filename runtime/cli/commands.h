@@ -12,6 +12,7 @@ void add_replay_command(Command program, const std::string& command_line);
 void add_numerics_command(Command program);
 void add_probe_command(Command program, const std::string& command_line);
 void add_report_command(Command program);
+void add_convert_command(Command program);
 void add_gaze_command(Command program);
 void add_plan_command(Command program);
 void add_calibrate_command(Command program, const std::string& command_line);

@@ -55,6 +55,7 @@ int gazeloop_main(int count, char** arguments) {
         gazeloop::cli::add_probe_command(program, command_line);
         gazeloop::cli::add_report_command(program);
         gazeloop::cli::add_gaze_command(program);
+        gazeloop::cli::add_convert_command(program);
         gazeloop::cli::add_plan_command(program);
         gazeloop::cli::add_compare_command(program);
         gazeloop::cli::add_trade_command(program);

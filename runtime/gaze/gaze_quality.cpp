@@ -11,8 +11,11 @@
 namespace gazeloop::gaze {
 namespace {
 
-/// A longer step than so many median intervals breaks a window.
-constexpr double kBreak = 1.75;
+/// The longest step within a window: of trackers that come evenly less than two intervals, else a
+/// little more than what is usual.
+double longest_step_ms(const Intervals& intervals) {
+    return std::max(1.75 * intervals.median_ms, 1.25 * intervals.p95_ms);
+}
 
 double at_share(std::vector<double>& values, double share) {
     const auto place =
@@ -111,16 +114,18 @@ Window window_of(std::span<const glm::dvec3> directions) {
 }
 
 std::optional<EyePrecision> precision_of(const std::vector<const GazeSample*>& samples,
-                                         std::size_t eye, double median_ms) {
+                                         std::size_t eye, double longest_ms) {
     constexpr std::size_t kFewest = 4;  // samples of a window
     std::vector<Window> windows;
     std::vector<glm::dvec3> directions;
     std::int64_t begin_ns = 0;
     std::int64_t before_ns = 0;
+    bool had_head = false;
     for (const GazeSample* const sample : samples) {
         const std::int64_t now_ns = sample->sampled.ns;
-        if (!directions.empty() &&
-            (!sample->eyes[eye].valid || ms(now_ns - before_ns) > kBreak * median_ms)) {
+        const bool other_frame = sample->head.has_value() != had_head;
+        had_head = sample->head.has_value();
+        if (other_frame || !sample->eyes[eye].valid || ms(now_ns - before_ns) > longest_ms) {
             directions.clear();
         }
         before_ns = now_ns;
@@ -134,7 +139,8 @@ std::optional<EyePrecision> precision_of(const std::vector<const GazeSample*>& s
             directions.clear();
         }
         begin_ns = directions.empty() ? now_ns : begin_ns;
-        directions.push_back(sample->eyes[eye].direction);
+        const glm::dvec3& in_head = sample->eyes[eye].direction;
+        directions.push_back(sample->head ? sample->head->orientation * in_head : in_head);
     }
     if (windows.empty()) {
         return std::nullopt;
@@ -169,7 +175,7 @@ GazeQuality gaze_quality(std::span<const GazeSample> samples) {
     quality.losses = losses_of(ordered);
     for (const Eye eye : kEyes) {
         quality.precision[index(eye)] =
-            precision_of(ordered, index(eye), quality.intervals->median_ms);
+            precision_of(ordered, index(eye), longest_step_ms(*quality.intervals));
     }
     return quality;
 }

@@ -50,7 +50,8 @@ struct GazeQuality {
 inline constexpr double kQualityWindow_ms = 200.0;
 
 /// Of samples in the order of their times; those whose time is unknown or goes back are left out.
-/// Directions are those in the head.
+/// An eye rests where its gaze rests in the world, where the head is known: while the head turns,
+/// it turns in the head.
 [[nodiscard]] GazeQuality gaze_quality(std::span<const GazeSample> samples);
 
 }  // namespace gazeloop::gaze

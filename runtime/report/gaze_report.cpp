@@ -12,6 +12,7 @@
 #include "runtime/gaze/anatomy.h"
 #include "runtime/gaze/sample_rate.h"
 #include "runtime/latency/sample_counter.h"
+#include "runtime/report/gaze_quality_text.h"
 #include "runtime/report/trace_account.h"
 #include "runtime/report/wrapped_row.h"
 
@@ -112,6 +113,21 @@ std::string findings_text(const gaze::TraceReport& report) {
     return text.empty() ? wrapped_row("found", "nothing dropped or changed") : text;
 }
 
+/// How many rows each kind of finding concerns, over the whole file.
+Json counts_json(const gaze::TraceReport& report) {
+    Json counts = Json::array();
+    for (std::size_t kind = 0; kind < gaze::kTraceFindingKinds; ++kind) {
+        const auto& count = report.count(static_cast<gaze::TraceFindingKind>(kind));
+        if (count.times > 0) {
+            counts.push_back({{"kind", gaze::kTraceFindingNames[kind]},
+                              {"findings", count.times},
+                              {"rows", count.rows},
+                              {"dropped", count.dropped}});
+        }
+    }
+    return counts;
+}
+
 }  // namespace
 
 std::string gaze_text(const gaze::GazeTrace& trace) {
@@ -137,6 +153,7 @@ std::string gaze_text(const gaze::GazeTrace& trace) {
     row("eyes", fmt::format("left valid {:.1f} %, right {:.1f} %, both {:.1f} %",
                             percent(found.valid[0], all), percent(found.valid[1], all),
                             percent(found.both_valid, all)));
+    text += quality_text(trace);
     row("axes", directions_of(trace));
     row("head", found.with_head > 0 ? fmt::format("recorded with {:.1f} % of the samples",
                                                   percent(found.with_head, all))
@@ -167,6 +184,8 @@ Json gaze_json(const gaze::GazeTrace& trace) {
                 {"right", percent(found.valid[1], all)},
                 {"both", percent(found.both_valid, all)}}},
               {"head_percent", percent(found.with_head, all)}};
+    add_quality(trace, json);
+    json["counts"] = counts_json(trace.report);
     TraceAccount account;
     for (const std::string& event : trace_events(trace.report)) {
         account.take(frame::kTraceEvent.name, event);

@@ -4,6 +4,7 @@
 
 #include "runtime/report/lag_reasons.h"
 #include "runtime/report/prediction_text.h"
+#include "runtime/report/smoothing_text.h"
 #include "runtime/time/milliseconds.h"
 
 namespace gazeloop::report {
@@ -12,80 +13,15 @@ namespace {
 using gaze::SmoothingVerdict;
 using latency::Verdict;
 
-/// "163 saccades peak at .98 (95 % confidence .96 to 1.01) of what ..."
-std::string speed_text(const gaze::SmoothingFinding& found) {
-    return fmt::format(
-        "{} saccades peak at {:.2f} times the main sequence (median; 95 % "
-        "confidence {:.2f} to {:.2f}), as this rate of {:.0f} Hz and this noise "
-        "show it",
-        found.saccades, *found.speed, found.speed_low, found.speed_high, found.rate_hz);
-}
-
-std::string time_constant_text(const gaze::SmoothingFinding& found) {
-    if (!found.time_constant_ms) {
-        return "";
-    }
-    const bool longest = *found.time_constant_ms >= gaze::GazeSmoothing::kLongestTimeConstant_ms;
-    return fmt::format(
-        ", as behind an exponential filter with a time constant of about {:.0f} ms"
-        "{}, a lag that no stage shows",
-        *found.time_constant_ms, longest ? " or more" : "");
-}
-
-std::string what_was_looked_at(const gaze::SmoothingFinding& found) {
-    std::string text;
-    if (found.stopped) {
-        text += fmt::format("; only the first {:.0f} s were looked at", found.looked_at_s);
-    }
-    if (!found.in_world) {
-        text += "; no head poses are known, and a head that turns makes eyes look slow";
-    }
-    return text;
-}
-
 LagAnswer smoothed(const LagFacts& facts) {
     const gaze::SmoothingFinding& found = facts.smoothing;
     LagAnswer answer{.key = "smoothed", .question = "Is the gaze smoothed by the runtime?"};
-    switch (found.verdict) {
-        case SmoothingVerdict::Smoothed:
-            answer.kind = LagAnswerKind::Yes;
-            answer.why = speed_text(found) + time_constant_text(found) + what_was_looked_at(found);
-            break;
-        case SmoothingVerdict::NotSmoothed:
-            answer.kind = LagAnswerKind::No;
-            answer.why = speed_text(found) +
-                         "; a filter that takes less than a fifth of the peak would pass unseen" +
-                         what_was_looked_at(found);
-            break;
-        case SmoothingVerdict::Unclear:
-            answer.why = speed_text(found) +
-                         "; some eyes are as slow as .8, so that it takes more saccades to tell" +
-                         what_was_looked_at(found);
-            break;
-        case SmoothingVerdict::TooFewSaccades:
-            answer.why = fmt::format(
-                "too few saccades: {} of 2 to 30 deg stand out from the noise, "
-                "{} are needed; look around for half a minute",
-                found.saccades, gaze::GazeSmoothing::kFewestSaccades);
-            break;
-        case SmoothingVerdict::TooSlow:
-            answer.why = fmt::format(
-                "samples come at {:.0f} Hz; peaks of saccades need {:.0f} Hz "
-                "or more",
-                found.rate_hz, gaze::GazeSmoothing::kLeastRate_hz);
-            break;
-        case SmoothingVerdict::Repeated:
-            answer.why =
-                "most samples repeat the one before, so that speeds mean nothing: the "
-                "gaze stands still, or the tracker reports more often than it looks";
-            break;
-        case SmoothingVerdict::NoTimes:
-            answer.why = "no sample says when the eye was seen, so that speeds are unknown";
-            break;
-        case SmoothingVerdict::NoSamples:
-            answer.why = "no sample came";
-            break;
+    if (found.verdict == SmoothingVerdict::Smoothed) {
+        answer.kind = LagAnswerKind::Yes;
+    } else if (found.verdict == SmoothingVerdict::NotSmoothed) {
+        answer.kind = LagAnswerKind::No;
     }
+    answer.why = smoothing_text(found);
     return answer;
 }
 

@@ -85,6 +85,32 @@ TEST(GazeQuality, KnowsSmoothedNoiseByItsSmallSteps) {
     EXPECT_LT(gaze_quality(samples).precision[0]->step_per_deviation, 0.7);
 }
 
+/// Steps of 4 and 8 ms in turns, as some exports have them.
+TEST(GazeQuality, LooksAtUnevenSamples) {
+    std::vector<GazeSample> samples;
+    for (int i = 0; i < 1000; ++i) {
+        samples.push_back(sample(12.0 * (i / 2) + 4.0 * (i % 2), 0.01 * (i % 2)));
+    }
+    ASSERT_TRUE(gaze_quality(samples).precision[0]);
+    EXPECT_NEAR(gaze_quality(samples).precision[0]->sample_to_sample_deg, 0.01, 1e-6);
+}
+
+/// A head that turns to the left at 20 deg/s, and an eye that stays on a point in the world.
+TEST(GazeQuality, KnowsAnEyeThatRestsInTheWorld) {
+    std::vector<GazeSample> samples;
+    for (int i = 0; i < 1000; ++i) {
+        const double head_deg = 0.04 * i;
+        samples.push_back(sample(2.0 * i, head_deg));
+        samples.back().head = Pose{
+            glm::angleAxis(glm::radians(head_deg), glm::dvec3{0.0, 1.0, 0.0}), glm::dvec3{0.0}};
+    }
+    EXPECT_LT(gaze_quality(samples).precision[0]->deviation_deg, 1e-6);
+    for (GazeSample& sample : samples) {
+        sample.head.reset();
+    }
+    EXPECT_GT(gaze_quality(samples).precision[0]->deviation_deg, 1.0);
+}
+
 TEST(GazeQuality, IsSafeWithLittle) {
     EXPECT_FALSE(gaze_quality({}).intervals);
     std::vector<GazeSample> samples{sample(0.0, 0.0)};
