@@ -13,6 +13,7 @@
 #include "drivers/trace/companion_table.h"
 #include "drivers/trace/directions.h"
 #include "drivers/trace/eye_cells.h"
+#include "drivers/trace/json_file.h"
 #include "drivers/trace/trace_rows.h"
 
 namespace gazeloop::drivers {
@@ -61,8 +62,9 @@ EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
 struct Beside {
     std::optional<TimedNumbers> eyeballs;
     std::optional<TimedNumbers> imu;
-    std::optional<TimedNumbers>
-        blinks;  ///< by their starts; the end's ns as a double is 256 ns off
+    bool is_neon = false;
+    /// By their starts; an end, as a double, may be 128 ns off.
+    std::optional<TimedNumbers> blinks;
 };
 
 Expected<Beside> read_beside(CsvTable& table, const TraceFile& file) {
@@ -90,6 +92,17 @@ Expected<Beside> read_beside(CsvTable& table, const TraceFile& file) {
             note(fmt::format("{} beside it: read", wanted.name));
         }
     }
+    const auto info = file.empty()
+                          ? Expected<std::optional<nlohmann::json>>{std::optional<nlohmann::json>{}}
+                          : read_json_object(file.parent_path() / "info.json");
+    if (!info) {
+        return std::unexpected(info.error());
+    }
+    const std::string mode = *info ? text_in(**info, "gaze_mode") : std::string{};
+    if (!mode.empty()) {
+        note(fmt::format("info.json beside it: gaze_mode {}", mode));
+    }
+    beside.is_neon = beside.eyeballs || beside.imu || !mode.empty();
     return beside;
 }
 
@@ -156,7 +169,7 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const Rea
     TraceRows rows(table, eyes,
                    {.file = table.name(),
                     .format = kName,
-                    .device = beside->eyeballs || beside->imu ? "Pupil Labs Neon" : "Pupil Labs"});
+                    .device = beside->is_neon ? "Pupil Labs Neon" : "Pupil Labs"});
     if (const auto recording = table.column(kRecording)) {
         rows.only_where(
             [&table, at = *recording, first = std::string{}]() mutable {

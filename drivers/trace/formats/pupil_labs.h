@@ -17,6 +17,7 @@ namespace gazeloop::drivers {
 ///   further than 50 ms from a reading. The scene camera is turned by 102 degrees about X against
 ///   the IMU. The IMU's world has Y north and Z up; ours has -Z north. Nobody records the head's
 ///   position: it stays at the origin.
+/// - info.json: its gaze_mode, binocular or monocular, is noted.
 ///
 /// Source: Pupil Labs, "Data Streams" and "IMU Transformations" of Neon's documentation.
 [[nodiscard]] const TraceFormat& pupil_labs();

@@ -3,12 +3,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <span>
 #include <utility>
 
 #include "drivers/trace/text/file_kind.h"
 
 namespace gazeloop::drivers {
+
+namespace {
+
+/// The first byte from `at` on that is below a space, or `end`; eight bytes at a time.
+std::size_t first_control(std::span<const char> bytes, std::size_t at, std::size_t end) {
+    constexpr std::uint64_t kOnes = 0x0101'0101'0101'0101;
+    constexpr std::uint64_t kHighBits = 0x80 * kOnes;
+    for (; at + sizeof(std::uint64_t) <= end; at += sizeof(std::uint64_t)) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data() + at, sizeof(word));
+        // A byte below ' ' borrows into its high bit, which a byte of 128 or more has already.
+        if (((word - ' ' * kOnes) & ~word & kHighBits) != 0) {
+            break;
+        }
+    }
+    while (at != end && static_cast<unsigned char>(bytes[at]) >= ' ') {
+        ++at;
+    }
+    return at;
+}
+
+}  // namespace
 
 TextLines::TextLines(std::istream& in, std::string name)
     // Twice the longest, so that little is moved when more is read behind a part of a line.
@@ -36,8 +60,12 @@ Expected<bool> TextLines::read_line() {
             }
         }
         for (; at != end_; ++at) {
+            at = first_control(buffer_, at, end_);
+            if (at == end_) {
+                break;
+            }
             const auto c = static_cast<unsigned char>(buffer_[at]);
-            if (c >= ' ' || c == '\t') [[likely]] {
+            if (c == '\t') {
                 continue;
             }
             if (c != '\n' && c != '\r') {

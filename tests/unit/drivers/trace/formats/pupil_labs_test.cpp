@@ -159,6 +159,19 @@ TEST(PupilLabs, ReadsTheFirstOfSeveralRecordings) {
                 ElementsAre("4: 1 row of other recordings: left out"));
 }
 
+TEST(PupilLabs, NotesFromHowManyEyesTheGazeIs) {
+    RecordingFolder folder;
+    folder.write("info.json", R"({"gaze_mode": "monocular", "wearer_name": "A"})");
+    const gaze::GazeTrace trace =
+        value_or_throw(read_trace(folder.write("gaze.csv", std::string{kHeader} + row(0, "0,0"))));
+    EXPECT_EQ(trace.device, "Pupil Labs Neon");
+    EXPECT_THAT(told(trace, gaze::TraceFindingKind::Text),
+                ElementsAre("0: info.json beside it: gaze_mode monocular"));
+    const std::string deep = std::string(100, '[') + std::string(100, ']');
+    folder.write("info.json", R"({"a": )" + deep + "}");
+    EXPECT_THAT(refusal(folder / "gaze.csv"), HasSubstr("nested 32 deep at most"));
+}
+
 TEST(PupilLabs, NamesADamagedFileBesideIt) {
     RecordingFolder folder;
     folder.write("imu.csv", std::string{kImuHeader} + "1,2\n" + imu_row(2, "1,0,0,0"));

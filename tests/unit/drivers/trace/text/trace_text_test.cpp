@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 
+#include "drivers/trace/text/text_lines.h"
 #include "tests/support/gzip.h"
 #include "tests/unit/drivers/trace/trace_findings.h"
 #include "tests/unit/drivers/trace/trace_text.h"
@@ -277,6 +279,30 @@ TEST(TraceText, SaysWhereAFileStopsToBeText) {
     EXPECT_THAT(refusal(htc() + std::string(512, '\0')),
                 HasSubstr("gaze.csv:5: not a text file (a byte 0x00): export the table as CSV; if "
                           "it is text up to here"));
+}
+
+/// Lines are looked at eight bytes at a time.
+TEST(TextLines, FindsEveryControlByteWhereverItStands) {
+    for (std::size_t length = 0; length < 20; ++length) {
+        for (const std::string_view filling : {"a", "\t", " ", "\xC3\xA9"}) {
+            std::string first;
+            while (first.size() < length) {
+                first += filling;
+            }
+            std::istringstream in(first + "\nsecond\r\n" + first + '\x01');
+            TextLines lines(in, "text");
+            ASSERT_TRUE(value_or_throw(lines.next()));
+            EXPECT_EQ(lines.text(), first);
+            lines.hold();
+            ASSERT_TRUE(value_or_throw(lines.next()));
+            EXPECT_EQ(lines.text(), first) << "once more";
+            ASSERT_TRUE(value_or_throw(lines.next()));
+            EXPECT_EQ(lines.text(), "second");
+            const auto third = lines.next();
+            ASSERT_FALSE(third);
+            EXPECT_THAT(third.error().message, HasSubstr("text:3: not a text file (a byte 0x01)"));
+        }
+    }
 }
 
 TEST(TraceText, SkipsOtherCommentsAndTitlesBeforeTheHeader) {
