@@ -4,6 +4,7 @@
 
 #include "runtime/foveation/plans/layer_plan.h"
 #include "runtime/methods/method.h"
+#include "runtime/render/passes/layers_passes.h"
 
 namespace gazeloop::methods {
 namespace {
@@ -36,13 +37,28 @@ Expected<PlannedMethod> plan(const PlanSubject& subject) {
     return method;
 }
 
+Expected<render::MakePasses> passes(const MethodSettings& values,
+                                    const settings::Settings& /*settings*/) {
+    const LayersSettings& set = values.layers;
+    const render::LayersConfig config{.layers = static_cast<std::size_t>(set.n),
+                                      .half_rate = set.half_rate,
+                                      .over_frames = set.temporal};
+    return [config, options = parameters(set),
+            line = foveation::MarLine{.slope = values.acuity.mar}](const render::PassSetup& setup) {
+        return render::make_layers_passes(setup, config, [=](const gaze::EyeView& view) {
+            return foveation::optimised_layers(view, line, options);
+        });
+    };
+}
+
 }  // namespace
 
 Method layers_method() {
     return {.name = "layers",
             .description = "eccentricity layers (Guenter et al. 2012): rectangles, coarser outward",
             .rows = rows,
-            .plan = plan};
+            .plan = plan,
+            .passes = passes};
 }
 
 }  // namespace gazeloop::methods

@@ -13,6 +13,8 @@ struct LayersSettings {
     std::int64_t n = 3;
     bool s2_fixed = false;
     double outer_weight = 1.0;
+    bool half_rate = true;
+    bool temporal = true;
 };
 
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(LayersSettings& layers);

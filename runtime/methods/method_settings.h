@@ -1,8 +1,10 @@
 #pragma once
 
 #include "runtime/methods/acuity_settings.h"
+#include "runtime/methods/fixed_settings.h"
 #include "runtime/methods/kfr_settings.h"
 #include "runtime/methods/layers_settings.h"
+#include "runtime/methods/quad_settings.h"
 #include "runtime/methods/rings_settings.h"
 #include "runtime/methods/sparse_settings.h"
 
@@ -11,8 +13,10 @@ namespace gazeloop::methods {
 /// The settings of all methods. registry.h has their rows.
 struct MethodSettings {
     AcuitySettings acuity;
+    FixedSettings fixed;
     KfrSettings kfr;
     LayersSettings layers;
+    QuadSettings quad;
     RingsSettings rings;
     SparseSettings sparse;
 };

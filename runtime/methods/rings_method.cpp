@@ -4,6 +4,7 @@
 
 #include "runtime/foveation/plans/shading_rings.h"
 #include "runtime/methods/method.h"
+#include "runtime/render/passes/rings_passes.h"
 
 namespace gazeloop::methods {
 namespace {
@@ -33,13 +34,23 @@ Expected<PlannedMethod> plan(const PlanSubject& subject) {
     return method;
 }
 
+Expected<render::MakePasses> passes(const MethodSettings& values,
+                                    const settings::Settings& /*settings*/) {
+    return [rings = values.rings,
+            line = foveation::MarLine{.slope = values.acuity.mar}](const render::PassSetup& setup) {
+        return render::make_rings_passes(
+            setup, [=](const gaze::EyeView& view) { return parameters(rings, view, line); });
+    };
+}
+
 }  // namespace
 
 Method rings_method() {
     return {.name = "rings",
             .description = "rings of 1x1, 2x2 and 4x4 pixels per sample",
             .rows = rows,
-            .plan = plan};
+            .plan = plan,
+            .passes = passes};
 }
 
 }  // namespace gazeloop::methods

@@ -4,6 +4,7 @@
 
 #include "runtime/foveation/plans/sparse_pattern.h"
 #include "runtime/methods/method.h"
+#include "runtime/render/passes/sparse_passes.h"
 
 namespace gazeloop::methods {
 namespace {
@@ -27,13 +28,27 @@ Expected<PlannedMethod> plan(const PlanSubject& subject) {
                     {"disc_radius_px", pattern->profile.disc_radius_px}}};
 }
 
+Expected<render::MakePasses> passes(const MethodSettings& values,
+                                    const settings::Settings& /*settings*/) {
+    const SparseSettings& set = values.sparse;
+    const render::SparseConfig config{.plan = {.pattern = parameters(set),
+                                               .neighbours = static_cast<std::uint32_t>(set.k),
+                                               .turn = set.turn},
+                                      .depth_guided = set.depth_guided,
+                                      .accumulate = set.accumulate};
+    return [config](const render::PassSetup& setup) {
+        return render::make_sparse_passes(setup, config);
+    };
+}
+
 }  // namespace
 
 Method sparse_method() {
     return {.name = "sparse",
             .description = "scattered samples and a disc",
             .rows = rows,
-            .plan = plan};
+            .plan = plan,
+            .passes = passes};
 }
 
 }  // namespace gazeloop::methods

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct SparseSettings {
     double narrow_spread = 0.1;
     double wide_spread = 0.3;
     std::string placement = "gaussian";
+    std::int64_t k = 4;
+    bool depth_guided = false;
+    bool turn = false;
+    bool accumulate = false;
 };
 
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(SparseSettings& sparse);

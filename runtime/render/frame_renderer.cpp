@@ -153,6 +153,7 @@ void FrameRenderer::wait_for(vk::Semaphore timeline, std::uint64_t value) const 
 
 FrameRecording FrameRenderer::recording(Slot& slot) {
     FrameRecording frame{.view = *view_,
+                         .in_run = in_run_,
                          .slot = slot.number,
                          .frame_sets = {},
                          .scene_sets = {},
@@ -171,7 +172,7 @@ void FrameRenderer::begin(const FrameView& view) {
     Slot& slot = *slots_[submitted_ % slots_.size()];
     slot.recorder.reset();
     slot.frame_index = view.index;
-    last_views_.begin(view.index, view.views);
+    in_run_ = {view.index, last_views_.begin(view.index, view.views)};
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
         slot.eyes[e].uniforms.write(
@@ -202,7 +203,7 @@ frame::SampleCounts FrameRenderer::finish(const gaze::FrameFovea& fovea) {
         const std::size_t e = gaze::index(eye);
         const gaze::EyeView& view = view_->views[e];
         const foveation::HiddenArea* const hidden = view_->hidden[e].get();
-        method_->plan().plan(eye, view, fovea.eyes[e], hidden, plans_[e]);
+        method_->plan().plan(eye, view, fovea.eyes[e], hidden, in_run_, plans_[e]);
         for (std::size_t grid = 0; grid < counts.grid_count; ++grid) {
             counts.grids[grid] += plans_[e].grids[grid].counts;
         }

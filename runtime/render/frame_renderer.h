@@ -114,6 +114,7 @@ class FrameRenderer {
     std::uint64_t begun_submitted_ = 0;
     std::uint64_t collected_ = 0;
     const FrameView* view_ = nullptr;  ///< between begin() and finish()
+    foveation::FrameInRun in_run_;     ///< of the frame that was begun last
     gaze::PerEye<foveation::EyePlan> plans_;
     LastViews last_views_;
     gaze::SeenDepth seen_depth_;

@@ -29,6 +29,8 @@ class History {
 
     /// Precondition: advance() was called since the reset.
     [[nodiscard]] Entry& now() { return images_[newest_]; }
+    /// The image that now() is not, whatever it holds: for a descriptor that nothing is read by.
+    [[nodiscard]] Entry& other() { return images_[1 - newest_]; }
     [[nodiscard]] Entry* before() { return frames_ > 1 ? &images_[1 - newest_] : nullptr; }
 
   private:

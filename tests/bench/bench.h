@@ -74,6 +74,10 @@ std::vector<Figure> events(const Options& options);
 /// 5 to 60 ms, by what the eyes do at the time predicted, of persons on whom no parameter was
 /// chosen and of the others; and what an hour of 1 kHz gaze costs.
 std::vector<Figure> prediction(const Options& options);
+/// Every method on every scene, on one display along one gaze trace, frame by frame in turns:
+/// samples, time of each pass, speed-up over full resolution. Also written as a CSV file and, for
+/// each scene, a plot.
+std::vector<Figure> rivals(const Options& options);
 
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.
 [[nodiscard]] double median(std::vector<double> values);

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "runtime/methods/registry.h"
-#include "runtime/run/program_settings.h"
 #include "tests/support/frame_renderer_fixture.h"
+#include "tests/support/method_by_settings.h"
 #include "tests/unit/foveation/picture/masks.h"
 
 namespace gazeloop::render {
@@ -17,7 +17,14 @@ namespace {
 
 /// Settings by which a method is to give full resolution. A new method states its own here.
 const std::map<std::string, std::vector<NamedValue>> kEverything{
-    {"full", {}}, {"kfr", {{"kfr.sigma", "0.5"}}}, {"acuity", {{"acuity.mar", "0.0001"}}}};
+    {"full", {}},
+    {"kfr", {{"kfr.sigma", "0.5"}}},
+    {"acuity", {{"acuity.mar", "0.0001"}}},
+    {"rings", {{"rings.inner_deg", "180"}, {"rings.outer_deg", "180"}}},
+    {"sparse", {{"sparse.share", "1"}}},
+    {"layers", {{"acuity.mar", "0.0001"}, {"layers.temporal", "false"}}},
+    {"quad", {{"quad.section", "1"}}},
+    {"fixed", {{"kfr.sigma", "0.5"}}}};
 
 struct Situation {
     const char* name;
@@ -50,16 +57,6 @@ class MethodContract : public FrameRendererTest, public testing::WithParamInterf
         return config;
     }
 
-    /// By the built-in settings, or these besides.
-    static MakePasses passes(std::string_view name, const std::vector<NamedValue>& set = {}) {
-        run::ProgramSettings settings;
-        for (const auto& [key, value] : set) {
-            value_or_throw(settings.set(key, value, "test"));
-        }
-        return value_or_throw(
-            methods::find_method(name)->passes(settings.values().methods, settings));
-    }
-
     static FrameRequest frame(const Situation& at, const RendererConfig& config) {
         FrameRequest frame;
         frame.scene_time_s = 2.5;
@@ -80,7 +77,7 @@ class MethodContract : public FrameRendererTest, public testing::WithParamInterf
     }
 
     static OffScreen::Rendered draw(const RendererConfig& config, const FrameRequest& frame) {
-        OffScreen off_screen(context(), scene(), passes(GetParam()), config);
+        OffScreen off_screen(context(), scene(), tests::passes_by(GetParam()), config);
         return off_screen.render(frame, frame.fovea());
     }
 
@@ -141,7 +138,7 @@ TEST_P(MethodContract, LeavesOutWhatNoEyeSees) {
     (*meshes)[1] = tests::cut_corners(0.5);
     request.hidden = foveation::hidden_areas(meshes, request.views);
     ASSERT_NE(request.hidden[0], nullptr);
-    OffScreen off_screen(context(), scene(), passes(GetParam()), config);
+    OffScreen off_screen(context(), scene(), tests::passes_by(GetParam()), config);
     const frame::SampleCounts counts = off_screen.render(request, request.fovea()).counts;
     expect_counts_add_up(counts, "hidden");
     EXPECT_GT(counts.pixels_hidden, 0U);
@@ -158,8 +155,9 @@ TEST_P(MethodContract, IsFullResolutionWhereItIsAskedForEverything) {
     ASSERT_TRUE(kEverything.contains(GetParam())) << "which settings ask it for everything?";
     const RendererConfig config = pictures(16, 16);
     const FrameRequest request = frame(kSituations[0], config);
-    OffScreen all(context(), scene(), passes(GetParam(), kEverything.at(GetParam())), config);
-    OffScreen full(context(), scene(), passes("full"), config);
+    OffScreen all(context(), scene(), tests::passes_by(GetParam(), kEverything.at(GetParam())),
+                  config);
+    OffScreen full(context(), scene(), tests::passes_by("full"), config);
     all.render(request, request.fovea());
     full.render(request, request.fovea());
     for (const gaze::Eye eye : gaze::kEyes) {
@@ -179,7 +177,9 @@ TEST_P(MethodContract, TakesEverySize) {
             // A picture may be too small for a map, which is said with the setting that would help.
             EXPECT_LT(std::min(width, height), 8U) << error.what();
             EXPECT_THAT(error.what(), testing::AnyOf(testing::HasSubstr(GetParam() + "."),
-                                                     testing::HasSubstr("must have 2 to")));
+                                                     testing::HasSubstr(GetParam() + ": "),
+                                                     testing::HasSubstr("must have 2 to"),
+                                                     testing::HasSubstr("kfr.")));
             EXPECT_EQ(error.kind(), ErrorKind::Usage);
         }
     }
@@ -188,7 +188,7 @@ TEST_P(MethodContract, TakesEverySize) {
 TEST_P(MethodContract, ListsItsPassesAndTimesThoseThatRan) {
     const RendererConfig config = pictures(96, 72);
     const FrameRequest request = frame(kSituations[0], config);
-    OffScreen off_screen(context(), scene(), passes(GetParam()), config);
+    OffScreen off_screen(context(), scene(), tests::passes_by(GetParam()), config);
     const frame::FrameGpuRecord gpu = off_screen.render(request, request.fovea()).gpu;
     const frame::PassList& listed = off_screen.renderer().passes();
     ASSERT_GT(listed.size(), 0U);
@@ -241,7 +241,7 @@ TEST_P(MethodContract, LetsASceneDrawBeforeTheGazeIsRead) {
         const FrameRequest request = frame(kSituations[0], config);
         const auto plain = draw(config, request).gpu.pixel_hash;
         SceneWithGeometry with_geometry(context());
-        OffScreen off_screen(context(), with_geometry, passes(GetParam()), config);
+        OffScreen off_screen(context(), with_geometry, tests::passes_by(GetParam()), config);
         FrameRenderer& renderer = off_screen.renderer();
         EXPECT_EQ(renderer.passes()[0], "geometry");
         const OffScreenTargets targets(context(), config.extents, config.format);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/foveation/picture/cone_columns.h"
+
 namespace gazeloop::foveation {
 namespace {
 
@@ -11,33 +13,6 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kNoCore = -1.0;
 /// A wider disc leaves a flat picture: its ring is drawn no larger.
 constexpr double kWidestRingDeg = 80.0;
-/// Float rounding moves a pixel against the disc's edge by less than this: 4 ulp of a ray.
-constexpr double kDiscSlackRad = 4.0 / (1 << 24);
-/// Pixels beside the disc's edge that are shaded with it, against rounding of the row's span.
-constexpr double kRowSlackPx = 0.02;
-
-/// The columns of the pixels of rows [y0, y1) within an eccentricity, and of all between them.
-Columns disc_band(const GazeFrame& frame, double eccentricity_rad, std::uint32_t y0,
-                  std::uint32_t y1) {
-    const double width = frame.view().width_px;
-    Columns band{};
-    for (std::uint32_t y = y0; y < y1; ++y) {
-        const auto span = frame.row_within(y + 0.5, eccentricity_rad + kDiscSlackRad);
-        if (!span) {
-            continue;
-        }
-        const double first = std::ceil(span->from_x_px - kRowSlackPx - 0.5);
-        const double end = std::floor(span->to_x_px + kRowSlackPx + 0.5);
-        const Columns row{static_cast<std::uint32_t>(std::clamp(first, 0.0, width)),
-                          static_cast<std::uint32_t>(std::clamp(end, 0.0, width))};
-        if (!row.empty()) {
-            band = band.empty()
-                       ? row
-                       : Columns{std::min(band.first, row.first), std::max(band.end, row.end)};
-        }
-    }
-    return band;
-}
 
 }  // namespace
 
@@ -68,7 +43,7 @@ void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profil
         plan_disc_tiles(
             view.height_px, hidden,
             [&](std::uint32_t y0, std::uint32_t y1) {
-                return disc_band(map.frame(), disc_deg * kRadiansPerDegree, y0, y1);
+                return columns_within(map.frame(), disc_deg * kRadiansPerDegree, y0, y1);
             },
             plan.disc);
     }
@@ -76,15 +51,7 @@ void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profil
     plan_lp_tiles(map, core_u, hidden, plan);
 }
 
-bool AcuityPlan::fits(const gaze::StereoView& views) const {
-    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-        if (!profiles_[e] || fov_[e] != views[e].fov || images_[e].width_px != views[e].width_px ||
-            images_[e].height_px != views[e].height_px) {
-            return false;
-        }
-    }
-    return true;
-}
+bool AcuityPlan::fits(const gaze::StereoView& views) const { return prepared_.fit(views); }
 
 Expected<void> AcuityPlan::prepare(const gaze::StereoView& views) {
     for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
@@ -93,14 +60,13 @@ Expected<void> AcuityPlan::prepare(const gaze::StereoView& views) {
             return std::unexpected(profile.error());
         }
         profiles_[e] = *std::move(profile);
-        fov_[e] = views[e].fov;
-        images_[e] = {views[e].width_px, views[e].height_px};
     }
+    prepared_.take(views);
     return {};
 }
 
 void AcuityPlan::plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
-                      const HiddenArea* hidden, EyePlan& plan) const {
+                      const HiddenArea* hidden, const FrameInRun& /*frame*/, EyePlan& plan) const {
     plan_log_polar(plan, [&](LogPolarPlan& made) {
         plan_acuity(parameters_, *profiles_[gaze::index(eye)], view, fovea.direction, made, hidden,
                     fovea.uncertainty_rad.value_or(0.0) / kRadiansPerDegree);

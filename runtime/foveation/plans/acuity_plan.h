@@ -3,6 +3,7 @@
 #include "runtime/foveation/log_polar/acuity_map.h"
 #include "runtime/foveation/picture/image_size.h"
 #include "runtime/foveation/plans/log_polar_plan.h"
+#include "runtime/foveation/plans/prepared_views.h"
 
 namespace gazeloop::foveation {
 
@@ -31,7 +32,7 @@ class AcuityPlan final : public MethodPlan {
     [[nodiscard]] bool fits(const gaze::StereoView& views) const override;
     Expected<void> prepare(const gaze::StereoView& views) override;
     void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
-              const HiddenArea* hidden, EyePlan& plan) const override;
+              const HiddenArea* hidden, const FrameInRun& frame, EyePlan& plan) const override;
 
     /// Precondition: prepare().
     [[nodiscard]] const AcuityProfile& profile(gaze::Eye eye) const {
@@ -41,8 +42,7 @@ class AcuityPlan final : public MethodPlan {
   private:
     AcuityParameters parameters_;
     gaze::PerEye<std::optional<AcuityProfile>> profiles_;
-    gaze::PerEye<gaze::FieldOfView> fov_{};
-    gaze::PerEye<ImageSize> images_{};
+    PreparedViews prepared_;
 };
 
 }  // namespace gazeloop::foveation

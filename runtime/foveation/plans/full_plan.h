@@ -14,7 +14,7 @@ class FullPlan final : public MethodPlan {
     [[nodiscard]] bool fits(const gaze::StereoView& /*views*/) const override { return true; }
     Expected<void> prepare(const gaze::StereoView& /*views*/) override { return {}; }
     void plan(gaze::Eye /*eye*/, const gaze::EyeView& view, const gaze::FoveaPoint& /*fovea*/,
-              const HiddenArea* hidden, EyePlan& plan) const override {
+              const HiddenArea* hidden, const FrameInRun& /*frame*/, EyePlan& plan) const override {
         plan.grids.resize(1);
         frame::GridCounts& counts = plan.grids[0].counts;
         counts = {};

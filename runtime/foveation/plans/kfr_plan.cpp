@@ -81,7 +81,7 @@ Expected<void> KfrPlan::prepare(const gaze::StereoView& views) {
 }
 
 void KfrPlan::plan(gaze::Eye eye, const gaze::EyeView& /*view*/, const gaze::FoveaPoint& fovea,
-                   const HiddenArea* hidden, EyePlan& plan) const {
+                   const HiddenArea* hidden, const FrameInRun& /*frame*/, EyePlan& plan) const {
     const std::size_t e = gaze::index(eye);
     plan_log_polar(plan, [&](LogPolarPlan& made) {
         plan_kfr(parameters_, lp_[e], images_[e], fovea.position, made, hidden);

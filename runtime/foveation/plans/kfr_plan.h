@@ -25,7 +25,7 @@ class KfrPlan final : public MethodPlan {
     [[nodiscard]] bool fits(const gaze::StereoView& views) const override;
     Expected<void> prepare(const gaze::StereoView& views) override;
     void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
-              const HiddenArea* hidden, EyePlan& plan) const override;
+              const HiddenArea* hidden, const FrameInRun& frame, EyePlan& plan) const override;
 
     [[nodiscard]] const KfrParameters& parameters() const { return parameters_; }
     /// Precondition: prepare().

@@ -25,12 +25,22 @@ struct ShadedGrid {
     void start(std::uint32_t height);
 };
 
+/// Which frame of a run is planned, for methods that do not shade everything in every frame.
+struct FrameInRun {
+    std::uint64_t index = 0;
+    /// Whether the frame before was rendered too, by views of these fields and sizes: what it left
+    /// can be used.
+    bool follows = false;
+};
+
 /// One eye's picture at one gaze.
 struct EyePlan {
     std::vector<ShadedGrid> grids;  ///< in the order of MethodPlan::grids()
     /// The part of the method that depends on the gaze, as its shaders take it (descriptor set 2,
     /// binding 0).
     std::array<glm::vec4, 16> uniforms{};
+    /// More of the same, where it is a table (binding 1); for methods by GridPasses.
+    std::vector<std::uint32_t> table{};
     double ring_px = 0.0;  ///< radius of the ring to draw around the fovea; 0: none
 };
 
@@ -59,7 +69,7 @@ class MethodPlan {
     /// picture; null: nothing is hidden. Precondition: prepare() for views that this one belongs
     /// to.
     virtual void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
-                      const HiddenArea* hidden, EyePlan& plan) const = 0;
+                      const HiddenArea* hidden, const FrameInRun& frame, EyePlan& plan) const = 0;
 };
 
 }  // namespace gazeloop::foveation

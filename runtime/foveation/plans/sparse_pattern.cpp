@@ -118,9 +118,9 @@ class PatternMaker {
           pattern_{.image = image, .profile = {}, .samples = {}},
           random_(parameters.seed),
           taken_(std::size_t{pattern_.field().width_px} * pattern_.field().height_px) {
-        const double pixels = static_cast<double>(image.width_px) * image.height_px;
-        target_ = std::max<std::uint64_t>(
-            1, static_cast<std::uint64_t>(std::llround(parameters.share * pixels)));
+        const std::uint64_t pixels = std::uint64_t{image.width_px} * image.height_px;
+        target_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(
+                                                 parameters.share * static_cast<double>(pixels))));
         const double diagonal = std::hypot(image.width_px, image.height_px);
         SparseProfile& profile = pattern_.profile;
         profile.narrow_px = parameters.narrow_spread * diagonal;
@@ -128,10 +128,17 @@ class PatternMaker {
         profile.disc_radius_px = std::min(
             std::sqrt(parameters.disc_share * static_cast<double>(target_) / std::numbers::pi),
             0.5 * std::min(image.width_px, image.height_px));
+        if (target_ == pixels) {
+            profile.disc_radius_px = diagonal;  // every pixel of the field, wherever the gaze is
+            taken_.assign(taken_.size(), true);
+            in_picture_ = target_;
+        }
     }
 
     Expected<SparsePattern> make() {
-        take_disc();
+        if (in_picture_ < target_) {
+            take_disc();
+        }
         const std::vector<bool> only_disc = taken_;
         const std::uint64_t disc_in_picture = in_picture_;
         if (const auto taken = take_draws(); !taken) {

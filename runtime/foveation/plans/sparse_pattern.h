@@ -22,7 +22,7 @@ enum class SparsePlacement {
 /// figures are ours, with lengths relative to the picture's diagonal.
 struct SparseParameters {
     static constexpr double kMinShare = 0.001;
-    static constexpr double kMaxShare = 0.5;
+    static constexpr double kMaxShare = 1.0;  ///< every pixel
     static constexpr double kMinSpread = 0.01;
     static constexpr double kMaxSpread = 2.0;
 

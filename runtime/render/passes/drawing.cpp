@@ -1,5 +1,7 @@
 #include "runtime/render/passes/drawing.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "runtime/vulkan/pipelines.h"
@@ -62,6 +64,31 @@ void draw_visible_tiles(const vk::raii::CommandBuffer& commands,
             }
         }
     }
+}
+
+void shade_cells(const vk::raii::CommandBuffer& commands, const vulkan::ColorImage& image,
+                 vulkan::TrackedImage& tracked, std::span<const foveation::Tile> tiles,
+                 std::uint32_t instance, const std::optional<std::array<float, 4>>& unshaded) {
+    tracked.use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
+    if (!tiles.empty() || unshaded) {
+        begin_rendering(commands, image.view(), image.extent(),
+                        unshaded ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare,
+                        unshaded.value_or(std::array<float, 4>{}));
+        draw_tiles(commands, tiles, instance);
+        commands.endRendering();
+    }
+    tracked.use(commands, vulkan::Use::Sampled);
+}
+
+vk::raii::Sampler make_sampler(const vk::raii::Device& device, vk::Filter filter) {
+    constexpr auto kClamp = vk::SamplerAddressMode::eClampToEdge;
+    return {device, vk::SamplerCreateInfo({}, filter, filter, vk::SamplerMipmapMode::eNearest,
+                                          kClamp, kClamp, kClamp)};
+}
+
+std::string resolve_shader(std::string_view name, const PassSetup& setup) {
+    return fmt::format("{}.{}", name,
+                       setup.depth_format == vk::Format::eUndefined ? "frag" : "depth.frag");
 }
 
 void bind_sets(const vk::raii::CommandBuffer& commands, const vk::raii::PipelineLayout& layout,

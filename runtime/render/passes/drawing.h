@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vulkan/vulkan_raii.hpp>
 
 #include "runtime/foveation/picture/hidden_area.h"
@@ -15,7 +18,8 @@ enum ShaderConstantId : std::uint32_t {
     kEncodeSrgb = 0,
     kSamples = 1,
     kInGazeFrame = 2,
-    kWithDisc = 3
+    kWithDisc = 3,
+    kOfMethod = 4  ///< and beyond: what one method alone knows
 };
 
 /// Whether a format encodes sRGB by itself; else the pass that writes it does.
@@ -38,6 +42,19 @@ void draw_visible(const vk::raii::CommandBuffer& commands, const foveation::Hidd
 void draw_visible_tiles(const vk::raii::CommandBuffer& commands,
                         std::span<const foveation::Tile> tiles,
                         const foveation::HiddenArea* hidden);
+
+/// Shades the cells of a grid into an image and makes that readable. Pipeline and sets are bound.
+/// Tiles may be none: nothing of it is read then, but its layout must be right.
+void shade_cells(const vk::raii::CommandBuffer& commands, const vulkan::ColorImage& image,
+                 vulkan::TrackedImage& tracked, std::span<const foveation::Tile> tiles,
+                 std::uint32_t instance, const std::optional<std::array<float, 4>>& unshaded);
+
+/// A sampler that clamps to the edge.
+[[nodiscard]] vk::raii::Sampler make_sampler(const vk::raii::Device& device, vk::Filter filter);
+
+/// The fragment shader of a resolve, as the targets ask for it: with depth it is a variant, because
+/// the mere statement of a depth costs a third of a resolve.
+[[nodiscard]] std::string resolve_shader(std::string_view name, const PassSetup& setup);
 
 /// Draws both eyes' pictures without the parts that no eye sees. `draw_eye(e)` draws one, into the
 /// target that is bound.

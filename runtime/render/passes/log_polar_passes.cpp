@@ -213,10 +213,7 @@ class LogPolarPasses final : public MethodPasses {
              .fragment = fmt::format("{}.log_polar.frag", setup_.scene.shader()),
              .format = kLpFormat,
              .constants = pass_constants});
-        // A separate variant, because writing a depth alone costs a third of a resolve.
-        const std::string resolve = setup_.depth_format == vk::Format::eUndefined
-                                        ? "log_polar.frag"
-                                        : "log_polar.depth.frag";
+        const std::string resolve = resolve_shader("log_polar", setup_);
         for (const std::uint32_t disc : {0U, 1U}) {
             const std::array constants{
                 vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup_.format) ? 0U : 1U},
@@ -268,18 +265,10 @@ class LogPolarPasses final : public MethodPasses {
                      std::size_t e, std::size_t grid, std::span<const foveation::Tile> tiles) {
         LogPolarEye::Buffer& target =
             grid == kDisc ? eyes_[e]->direct_buffer() : eyes_[e]->lp_buffer();
-        target.tracked.use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
-        const bool clear = setup_.unshaded.has_value();
-        if (!tiles.empty() || clear) {
-            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pass_i_);
-            bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
-            begin_rendering(commands, target.image.view(), target.image.extent(),
-                            clear ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare,
-                            setup_.unshaded.value_or(std::array<float, 4>{}));
-            draw_tiles(commands, tiles, grid == kDisc ? 1 : 0);
-            commands.endRendering();
-        }
-        target.tracked.use(commands, vulkan::Use::Sampled);
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pass_i_);
+        bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
+        shade_cells(commands, target.image, target.tracked, tiles, grid == kDisc ? 1 : 0,
+                    setup_.unshaded);
     }
 
     /// The whole picture from the LP-buffer, then the disc over it.

@@ -37,6 +37,7 @@ struct PassSetup {
 /// A frame being recorded.
 struct FrameRecording {
     const FrameView& view;
+    foveation::FrameInRun in_run;
     std::size_t slot;                            ///< below PassSetup::slots
     gaze::PerEye<vk::DescriptorSet> frame_sets;  ///< set 0
     gaze::PerEye<vk::DescriptorSet> scene_sets;  ///< set 1; null: none

@@ -33,23 +33,50 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "gaze.return_ms", "gaze.stale_ms", "gaze.unplugged_hold_ms", "gaze.widen",
       "gaze.widen_error_deg", "gaze.widen_head_deg_per_s", "gaze.widen_lost_deg_per_s",
       "gaze.widen_most_deg", "gaze.widen_noise_deg", "gaze.widen_pursuit_deg_per_s"}},
-    {Concerns::Picture, {"acuity.border_px",    "acuity.disc",
-                         "acuity.lp_height",    "acuity.lp_width",
-                         "acuity.mar",          "acuity.pixels_per_degree",
-                         "kfr.alpha",           "kfr.border_px",
-                         "kfr.close_hole",      "kfr.disc",
-                         "kfr.kernel",          "kfr.kernel_samples",
-                         "kfr.kernel_table",    "kfr.lp_height",
-                         "kfr.lp_width",        "kfr.polynomial",
-                         "kfr.sigma",           "layers.n",
-                         "layers.outer_weight", "layers.s2_fixed",
-                         "render.hidden_area",  "render.method",
-                         "render.scene",        "render.spp",
-                         "rings.inner_deg",     "rings.outer_deg",
-                         "rings.tile_px",       "sparse.disc_share",
-                         "sparse.narrow_share", "sparse.narrow_spread",
-                         "sparse.placement",    "sparse.share",
-                         "sparse.wide_spread"}},
+    {Concerns::Picture,
+     {"acuity.border_px",
+      "acuity.disc",
+      "acuity.lp_height",
+      "acuity.lp_width",
+      "acuity.mar",
+      "acuity.pixels_per_degree",
+      "fixed.method",
+      "kfr.alpha",
+      "kfr.border_px",
+      "kfr.close_hole",
+      "kfr.disc",
+      "kfr.kernel",
+      "kfr.kernel_samples",
+      "kfr.kernel_table",
+      "kfr.lp_height",
+      "kfr.lp_width",
+      "kfr.polynomial",
+      "kfr.sigma",
+      "layers.half_rate",
+      "layers.n",
+      "layers.outer_weight",
+      "layers.s2_fixed",
+      "layers.temporal",
+      "quad.blend",
+      "quad.periphery",
+      "quad.section",
+      "render.hidden_area",
+      "render.method",
+      "render.scene",
+      "render.spp",
+      "rings.inner_deg",
+      "rings.outer_deg",
+      "rings.tile_px",
+      "sparse.accumulate",
+      "sparse.depth_guided",
+      "sparse.disc_share",
+      "sparse.k",
+      "sparse.turn",
+      "sparse.narrow_share",
+      "sparse.narrow_spread",
+      "sparse.placement",
+      "sparse.share",
+      "sparse.wide_spread"}},
     {Concerns::Output,
      {"acuity.luminance_cd_m2", "acuity.nasal", "render.depth", "render.frames_in_flight",
       "render.profile", "render.wait_before_latch"}},
@@ -93,6 +120,9 @@ TEST(ProgramSettings, OfMethodsAreInUseUnderTheirs) {
         if (const auto more = also.find(row.key); more != also.end()) {
             expected.insert(expected.end(), more->second.begin(), more->second.end());
         }
+        if (group != "fixed") {
+            expected.emplace_back("fixed");  // which may stand for any of them
+        }
         EXPECT_EQ(row.only_while.key, "render.method") << row.key;
         EXPECT_EQ(row.only_while.values, expected) << row.key;
         for (const std::string& method : row.only_while.values) {
@@ -110,8 +140,10 @@ TEST(ProgramSettings, GiveEveryMemberARow) {
     expect_all(drivers::hid::HidSettings());
     expect_all(drivers::steam_frame::SteamFrameSettings());
     expect_all(methods::AcuitySettings());
+    expect_all(methods::FixedSettings());
     expect_all(methods::KfrSettings());
     expect_all(methods::LayersSettings());
+    expect_all(methods::QuadSettings());
     expect_all(methods::RingsSettings());
     expect_all(methods::SparseSettings());
     expect_all(MonitorSettings());
@@ -202,6 +234,10 @@ TEST(ProgramSettings, OfAMethodDecideItsPicturesAlone) {
     EXPECT_TRUE(same_picture("kfr", "acuity.mar", "0.03"));
     EXPECT_TRUE(same_picture("full", "kfr.sigma", "3"));
     EXPECT_TRUE(same_picture("kfr", "layers.n", "2"));
+    EXPECT_FALSE(same_picture("quad", "quad.section", "0.5"));
+    EXPECT_FALSE(same_picture("fixed", "fixed.method", "rings"));
+    EXPECT_FALSE(same_picture("fixed", "kfr.sigma", "3"));
+    EXPECT_TRUE(same_picture("quad", "fixed.method", "rings"));
     EXPECT_TRUE(same_picture("acuity", "acuity.nasal", "true"));
 }
 

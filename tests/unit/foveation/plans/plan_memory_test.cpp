@@ -7,6 +7,9 @@
 #include "runtime/foveation/plans/acuity_plan.h"
 #include "runtime/foveation/plans/full_plan.h"
 #include "runtime/foveation/plans/kfr_plan.h"
+#include "runtime/foveation/plans/layered_plan.h"
+#include "runtime/foveation/plans/shading_rings.h"
+#include "runtime/foveation/plans/sparse_plan.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/unit/foveation/picture/masks.h"
 
@@ -30,12 +33,12 @@ void expect_memory_of_the_first_plan(MethodPlan& method, const HiddenArea* hidde
     const gaze::StereoView views{view, view};
     value_or_throw(method.prepare(views));
     EyePlan plan;
-    method.plan(gaze::Eye::Left, view, looking(60.0, 60.0), hidden, plan);
+    method.plan(gaze::Eye::Left, view, looking(60.0, 60.0), hidden, {}, plan);
     const std::size_t first = tests::allocations_of_this_thread();
     std::uint64_t most = 0;
     for (int x = -6; x <= 6; ++x) {
         for (int y = -6; y <= 6; ++y) {
-            method.plan(gaze::Eye::Left, view, looking(0.25 * x, 0.25 * y), hidden, plan);
+            method.plan(gaze::Eye::Left, view, looking(0.25 * x, 0.25 * y), hidden, {}, plan);
             most = std::max(most, plan.grids[0].counts.shaded);
         }
     }
@@ -64,6 +67,27 @@ TEST(PlanMemory, OfKfrDoesNotGrowWithTheGaze) {
 TEST(PlanMemory, OfTheAcuityMapDoesNotGrowWithTheGaze) {
     for (const bool disc : {true, false}) {
         AcuityPlan method({.disc = disc});
+        expect_memory_of_the_first_plan(method);
+    }
+}
+
+TEST(PlanMemory, OfRingsDoesNotGrowWithTheGaze) {
+    RingsPlan method([](const gaze::EyeView&) { return RingParameters{8.0, 20.0, 16}; });
+    expect_memory_of_the_first_plan(method);
+}
+
+TEST(PlanMemory, OfSparseSamplesDoesNotGrowWithTheGaze) {
+    for (const bool turn : {false, true}) {
+        SparsePlan method({.pattern = {.share = 0.02}, .neighbours = 1, .turn = turn});
+        expect_memory_of_the_first_plan(method);
+    }
+}
+
+TEST(PlanMemory, OfLayersDoesNotGrowWithTheGaze) {
+    for (const bool half_rate : {false, true}) {
+        LayeredPlan method({.half_rate = half_rate}, [](const gaze::EyeView& view) {
+            return optimised_layers(view, {}, {.layers = 3, .weights = {}});
+        });
         expect_memory_of_the_first_plan(method);
     }
 }

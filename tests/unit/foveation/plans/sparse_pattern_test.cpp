@@ -158,8 +158,8 @@ TEST(SparsePattern, RefusesWithTheValueAndTheRange) {
         return pattern ? std::string() : pattern.error().message;
     };
     using testing::HasSubstr;
-    for (const double bad : {kNan, 0.0, 0.51, -0.1}) {
-        EXPECT_THAT(message({.share = bad}), HasSubstr("must lie in [0.001, 0.5]")) << bad;
+    for (const double bad : {kNan, 0.0, 1.01, -0.1}) {
+        EXPECT_THAT(message({.share = bad}), HasSubstr("must lie in [0.001, 1]")) << bad;
     }
     EXPECT_THAT(message({.disc_share = kNan}), HasSubstr("sparse.disc_share = nan"));
     EXPECT_THAT(message({.narrow_share = 1.1}), HasSubstr("sparse.narrow_share = 1.1"));

@@ -1,0 +1,330 @@
+#include "runtime/render/passes/layers_passes.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "runtime/render/frame_uniforms.h"
+#include "runtime/render/jitter.h"
+#include "runtime/render/passes/drawing.h"
+#include "runtime/render/passes/eye_sets.h"
+#include "runtime/render/passes/log_polar_eye.h"
+#include "runtime/vulkan/history.h"
+#include "runtime/vulkan/pipelines.h"
+
+namespace gazeloop::render {
+namespace {
+
+using foveation::LayeredPlan;
+
+constexpr std::size_t kMostLayers = LayeredPlan::kMostLayers;
+
+/// A history is never rounded to halves, because its error would add up.
+constexpr vk::Format kHistoryFormat = vk::Format::eR32G32B32A32Sfloat;
+
+/// Constants of the composite.
+enum Constant : std::uint32_t { kLayers = kOfMethod, kHalfRate };
+
+/// Images of a layer's set.
+enum LayerImage : std::uint32_t { kBefore, kFresh, kLayerImages };
+
+/// A layer as it was shaded last; std140, shaders/lib/layers.glsl.
+struct SeenLayer {
+    glm::vec4 covers{0.0F, 0.0F, 1.0F, 1.0F};
+    glm::vec4 cells{0.0F};
+    glm::vec4 blend{0.0F};
+    glm::vec4 gaze{0.0F};
+    glm::vec4 camera{0.0F};
+    std::array<glm::vec4, 3> axes{};
+    glm::vec4 tangents{-1.0F, 1.0F, 1.0F, -1.0F};
+};
+
+struct LayerUniforms {
+    std::array<SeenLayer, kMostLayers> shown{};
+    std::array<SeenLayer, kMostLayers> before{};
+    glm::vec4 first_band{0.0F};
+};
+
+frame::PassList pass_list(std::size_t layers) {
+    std::string text;
+    for (std::size_t i = 1; i <= layers; ++i) {
+        text += fmt::format("layer_{} ", i);
+    }
+    return value_or_throw(frame::PassList::parse(text + "composite", frame::kMostPasses));
+}
+
+class LayersPasses final : public MethodPasses {
+  public:
+    LayersPasses(const PassSetup& setup, const LayersConfig& config,
+                 LayeredPlan::LayersOf layers_of)
+        : setup_(setup),
+          config_(config),
+          passes_(pass_list(config.layers)),
+          plan_({.layers = config.layers,
+                 .half_rate = config.half_rate,
+                 .kept = config.half_rate || config.over_frames},
+                std::move(layers_of)),
+          sampler_(make_sampler(setup.context.device(), vk::Filter::eNearest)),
+          composite_sets_(setup, {.uniform_bytes = sizeof(LayerUniforms), .images = kMostLayers},
+                          *sampler_) {
+        for (std::size_t i = 0; i < config.layers; ++i) {
+            layer_sets_.emplace_back(
+                setup,
+                EyeSets::Shape{.uniform_bytes = sizeof(LayerUniforms), .images = kLayerImages},
+                *sampler_);
+        }
+        make_pipelines();
+    }
+
+    [[nodiscard]] const frame::PassList& passes() const override { return passes_; }
+    [[nodiscard]] const foveation::MethodPlan& plan() const override { return plan_; }
+    [[nodiscard]] bool fits(const gaze::StereoView& views) const override {
+        return plan_.fits(views);
+    }
+
+    void prepare(const gaze::StereoView& views) override {
+        value_or_throw(plan_.prepare(views));
+        for (const gaze::Eye eye : gaze::kEyes) {
+            make_layers(eye);
+        }
+    }
+
+    void record_after_gaze(vulkan::PassRecorder& recorder, const FrameRecording& frame,
+                           const gaze::PerEye<foveation::EyePlan>& plans) override {
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            take_turns(frame, e, plans[e]);
+        }
+        const auto shade = [&](const vk::raii::CommandBuffer& commands, std::size_t layer) {
+            for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+                if (its_turn(plans[e], layer)) {
+                    shade_layer(commands, frame, e, layer, plans[e].grids[layer].tiles);
+                }
+            }
+        };
+        const auto any = [&](std::size_t layer) {
+            return !plans[0].grids[layer].tiles.empty() || !plans[1].grids[layer].tiles.empty();
+        };
+        for (std::size_t layer = 0; layer < config_.layers; ++layer) {
+            if (any(layer)) {
+                shade(recorder.begin(passes_[layer]), layer);
+            }
+        }
+        // A layer without any cell is not submitted for itself; what it has to prepare goes along.
+        const vk::raii::CommandBuffer& commands = recorder.begin("composite");
+        for (std::size_t layer = 0; layer < config_.layers; ++layer) {
+            if (!any(layer)) {
+                shade(commands, layer);
+            }
+        }
+        draw_pictures(commands, frame, setup_, [&](std::size_t e) {
+            bind_sets(commands, composite_layout_, frame, e, composite_sets_.of(frame.slot, e));
+            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *composite_);
+            draw_visible(commands, frame.view.hidden[e].get());
+        });
+    }
+
+  private:
+    /// What an eye keeps of a layer from frame to frame.
+    struct Layer {
+        vulkan::History history;
+        vulkan::ColorImage fresh;  ///< as shaded; only where frames are mixed
+        vulkan::TrackedImage fresh_tracked;
+        Jitter jitter;
+        SeenLayer shown;
+        SeenLayer before;
+    };
+
+    static bool its_turn(const foveation::EyePlan& plan, std::size_t layer) {
+        return LayeredPlan::layer_of(plan, layer).cells.w > 0.0F;
+    }
+
+    [[nodiscard]] vk::Format format() const {
+        return config_.over_frames ? kHistoryFormat : kLpFormat;
+    }
+
+    void make_pipelines() {
+        const vk::raii::Device& device = setup_.context.device();
+        const auto layout = [&](const EyeSets& sets) {
+            return vulkan::make_pipeline_layout(
+                device, {setup_.frame_layout, setup_.scene.inputs(), sets.layout()},
+                setup_.empty_layout);
+        };
+        layer_layout_ = layout(layer_sets_.front());
+        composite_layout_ = layout(composite_sets_);
+        const std::array samples{vulkan::ShaderConstant{kSamples, setup_.samples}};
+        shade_ =
+            vulkan::make_pipeline(device, layer_layout_,
+                                  {.vertex = "tiles.vert",
+                                   .fragment = fmt::format("{}.layers.frag", setup_.scene.shader()),
+                                   .format = kLpFormat,
+                                   .constants = samples});
+        if (config_.over_frames) {
+            temporal_ = vulkan::make_pipeline(device, layer_layout_,
+                                              {.vertex = "tiles.vert",
+                                               .fragment = "layers_temporal.frag",
+                                               .format = kHistoryFormat});
+        }
+        const std::array composing{
+            vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup_.format) ? 0U : 1U},
+            vulkan::ShaderConstant{kLayers, static_cast<std::uint32_t>(config_.layers)},
+            vulkan::ShaderConstant{kHalfRate, config_.half_rate ? 1U : 0U}};
+        composite_ = vulkan::make_pipeline(device, composite_layout_,
+                                           {.vertex = "full_screen.vert",
+                                            .fragment = resolve_shader("layers", setup_),
+                                            .format = setup_.format,
+                                            .depth_format = setup_.depth_format,
+                                            .constants = composing});
+    }
+
+    /// Images for any gaze: a layer's rectangle may be the whole picture.
+    void make_layers(gaze::Eye eye) {
+        const std::size_t e = gaze::index(eye);
+        const vk::Extent2D picture = setup_.extents[e];
+        const std::vector<foveation::LayerShape>& shapes = plan_.layers(eye);
+        std::array<vk::ImageView, kMostLayers> views;
+        for (std::size_t i = 0; i < config_.layers; ++i) {
+            Layer& layer = layers_[e].at(i);
+            layer = {};
+            const double factor = i < shapes.size() ? shapes[i].factor : picture.width;
+            const auto cells = [&](std::uint32_t pixels) {
+                return static_cast<std::uint32_t>(std::max(1.0, std::ceil(pixels / factor)));
+            };
+            const vk::Extent2D extent(cells(picture.width), cells(picture.height));
+            layer.history = vulkan::History(setup_.context, extent, format());
+            layer.history.advance();
+            if (config_.over_frames) {
+                using Usage = vk::ImageUsageFlagBits;
+                layer.fresh = vulkan::ColorImage(setup_.context, extent, kLpFormat,
+                                                 Usage::eColorAttachment | Usage::eSampled);
+                layer.fresh_tracked =
+                    vulkan::TrackedImage(layer.fresh.image(), vk::ImageAspectFlagBits::eColor);
+            }
+            views.at(i) = layer.history.now().image.view();
+        }
+        for (std::size_t i = config_.layers; i < kMostLayers; ++i) {
+            views.at(i) = views[0];
+        }
+        const std::size_t table = plan_.table_words(picture.height);
+        for (std::size_t i = 0; i < config_.layers; ++i) {
+            layer_sets_[i].attach(
+                e, table, {},
+                std::array{views.at(i),
+                           config_.over_frames ? layers_[e].at(i).fresh.view() : views.at(i)});
+        }
+        composite_sets_.attach(e, table, {}, views);
+    }
+
+    /// What of an eye's layers is shown in this frame, and what of them was before.
+    void take_turns(const FrameRecording& frame, std::size_t e, const foveation::EyePlan& plan) {
+        LayerUniforms uniforms;
+        for (std::size_t i = 0; i < config_.layers; ++i) {
+            Layer& layer = layers_[e].at(i);
+            if (!frame.in_run.follows) {
+                layer.history.reset();
+                layer.jitter.reset();
+                layer.shown = {};
+            }
+            const LayeredPlan::Layer planned = LayeredPlan::layer_of(plan, i);
+            layer.shown.camera.w = 0.0F;
+            if (planned.cells.w > 0.0F) {
+                layer.before = layer.shown;
+                layer.shown = seen_now(frame.view.views[e], plan, planned);
+                if (config_.over_frames) {
+                    const glm::dvec2 jitter = layer.jitter.offset();
+                    layer.shown.cells.z = static_cast<float>(jitter.x);
+                    layer.shown.cells.w = static_cast<float>(jitter.y);
+                    layer.jitter.advance();
+                }
+                layer.history.advance();
+                if (layer.history.before() == nullptr) {
+                    layer.before = {};
+                }
+                layer_sets_[i].attach_image(frame.slot, e, kBefore,
+                                            layer.history.other().image.view());
+            }
+            // What a view has no layer for is never shaded: any image does.
+            const bool exists = i < plan_.layers(gaze::kEyes[e]).size();
+            uniforms.shown.at(i) = layer.shown;
+            uniforms.before.at(i) = layer.before;
+            uniforms.first_band[static_cast<glm::length_t>(i)] = planned.cells.z;
+            composite_sets_.attach_image(
+                frame.slot, e, static_cast<std::uint32_t>(i),
+                (exists ? layer : layers_[e].front()).history.now().image.view());
+        }
+        for (std::size_t i = config_.layers; i < kMostLayers; ++i) {
+            composite_sets_.attach_image(frame.slot, e, static_cast<std::uint32_t>(i),
+                                         layers_[e].front().history.now().image.view());
+        }
+        for (EyeSets& sets : layer_sets_) {
+            sets.write(frame.slot, e, uniforms, plan.table);
+        }
+        composite_sets_.write(frame.slot, e, uniforms, plan.table);
+    }
+
+    static SeenLayer seen_now(const gaze::EyeView& view, const foveation::EyePlan& plan,
+                              const LayeredPlan::Layer& planned) {
+        const FrameUniforms frame = frame_uniforms(view, 0.0, 1, nullptr);
+        const glm::vec3 gaze = LayeredPlan::gaze_of(plan);
+        const bool any = planned.cells.x > 0.0F && planned.cells.y > 0.0F;
+        const glm::vec3 in_world = glm::vec3(frame.view_axes[0]) * gaze.x +
+                                   glm::vec3(frame.view_axes[1]) * gaze.y +
+                                   glm::vec3(frame.view_axes[2]) * gaze.z;
+        SeenLayer seen{.cells = {planned.cells.x, planned.cells.y, 0.0F, 0.0F},
+                       .blend = planned.blend,
+                       .gaze = glm::vec4(in_world, any ? 1.0F : 0.0F),
+                       .camera = glm::vec4(glm::vec3(frame.camera_and_time), 1.0F),
+                       .axes = frame.view_axes,
+                       .tangents = frame.tangents};
+        if (any) {
+            seen.covers = planned.covers;
+        }
+        return seen;
+    }
+
+    void shade_layer(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
+                     std::size_t e, std::size_t layer, std::span<const foveation::Tile> tiles) {
+        Layer& shaded = layers_[e].at(layer);
+        vulkan::History::Entry& now = shaded.history.now();
+        const auto draw = [&](const vk::raii::Pipeline& pipeline, const vulkan::ColorImage& image,
+                              vulkan::TrackedImage& tracked) {
+            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
+            shade_cells(commands, image, tracked, tiles, static_cast<std::uint32_t>(layer),
+                        setup_.unshaded);
+        };
+        bind_sets(commands, layer_layout_, frame, e, layer_sets_[layer].of(frame.slot, e));
+        if (!config_.over_frames) {
+            draw(shade_, now.image, now.tracked);
+            return;
+        }
+        draw(shade_, shaded.fresh, shaded.fresh_tracked);
+        shaded.history.other().tracked.use(
+            commands, vulkan::Use::Sampled,
+            shaded.history.before() != nullptr ? vulkan::Keep::Content : vulkan::Keep::Nothing);
+        draw(temporal_, now.image, now.tracked);
+    }
+
+    PassSetup setup_;
+    LayersConfig config_;
+    frame::PassList passes_;
+    LayeredPlan plan_;
+    vk::raii::Sampler sampler_;
+    std::vector<EyeSets> layer_sets_;
+    EyeSets composite_sets_;
+    vk::raii::PipelineLayout layer_layout_{nullptr};
+    vk::raii::PipelineLayout composite_layout_{nullptr};
+    vk::raii::Pipeline shade_{nullptr};
+    vk::raii::Pipeline temporal_{nullptr};
+    vk::raii::Pipeline composite_{nullptr};
+    gaze::PerEye<std::array<Layer, kMostLayers>> layers_;
+};
+
+}  // namespace
+
+std::unique_ptr<MethodPasses> make_layers_passes(const PassSetup& setup, const LayersConfig& config,
+                                                 LayeredPlan::LayersOf layers_of) {
+    return std::make_unique<LayersPasses>(setup, config, std::move(layers_of));
+}
+
+}  // namespace gazeloop::render
