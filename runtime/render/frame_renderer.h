@@ -86,7 +86,7 @@ class FrameRenderer {
     }
     /// How far away the scene was around the foveae, in the frame that next_finished() returned
     /// last. Patches are empty where the configuration does not ask for them, and where the method
-    /// kept no depth at the fovea: off screen, without a disc, by full resolution.
+    /// kept no depth at the fovea: off screen, without a disc, by methods that keep none.
     [[nodiscard]] const gaze::SeenDepth& seen_depth() const { return seen_depth_; }
     [[nodiscard]] std::uint64_t clock_deviation_ns() const { return clock_.max_deviation_ns(); }
 

@@ -4,10 +4,8 @@ namespace gazeloop::vulkan {
 
 History::History(const Context& context, vk::Extent2D extent, vk::Format format) {
     for (Entry& entry : images_) {
-        entry.image =
-            ColorImage(context, extent, format,
-                       vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled);
-        entry.tracked = TrackedImage(entry.image.image(), vk::ImageAspectFlagBits::eColor);
+        entry = Entry(context, extent, format,
+                      vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled);
     }
 }
 

@@ -4,8 +4,7 @@
 #include <optional>
 #include <vulkan/vulkan_raii.hpp>
 
-#include "runtime/vulkan/memory.h"
-#include "runtime/vulkan/tracked_image.h"
+#include "runtime/vulkan/tracked_color_image.h"
 
 namespace gazeloop::vulkan {
 
@@ -14,10 +13,7 @@ namespace gazeloop::vulkan {
 /// lavapipe, and the error adds up.
 class History {
   public:
-    struct Entry {
-        ColorImage image;
-        TrackedImage tracked;
-    };
+    using Entry = TrackedColorImage;
 
     History() = default;
     History(const Context& context, vk::Extent2D extent, vk::Format format);

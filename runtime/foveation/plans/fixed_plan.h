@@ -30,6 +30,7 @@ class FixedPlan final : public MethodPlan {
         ahead.direction = kStraightAhead;
         ahead.position = gaze::project(kStraightAhead, view);
         held_.plan(eye, view, ahead, hidden, frame, plan);
+        plan.ring_px = 0.0;  // it would be drawn around the gaze
     }
 
   private:

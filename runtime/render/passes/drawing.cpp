@@ -66,18 +66,18 @@ void draw_visible_tiles(const vk::raii::CommandBuffer& commands,
     }
 }
 
-void shade_cells(const vk::raii::CommandBuffer& commands, const vulkan::ColorImage& image,
-                 vulkan::TrackedImage& tracked, std::span<const foveation::Tile> tiles,
-                 std::uint32_t instance, const std::optional<std::array<float, 4>>& unshaded) {
-    tracked.use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
+void shade_cells(const vk::raii::CommandBuffer& commands, vulkan::TrackedColorImage& cells,
+                 std::span<const foveation::Tile> tiles, std::uint32_t instance,
+                 const std::optional<std::array<float, 4>>& unshaded) {
+    cells.tracked.use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
     if (!tiles.empty() || unshaded) {
-        begin_rendering(commands, image.view(), image.extent(),
+        begin_rendering(commands, cells.image.view(), cells.image.extent(),
                         unshaded ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare,
                         unshaded.value_or(std::array<float, 4>{}));
         draw_tiles(commands, tiles, instance);
         commands.endRendering();
     }
-    tracked.use(commands, vulkan::Use::Sampled);
+    cells.tracked.use(commands, vulkan::Use::Sampled);
 }
 
 vk::raii::Sampler make_sampler(const vk::raii::Device& device, vk::Filter filter) {

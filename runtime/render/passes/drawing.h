@@ -10,6 +10,7 @@
 #include "runtime/foveation/picture/hidden_area.h"
 #include "runtime/foveation/picture/tile.h"
 #include "runtime/render/passes/method_passes.h"
+#include "runtime/vulkan/tracked_color_image.h"
 
 namespace gazeloop::render {
 
@@ -45,9 +46,9 @@ void draw_visible_tiles(const vk::raii::CommandBuffer& commands,
 
 /// Shades the cells of a grid into an image and makes that readable. Pipeline and sets are bound.
 /// Tiles may be none: nothing of it is read then, but its layout must be right.
-void shade_cells(const vk::raii::CommandBuffer& commands, const vulkan::ColorImage& image,
-                 vulkan::TrackedImage& tracked, std::span<const foveation::Tile> tiles,
-                 std::uint32_t instance, const std::optional<std::array<float, 4>>& unshaded);
+void shade_cells(const vk::raii::CommandBuffer& commands, vulkan::TrackedColorImage& cells,
+                 std::span<const foveation::Tile> tiles, std::uint32_t instance,
+                 const std::optional<std::array<float, 4>>& unshaded);
 
 /// A sampler that clamps to the edge.
 [[nodiscard]] vk::raii::Sampler make_sampler(const vk::raii::Device& device, vk::Filter filter);

@@ -129,8 +129,7 @@ class LayersPasses final : public MethodPasses {
     /// What an eye keeps of a layer from frame to frame.
     struct Layer {
         vulkan::History history;
-        vulkan::ColorImage fresh;  ///< as shaded; only where frames are mixed
-        vulkan::TrackedImage fresh_tracked;
+        vulkan::TrackedColorImage fresh;  ///< as shaded; only where frames are mixed
         Jitter jitter;
         SeenLayer shown;
         SeenLayer before;
@@ -196,10 +195,8 @@ class LayersPasses final : public MethodPasses {
             layer.history.advance();
             if (config_.over_frames) {
                 using Usage = vk::ImageUsageFlagBits;
-                layer.fresh = vulkan::ColorImage(setup_.context, extent, kLpFormat,
-                                                 Usage::eColorAttachment | Usage::eSampled);
-                layer.fresh_tracked =
-                    vulkan::TrackedImage(layer.fresh.image(), vk::ImageAspectFlagBits::eColor);
+                layer.fresh = {setup_.context, extent, kLpFormat,
+                               Usage::eColorAttachment | Usage::eSampled};
             }
             views.at(i) = layer.history.now().image.view();
         }
@@ -210,8 +207,8 @@ class LayersPasses final : public MethodPasses {
         for (std::size_t i = 0; i < config_.layers; ++i) {
             layer_sets_[i].attach(
                 e, table, {},
-                std::array{views.at(i),
-                           config_.over_frames ? layers_[e].at(i).fresh.view() : views.at(i)});
+                std::array{views.at(i), config_.over_frames ? layers_[e].at(i).fresh.image.view()
+                                                            : views.at(i)});
         }
         composite_sets_.attach(e, table, {}, views);
     }
@@ -286,23 +283,22 @@ class LayersPasses final : public MethodPasses {
     void shade_layer(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
                      std::size_t e, std::size_t layer, std::span<const foveation::Tile> tiles) {
         Layer& shaded = layers_[e].at(layer);
-        vulkan::History::Entry& now = shaded.history.now();
-        const auto draw = [&](const vk::raii::Pipeline& pipeline, const vulkan::ColorImage& image,
-                              vulkan::TrackedImage& tracked) {
+        vulkan::TrackedColorImage& now = shaded.history.now();
+        const auto draw = [&](const vk::raii::Pipeline& pipeline,
+                              vulkan::TrackedColorImage& cells) {
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
-            shade_cells(commands, image, tracked, tiles, static_cast<std::uint32_t>(layer),
-                        setup_.unshaded);
+            shade_cells(commands, cells, tiles, static_cast<std::uint32_t>(layer), setup_.unshaded);
         };
         bind_sets(commands, layer_layout_, frame, e, layer_sets_[layer].of(frame.slot, e));
         if (!config_.over_frames) {
-            draw(shade_, now.image, now.tracked);
+            draw(shade_, now);
             return;
         }
-        draw(shade_, shaded.fresh, shaded.fresh_tracked);
+        draw(shade_, shaded.fresh);
         shaded.history.other().tracked.use(
             commands, vulkan::Use::Sampled,
             shaded.history.before() != nullptr ? vulkan::Keep::Content : vulkan::Keep::Nothing);
-        draw(temporal_, now.image, now.tracked);
+        draw(temporal_, now);
     }
 
     PassSetup setup_;

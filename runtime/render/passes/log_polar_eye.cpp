@@ -7,12 +7,8 @@ namespace {
 
 LogPolarEye::Buffer make_buffer(const vulkan::Context& context, vk::Extent2D extent) {
     using Usage = vk::ImageUsageFlagBits;
-    LogPolarEye::Buffer buffer;
-    buffer.image =
-        vulkan::ColorImage(context, extent, kLpFormat,
-                           Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc);
-    buffer.tracked = vulkan::TrackedImage(buffer.image.image(), vk::ImageAspectFlagBits::eColor);
-    return buffer;
+    return {context, extent, kLpFormat,
+            Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc};
 }
 
 }  // namespace

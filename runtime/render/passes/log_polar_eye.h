@@ -3,8 +3,7 @@
 #include "runtime/foveation/log_polar/lp_size.h"
 #include "runtime/foveation/log_polar/map_tables.h"
 #include "runtime/render/map_buffers.h"
-#include "runtime/vulkan/memory.h"
-#include "runtime/vulkan/tracked_image.h"
+#include "runtime/vulkan/tracked_color_image.h"
 
 namespace gazeloop::render {
 
@@ -19,10 +18,7 @@ class LogPolarEye {
     LogPolarEye(const vulkan::Context& context, const foveation::MapTables& tables,
                 foveation::LpSize lp, vk::Extent2D picture, std::uint32_t samples);
 
-    struct Buffer {
-        vulkan::ColorImage image;
-        vulkan::TrackedImage tracked;
-    };
+    using Buffer = vulkan::TrackedColorImage;
     [[nodiscard]] Buffer& lp_buffer() { return lp_buffer_; }
     [[nodiscard]] const Buffer& lp_buffer() const { return lp_buffer_; }
     /// Pixels of the picture that are shaded directly; only those of the plan's disc are written.

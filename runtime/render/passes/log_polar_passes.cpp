@@ -267,8 +267,7 @@ class LogPolarPasses final : public MethodPasses {
             grid == kDisc ? eyes_[e]->direct_buffer() : eyes_[e]->lp_buffer();
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pass_i_);
         bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
-        shade_cells(commands, target.image, target.tracked, tiles, grid == kDisc ? 1 : 0,
-                    setup_.unshaded);
+        shade_cells(commands, target, tiles, grid == kDisc ? 1 : 0, setup_.unshaded);
     }
 
     /// The whole picture from the LP-buffer, then the disc over it.

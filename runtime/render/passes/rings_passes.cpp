@@ -66,8 +66,7 @@ class RingsPasses final : public MethodPasses {
             bind_sets(shading, layout_, frame, e, sets_.of(frame.slot, e));
             shading.bindPipeline(vk::PipelineBindPoint::eGraphics, *shade_);
             for (unsigned rate = 0; rate < kRates; ++rate) {
-                Cells& cells = cells_[e].at(rate);
-                shade_cells(shading, cells.image, cells.tracked, plans[e].grids[rate].tiles, rate,
+                shade_cells(shading, cells_[e].at(rate), plans[e].grids[rate].tiles, rate,
                             setup_.unshaded);
             }
         }
@@ -97,23 +96,17 @@ class RingsPasses final : public MethodPasses {
     }
 
   private:
-    struct Cells {
-        vulkan::ColorImage image;
-        vulkan::TrackedImage tracked;
-    };
-
     void make_cells(std::size_t e) {
         using Usage = vk::ImageUsageFlagBits;
         const vk::Extent2D picture = setup_.extents[e];
         std::array<vk::ImageView, kRates> views;
         for (unsigned rate = 0; rate < kRates; ++rate) {
             const std::uint32_t more = (1U << rate) - 1;
-            Cells& cells = cells_[e].at(rate);
-            cells.image = vulkan::ColorImage(
-                setup_.context, {(picture.width + more) >> rate, (picture.height + more) >> rate},
-                kLpFormat, Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc);
-            cells.tracked =
-                vulkan::TrackedImage(cells.image.image(), vk::ImageAspectFlagBits::eColor);
+            vulkan::TrackedColorImage& cells = cells_[e].at(rate);
+            cells = {setup_.context,
+                     {(picture.width + more) >> rate, (picture.height + more) >> rate},
+                     kLpFormat,
+                     Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc};
             views.at(rate) = cells.image.view();
         }
         sets_.attach(e, foveation::RingsPlan::table_words(picture.height), {}, views);
@@ -127,7 +120,7 @@ class RingsPasses final : public MethodPasses {
     vk::raii::PipelineLayout layout_;
     vk::raii::Pipeline shade_{nullptr};
     vk::raii::Pipeline resolve_{nullptr};
-    gaze::PerEye<std::array<Cells, kRates>> cells_;
+    gaze::PerEye<std::array<vulkan::TrackedColorImage, kRates>> cells_;
     gaze::PerEye<std::vector<FoveaDepth>> depths_;  ///< by slot
 };
 

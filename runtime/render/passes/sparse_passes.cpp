@@ -81,8 +81,7 @@ class SparsePasses final : public MethodPasses {
             sets_.write(frame.slot, e, plans[e]);
             bind_sets(shading, layout_, frame, e, sets_.of(frame.slot, e));
             shading.bindPipeline(vk::PipelineBindPoint::eGraphics, *shade_);
-            shade_cells(shading, lists_[e].image, lists_[e].tracked, plans[e].grids[0].tiles, 0,
-                        setup_.unshaded);
+            shade_cells(shading, lists_[e], plans[e].grids[0].tiles, 0, setup_.unshaded);
         }
         if (config_.accumulate) {
             const vk::raii::CommandBuffer& commands = recorder.begin("accumulate");
@@ -99,11 +98,6 @@ class SparsePasses final : public MethodPasses {
     }
 
   private:
-    struct List {
-        vulkan::ColorImage image;
-        vulkan::TrackedImage tracked;
-    };
-
     void make_pipelines() {
         const vk::raii::Device& device = setup_.context.device();
         const std::array samples{vulkan::ShaderConstant{kSamples, setup_.samples}};
@@ -137,13 +131,12 @@ class SparsePasses final : public MethodPasses {
         const std::size_t e = gaze::index(eye);
         const auto& prepared = plan_.prepared(eye);
         using Usage = vk::ImageUsageFlagBits;
-        List& list = lists_[e];
-        list.image =
-            vulkan::ColorImage(setup_.context, {SparsePlan::kListWidth, prepared->list_rows()},
-                               kLpFormat, Usage::eColorAttachment | Usage::eSampled);
-        list.tracked = vulkan::TrackedImage(list.image.image(), vk::ImageAspectFlagBits::eColor);
+        lists_[e] = {setup_.context,
+                     {SparsePlan::kListWidth, prepared->list_rows()},
+                     kLpFormat,
+                     Usage::eColorAttachment | Usage::eSampled};
         upload(e, prepared);
-        const vk::ImageView view = list.image.view();
+        const vk::ImageView view = lists_[e].image.view();
         sets_.attach(e, prepared->table_words(),
                      std::array{patterns_[e]->samples.buffer(), patterns_[e]->nearest.buffer()},
                      std::array{view, view, view});
@@ -223,7 +216,7 @@ class SparsePasses final : public MethodPasses {
     vk::raii::Pipeline shade_{nullptr};
     vk::raii::Pipeline accumulate_{nullptr};
     vk::raii::Pipeline resolve_{nullptr};
-    gaze::PerEye<List> lists_;
+    gaze::PerEye<vulkan::TrackedColorImage> lists_;
     gaze::PerEye<std::shared_ptr<const PatternBuffers>> patterns_;
     gaze::PerEye<vulkan::History> histories_;
 };
