@@ -10,6 +10,7 @@
 
 #include "runtime/error.h"
 #include "runtime/scene/gltf/load_gltf.h"
+#include "runtime/scene/gltf/viewer_place.h"
 
 namespace gazeloop::scene {
 namespace {
@@ -85,6 +86,7 @@ mesh::MeshData load_scene_file(const std::filesystem::path& file) {
     for (const gltf::Note& note : scene.notes) {
         spdlog::warn("{}: {}", file.string(), note_text(note));
     }
+    gltf::place_before_viewer(scene.data);
     return std::move(scene.data);
 }
 
