@@ -57,13 +57,15 @@ FrameRenderer::FrameRenderer(const vulkan::Context& context, scene::Scene& scene
                          fmt::format("render.frames_in_flight = {}: must lie in [1, {}]",
                                      config.frames_in_flight, kMostInFlight));
     }
+    own_scene_ = scene.for_renderer({.extents = config.extents, .slots = config.frames_in_flight});
+    scene_ = own_scene_ ? own_scene_.get() : &scene;
     const vk::raii::Device& device = context.device();
     constexpr std::array kFrameBindings{vk::DescriptorType::eUniformBuffer};
     frame_layout_ =
         vulkan::make_set_layout(device, kFrameBindings, vk::ShaderStageFlagBits::eFragment);
     empty_layout_ = vulkan::make_set_layout(device, {}, {});
     method_ = make_passes({.context = context,
-                           .scene = scene,
+                           .scene = *scene_,
                            .frame_layout = *frame_layout_,
                            .empty_layout = *empty_layout_,
                            .samples = config.samples,
@@ -72,8 +74,11 @@ FrameRenderer::FrameRenderer(const vulkan::Context& context, scene::Scene& scene
                            .depth_format = config.depth_format,
                            .slots = config.frames_in_flight,
                            .seen_depth = config.seen_depth,
+                           .lp_gaussian = config.lp_gaussian == FilterUse::On ||
+                                          (config.lp_gaussian == FilterUse::AsSceneNeeds &&
+                                           scene_->is_point_sampled()),
                            .unshaded = config.unshaded});
-    passes_ = pass_list(scene.passes(), method_->passes());
+    passes_ = pass_list(scene_->passes(), method_->passes());
     const std::uint32_t sets =
         config.frames_in_flight * static_cast<std::uint32_t>(gaze::kEyeCount);
     const vk::DescriptorPoolSize size(vk::DescriptorType::eUniformBuffer, sets);

@@ -18,6 +18,9 @@
 
 namespace gazeloop::render {
 
+/// Whether a filter runs.
+enum class FilterUse : std::uint8_t { Off, On, AsSceneNeeds };
+
 struct RendererConfig {
     std::uint32_t samples = 1;  ///< per texel or pixel, [1, kMaxSamples]
     gaze::PerEye<vk::Extent2D> extents;
@@ -29,6 +32,8 @@ struct RendererConfig {
     bool hash = false;                   ///< read every picture back and hash it
     bool seen_depth = false;             ///< read back the scene's distance around the foveae
     std::uint32_t frames_in_flight = 2;  ///< [1, 3]
+    /// The 3 x 3 Gaussian over a log-polar buffer's periphery.
+    FilterUse lp_gaussian = FilterUse::AsSceneNeeds;
     /// Radiance that cells outside the plan hold; unset: anything, since no pixel reads them.
     std::optional<std::array<float, 4>> unshaded;
 };
@@ -100,6 +105,7 @@ class FrameRenderer {
     void wait_for(vk::Semaphore timeline, std::uint64_t value) const;
 
     const vulkan::Context* context_;
+    std::unique_ptr<scene::Scene> own_scene_;  ///< of these pictures; null: the shared one serves
     scene::Scene* scene_;
     RendererConfig config_;
     vulkan::GpuClock clock_;

@@ -12,6 +12,8 @@ namespace gazeloop::render {
 struct RenderSettings {
     std::string method = "kfr";
     std::string scene = "raymarch";
+    std::string require = "scene";
+    std::string lp_gaussian = "scene";
     std::int64_t spp = 1;
     double scale = 1.0;
     bool profile = true;

@@ -1,13 +1,23 @@
 #pragma once
 
+#include <memory>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vulkan/vulkan_raii.hpp>
 
 #include "runtime/gaze/eye.h"
 #include "runtime/gaze/view.h"
 #include "runtime/vulkan/pass_recorder.h"
+#include "runtime/vulkan/pipelines.h"
 
 namespace gazeloop::scene {
+
+/// The pictures of one renderer, for scenes that draw into pictures of their own before.
+struct RendererPictures {
+    gaze::PerEye<vk::Extent2D> extents;
+    std::uint32_t slots = 1;  ///< frames that may be in flight
+};
 
 /// What is rendered: one for all renderers of a process. Its shader answers radiance, distance and
 /// motion at a place of the picture (shaders/lib/scene.glsl); inputs of that shader are descriptor
@@ -21,6 +31,22 @@ class Scene {
 
     /// shaders/scenes/NAME.glsl.
     [[nodiscard]] virtual std::string_view shader() const = 0;
+
+    /// Specialization constants of its shader, constant_id from 16.
+    [[nodiscard]] virtual std::span<const vulkan::ShaderConstant> constants() const { return {}; }
+
+    /// Whether its answers jump from pixel to pixel, so that samples farther apart alias.
+    [[nodiscard]] virtual bool is_point_sampled() const { return false; }
+
+    /// The same scene for the pictures of one renderer, which asks it instead. Null: this one
+    /// serves all. It must not outlive this.
+    [[nodiscard]] virtual std::unique_ptr<Scene> for_renderer(
+        const RendererPictures& /*pictures*/) {
+        return nullptr;
+    }
+
+    /// What of its work is left out because nothing shown needs it, for people.
+    [[nodiscard]] virtual std::span<const std::string> skipped() const { return {}; }
 
     /// Passes of its own, recorded before those of the method.
     [[nodiscard]] virtual frame::PassList passes() const { return {}; }

@@ -4,20 +4,44 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "runtime/error.h"
+#include "runtime/scene/gallery/gallery_scene.h"
+#include "runtime/scene/mesh_scene.h"
 #include "runtime/scene/ray_scene.h"
 #include "shaders/shader_library.h"
 
 namespace gazeloop::scene {
+namespace {
 
-std::span<const std::string_view> scene_names() { return shaders::scenes(); }
+constexpr std::string_view kGallery = "gallery";
 
-std::unique_ptr<Scene> make_scene(const vulkan::Context& /*context*/, std::string_view name) {
+/// Those of shaders/scenes that are scenes by themselves, and those that are made of meshes.
+std::vector<std::string_view> all_names() {
+    std::vector<std::string_view> names{kGallery};
+    std::ranges::copy_if(shaders::scenes(), std::back_inserter(names),
+                         [](std::string_view name) { return name != kMeshShader; });
+    std::ranges::sort(names);
+    return names;
+}
+
+}  // namespace
+
+std::span<const std::string_view> scene_names() {
+    static const std::vector<std::string_view> kNames = all_names();
+    return kNames;
+}
+
+std::unique_ptr<Scene> make_scene(const vulkan::Context& context, std::string_view name,
+                                  const SceneOptions& options) {
     const auto names = scene_names();
     if (std::ranges::find(names, name) == names.end()) {
         throw SetupError(ErrorKind::Usage, fmt::format("there is no scene '{}': there are {}", name,
                                                        fmt::join(names, ", ")));
+    }
+    if (name == kGallery) {
+        return make_mesh_scene(context, gallery::gallery_scene(), options);
     }
     return std::make_unique<RayScene>(name);
 }

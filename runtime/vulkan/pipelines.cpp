@@ -3,18 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "shaders/shader_library.h"
+#include "runtime/vulkan/shader_stage.h"
 
 namespace gazeloop::vulkan {
-namespace {
-
-vk::raii::ShaderModule load(const vk::raii::Device& device, std::string_view name) {
-    const auto words = shaders::spirv(name);
-    return {device, vk::ShaderModuleCreateInfo({}, words.size_bytes(), words.data())};
-}
-
-}  // namespace
-
 vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device,
                                               std::span<const vk::DescriptorType> bindings,
                                               vk::ShaderStageFlags stages) {
@@ -38,19 +29,10 @@ vk::raii::PipelineLayout make_pipeline_layout(const vk::raii::Device& device,
 vk::raii::Pipeline make_pipeline(const vk::raii::Device& device,
                                  const vk::raii::PipelineLayout& layout,
                                  const PipelineSource& source) {
-    const vk::raii::ShaderModule vertex = load(device, source.vertex);
-    const vk::raii::ShaderModule fragment = load(device, source.fragment);
-    std::vector<std::uint32_t> values;
-    std::vector<vk::SpecializationMapEntry> entries;
-    for (const ShaderConstant& constant : source.constants) {
-        entries.emplace_back(constant.id,
-                             static_cast<std::uint32_t>(values.size() * sizeof(std::uint32_t)),
-                             sizeof(std::uint32_t));
-        values.push_back(constant.value);
-    }
-    const vk::SpecializationInfo specialization(
-        static_cast<std::uint32_t>(entries.size()), entries.data(),
-        values.size() * sizeof(std::uint32_t), values.data());
+    const vk::raii::ShaderModule vertex = load_shader(device, source.vertex);
+    const vk::raii::ShaderModule fragment = load_shader(device, source.fragment);
+    const Specialization constants(source.constants);
+    const vk::SpecializationInfo specialization = constants.info();
     const std::array stages{
         vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"),
         vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main",

@@ -8,6 +8,14 @@
 
 namespace gazeloop::render {
 
+std::vector<vulkan::ShaderConstant> with_scene(
+    const scene::Scene& scene, std::initializer_list<vulkan::ShaderConstant> constants) {
+    std::vector<vulkan::ShaderConstant> all(constants);
+    const auto more = scene.constants();
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
 bool encodes_srgb(vk::Format format) {
     return format == vk::Format::eR8G8B8A8Srgb || format == vk::Format::eB8G8R8A8Srgb;
 }

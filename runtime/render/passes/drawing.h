@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
 #include "runtime/foveation/picture/hidden_area.h"
@@ -22,6 +24,10 @@ enum ShaderConstantId : std::uint32_t {
     kWithDisc = 3,
     kOfMethod = 4  ///< and beyond: what one method alone knows
 };
+
+/// The constants of a pass that asks the scene, and the scene's own.
+[[nodiscard]] std::vector<vulkan::ShaderConstant> with_scene(
+    const scene::Scene& scene, std::initializer_list<vulkan::ShaderConstant> constants);
 
 /// Whether a format encodes sRGB by itself; else the pass that writes it does.
 [[nodiscard]] bool encodes_srgb(vk::Format format);

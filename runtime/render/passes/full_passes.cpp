@@ -16,9 +16,9 @@ class FullPasses final : public MethodPasses {
           layout_(vulkan::make_pipeline_layout(setup.context.device(),
                                                {setup.frame_layout, setup.scene.inputs(), {}},
                                                setup.empty_layout)) {
-        const std::array constants{
-            vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup.format) ? 0U : 1U},
-            vulkan::ShaderConstant{kSamples, setup.samples}};
+        const auto constants = with_scene(
+            setup.scene,
+            {{kEncodeSrgb, encodes_srgb(setup.format) ? 0U : 1U}, {kSamples, setup.samples}});
         // A variant of its own: the mere statement of a depth costs a third of a resolve.
         const std::string_view suffix =
             setup.depth_format == vk::Format::eUndefined ? "frag" : "depth.frag";

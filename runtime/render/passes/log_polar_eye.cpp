@@ -14,10 +14,15 @@ LogPolarEye::Buffer make_buffer(const vulkan::Context& context, vk::Extent2D ext
 }  // namespace
 
 LogPolarEye::LogPolarEye(const vulkan::Context& context, const foveation::MapTables& tables,
-                         foveation::LpSize lp, vk::Extent2D picture, std::uint32_t samples)
+                         foveation::LpSize lp, vk::Extent2D picture, std::uint32_t samples,
+                         bool smoothed)
     : lp_buffer_(make_buffer(context, vk::Extent2D(lp.width, lp.height))),
       direct_buffer_(make_buffer(context, picture)),
-      map_buffers_(context, tables, samples, lp.height) {}
+      map_buffers_(context, tables, samples, lp.height) {
+    if (smoothed) {
+        smoothed_buffer_ = make_buffer(context, vk::Extent2D(lp.width, lp.height));
+    }
+}
 
 std::size_t LogPolarEye::max_bands() const {
     return std::size_t{lp_buffer_.image.extent().height / foveation::kBandRows} +

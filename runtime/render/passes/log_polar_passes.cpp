@@ -74,7 +74,10 @@ class AcuityDerivedMap final : public Map {
 class LogPolarPasses final : public MethodPasses {
   public:
     LogPolarPasses(const PassSetup& setup, std::unique_ptr<Map> map)
-        : setup_(setup), map_(std::move(map)) {
+        : setup_(setup),
+          map_(std::move(map)),
+          passes_(setup.lp_gaussian ? frame::PassList{"pass_i", "disc", "lp_gaussian", "resolve"}
+                                    : frame::PassList{"pass_i", "disc", "resolve"}) {
         const vk::raii::Device& device = setup.context.device();
         set_layout_ =
             vulkan::make_set_layout(device, kBindings, vk::ShaderStageFlagBits::eFragment);
@@ -86,7 +89,9 @@ class LogPolarPasses final : public MethodPasses {
             device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear,
                                           vk::SamplerMipmapMode::eNearest, Mode::eClampToEdge,
                                           Mode::eRepeat, Mode::eClampToEdge));
-        const std::uint32_t sets = setup.slots * static_cast<std::uint32_t>(gaze::kEyeCount);
+        // With a filter, a second set for the resolve, which then reads what the filter wrote.
+        const std::uint32_t sets =
+            setup.slots * static_cast<std::uint32_t>(gaze::kEyeCount) * (setup.lp_gaussian ? 2 : 1);
         const std::array sizes{vk::DescriptorPoolSize(Type::eUniformBuffer, 2 * sets),
                                vk::DescriptorPoolSize(Type::eStorageBuffer, 3 * sets),
                                vk::DescriptorPoolSize(Type::eCombinedImageSampler, 2 * sets)};
@@ -99,8 +104,10 @@ class LogPolarPasses final : public MethodPasses {
                 EyeSlot& at = slot[e];
                 at.uniforms = vulkan::HostBuffer(setup.context, sizeof(foveation::MapUniforms),
                                                  vk::BufferUsageFlagBits::eUniformBuffer);
-                at.set = std::move(vk::raii::DescriptorSets(
-                    device, vk::DescriptorSetAllocateInfo(*pool_, *set_layout_))[0]);
+                at.set = allocate_set();
+                if (setup.lp_gaussian) {
+                    at.resolve_set = allocate_set();
+                }
                 if (setup.seen_depth) {
                     at.depth.emplace(setup.context, setup.extents[e]);
                 }
@@ -119,7 +126,7 @@ class LogPolarPasses final : public MethodPasses {
         for (const gaze::Eye eye : gaze::kEyes) {
             const std::size_t e = gaze::index(eye);
             eyes_[e].emplace(setup_.context, map_->tables(eye), map_->lp(eye), setup_.extents[e],
-                             setup_.samples);
+                             setup_.samples, setup_.lp_gaussian);
             attach_eye(e);
         }
     }
@@ -151,14 +158,26 @@ class LogPolarPasses final : public MethodPasses {
         if (any(kDisc)) {
             shade(recorder.begin("disc"), kDisc);
         }
+        if (setup_.lp_gaussian && any(kTexels)) {
+            const vk::raii::CommandBuffer& commands = recorder.begin("lp_gaussian");
+            for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+                smooth_tiles(commands, frame, e, plans[e].grids[kTexels].tiles);
+            }
+        }
         const vk::raii::CommandBuffer& commands = recorder.begin("resolve");
         for (const std::size_t grid : {kTexels, kDisc}) {
             if (!any(grid)) {
                 shade(commands, grid);
             }
         }
+        if (setup_.lp_gaussian && !any(kTexels)) {
+            for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+                smooth_tiles(commands, frame, e, {});
+            }
+        }
         draw_pictures(commands, frame, setup_, [&](std::size_t e) {
-            bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
+            const EyeSlot& at = slots_[frame.slot][e];
+            bind_sets(commands, layout_, frame, e, setup_.lp_gaussian ? *at.resolve_set : *at.set);
             draw_resolve(commands, plans[e], frame.view.hidden[e].get());
         });
     }
@@ -200,19 +219,31 @@ class LogPolarPasses final : public MethodPasses {
         vulkan::HostBuffer bands;
         std::optional<FoveaDepth> depth;
         vk::raii::DescriptorSet set{nullptr};
+        vk::raii::DescriptorSet resolve_set{nullptr};  ///< only with a filter
     };
+
+    [[nodiscard]] vk::raii::DescriptorSet allocate_set() const {
+        return std::move(vk::raii::DescriptorSets(
+            setup_.context.device(), vk::DescriptorSetAllocateInfo(*pool_, *set_layout_))[0]);
+    }
 
     void make_pipelines() {
         const vk::raii::Device& device = setup_.context.device();
         const std::uint32_t in_gaze_frame = map_->in_gaze_frame() ? 1 : 0;
-        const std::array pass_constants{vulkan::ShaderConstant{kSamples, setup_.samples},
-                                        vulkan::ShaderConstant{kInGazeFrame, in_gaze_frame}};
+        const auto pass_constants =
+            with_scene(setup_.scene, {{kSamples, setup_.samples}, {kInGazeFrame, in_gaze_frame}});
         pass_i_ = vulkan::make_pipeline(
             device, layout_,
             {.vertex = "tiles.vert",
              .fragment = fmt::format("{}.log_polar.frag", setup_.scene.shader()),
              .format = kLpFormat,
              .constants = pass_constants});
+        if (setup_.lp_gaussian) {
+            lp_gaussian_ = vulkan::make_pipeline(device, layout_,
+                                                 {.vertex = "full_screen.vert",
+                                                  .fragment = "lp_gaussian.frag",
+                                                  .format = kLpFormat});
+        }
         const std::string resolve = resolve_shader("log_polar", setup_);
         for (const std::uint32_t disc : {0U, 1U}) {
             const std::array constants{
@@ -231,31 +262,39 @@ class LogPolarPasses final : public MethodPasses {
 
     /// Lets the sets of all slots read an eye's tables and buffers.
     void attach_eye(std::size_t e) {
-        const vk::raii::Device& device = setup_.context.device();
         LogPolarEye& eye = *eyes_[e];
         for (auto& slot : slots_) {
             EyeSlot& at = slot[e];
             at.bands =
                 vulkan::HostBuffer(setup_.context, eye.max_bands() * sizeof(foveation::Columns),
                                    vk::BufferUsageFlagBits::eStorageBuffer);
-            const std::array buffers{at.uniforms.buffer(), eye.map_buffers().map_tables(),
-                                     eye.map_buffers().column_table(),
-                                     eye.map_buffers().row_table(), at.bands.buffer()};
-            std::uint32_t binding = 0;
-            for (const vk::Buffer buffer : buffers) {
-                const vk::DescriptorBufferInfo info(buffer, 0, VK_WHOLE_SIZE);
-                device.updateDescriptorSets(
-                    vk::WriteDescriptorSet(*at.set, binding, 0, kBindings.at(binding), {}, info),
-                    {});
-                ++binding;
+            write_set(*at.set, at, eye, eye.lp_buffer());
+            if (setup_.lp_gaussian) {
+                write_set(*at.resolve_set, at, eye, eye.smoothed_buffer());
             }
-            for (const LogPolarEye::Buffer* image : {&eye.lp_buffer(), &eye.direct_buffer()}) {
-                const vk::DescriptorImageInfo info(*sampler_, image->image.view(),
-                                                   vk::ImageLayout::eShaderReadOnlyOptimal);
-                device.updateDescriptorSets(
-                    vk::WriteDescriptorSet(*at.set, binding, 0, kBindings.at(binding), info), {});
-                ++binding;
-            }
+        }
+    }
+
+    void write_set(vk::DescriptorSet set, const EyeSlot& at, LogPolarEye& eye,
+                   const LogPolarEye::Buffer& lp_buffer) const {
+        const vk::raii::Device& device = setup_.context.device();
+        const std::array buffers{at.uniforms.buffer(), eye.map_buffers().map_tables(),
+                                 eye.map_buffers().column_table(), eye.map_buffers().row_table(),
+                                 at.bands.buffer()};
+        std::uint32_t binding = 0;
+        for (const vk::Buffer buffer : buffers) {
+            const vk::DescriptorBufferInfo info(buffer, 0, VK_WHOLE_SIZE);
+            device.updateDescriptorSets(
+                vk::WriteDescriptorSet(set, binding, 0, kBindings.at(binding), {}, info), {});
+            ++binding;
+        }
+        for (const LogPolarEye::Buffer* image :
+             {&lp_buffer, static_cast<const LogPolarEye::Buffer*>(&eye.direct_buffer())}) {
+            const vk::DescriptorImageInfo info(*sampler_, image->image.view(),
+                                               vk::ImageLayout::eShaderReadOnlyOptimal);
+            device.updateDescriptorSets(
+                vk::WriteDescriptorSet(set, binding, 0, kBindings.at(binding), info), {});
+            ++binding;
         }
     }
 
@@ -268,6 +307,14 @@ class LogPolarPasses final : public MethodPasses {
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pass_i_);
         bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
         shade_cells(commands, target, tiles, grid == kDisc ? 1 : 0, setup_.unshaded);
+    }
+
+    /// Smooths an eye's LP-buffer into its second one and makes that readable. As shade_tiles.
+    void smooth_tiles(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
+                      std::size_t e, std::span<const foveation::Tile> tiles) {
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *lp_gaussian_);
+        bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
+        shade_cells(commands, eyes_[e]->smoothed_buffer(), tiles, 0, setup_.unshaded);
     }
 
     /// The whole picture from the LP-buffer, then the disc over it.
@@ -284,10 +331,11 @@ class LogPolarPasses final : public MethodPasses {
 
     PassSetup setup_;
     std::unique_ptr<Map> map_;
-    frame::PassList passes_{"pass_i", "disc", "resolve"};
+    frame::PassList passes_;
     vk::raii::DescriptorSetLayout set_layout_{nullptr};
     vk::raii::PipelineLayout layout_{nullptr};
     vk::raii::Pipeline pass_i_{nullptr};
+    vk::raii::Pipeline lp_gaussian_{nullptr};  ///< null: without the filter
     vk::raii::Pipeline resolve_{nullptr};
     vk::raii::Pipeline resolve_disc_{nullptr};
     vk::raii::Sampler sampler_{nullptr};

@@ -29,7 +29,8 @@ struct PassSetup {
     vk::Format format = vk::Format::eUndefined;
     vk::Format depth_format = vk::Format::eUndefined;  ///< undefined: no depth is written
     std::uint32_t slots = 1;                           ///< frames that may be in flight
-    bool seen_depth = false;  ///< depth around the foveae is to be read back
+    bool seen_depth = false;   ///< depth around the foveae is to be read back
+    bool lp_gaussian = false;  ///< smooth the LP-buffer's periphery before the resolve
     /// Radiance that cells outside the plan hold; unset: anything, since no pixel reads them.
     std::optional<std::array<float, 4>> unshaded;
 };

@@ -47,13 +47,13 @@ struct Primitive {
     std::uint32_t first_vertex = 0;
     std::uint32_t vertex_count = 0;  ///< every index lies below it
     std::uint32_t material = 0;
-    Bounds bounds;  ///< of the vertices that are used
+    Bounds bounds{};  ///< of the vertices that are used
 };
 
 /// The same thing in several finenesses. Level 0 is the finest.
 struct DetailLevel {
     std::uint32_t primitive = 0;
-    /// How far its surface lies from that of level 0 at most, in the primitive's frame, m.
+    /// How far its surface lies from the true one, in the primitive's frame, m; rising.
     float error_m = 0.0F;
 };
 
@@ -83,7 +83,7 @@ struct TextureUse {
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
 struct Material {
-    std::string name;
+    std::string name{};
     glm::vec4 base_color{1.0F};  ///< linear
     float metallic = 1.0F;
     float roughness = 1.0F;  ///< perceptual, as in glTF
@@ -98,11 +98,11 @@ struct Material {
     float transmission = 0.0F;
     float index_of_refraction = 1.5F;
 
-    TextureUse base_color_texture;          ///< sRGB; alpha linear
-    TextureUse metallic_roughness_texture;  ///< linear: g roughness, b metallic
-    TextureUse normal_texture;              ///< linear
-    TextureUse occlusion_texture;           ///< linear: r
-    TextureUse emissive_texture;            ///< sRGB
+    TextureUse base_color_texture{};          ///< sRGB; alpha linear
+    TextureUse metallic_roughness_texture{};  ///< linear: g roughness, b metallic
+    TextureUse normal_texture{};              ///< linear
+    TextureUse occlusion_texture{};           ///< linear: r
+    TextureUse emissive_texture{};            ///< sRGB
 };
 
 enum class ColorSpace : std::uint8_t { Linear, Srgb };
@@ -111,12 +111,12 @@ enum class TexelFormat : std::uint8_t { Rgba8, Rgba16 };
 /// A decoded picture, rows from the top without padding, four channels. One that is used in both
 /// colour spaces is listed twice. Mips are the renderer's business.
 struct Image {
-    std::string name;  ///< for messages
+    std::string name{};  ///< for messages
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     ColorSpace color_space = ColorSpace::Linear;
     TexelFormat format = TexelFormat::Rgba8;
-    std::vector<std::byte> texels;  ///< width * height * (4 or 8) bytes, native byte order
+    std::vector<std::byte> texels{};  ///< width * height * (4 or 8) bytes, native byte order
 };
 
 enum class LightKind : std::uint8_t { Directional, Point, Spot };
@@ -136,7 +136,7 @@ struct Light {
 
 /// Where the scene's maker put a camera: its frame in world.
 struct Viewpoint {
-    std::string name;
+    std::string name{};
     glm::mat4x3 world_from_camera{1.0F};
 };
 
@@ -151,16 +151,16 @@ struct Sky {
 /// Everything. Whoever makes it guarantees that all indices refer to what is there, all numbers are
 /// finite (ranges of lights aside) and unit vectors are unit; check_mesh_data() holds it to that.
 struct MeshData {
-    std::vector<Vertex> vertices;
-    std::vector<std::uint32_t> indices;
-    std::vector<Primitive> primitives;
-    std::vector<DetailLevel> levels;
-    std::vector<Instance> instances;
-    std::vector<Material> materials;
-    std::vector<Image> images;
-    std::vector<Light> lights;  ///< none: a sun is added
-    std::vector<Viewpoint> viewpoints;
-    Sky sky;
+    std::vector<Vertex> vertices{};
+    std::vector<std::uint32_t> indices{};
+    std::vector<Primitive> primitives{};
+    std::vector<DetailLevel> levels{};
+    std::vector<Instance> instances{};
+    std::vector<Material> materials{};
+    std::vector<Image> images{};
+    std::vector<Light> lights{};  ///< none: a sun is added
+    std::vector<Viewpoint> viewpoints{};
+    Sky sky{};
     /// Radiance in the file's units that is to be shown as 1: pictures are divided by it.
     float exposure = 1.0F;
 };

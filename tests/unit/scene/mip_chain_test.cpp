@@ -1,0 +1,70 @@
+#include "runtime/scene/mesh/mip_chain.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace gazeloop::scene::mesh {
+namespace {
+
+Image image(std::uint32_t width, std::uint32_t height, ColorSpace space,
+            const std::vector<int>& codes) {
+    Image made{.width = width, .height = height, .color_space = space};
+    for (const int code : codes) {
+        for (int channel = 0; channel < 4; ++channel) {
+            made.texels.push_back(static_cast<std::byte>(code));
+        }
+    }
+    return made;
+}
+
+int code(const MipLevel& level, std::size_t texel, std::size_t channel = 0) {
+    return std::to_integer<int>(level.texels[4 * texel + channel]);
+}
+
+TEST(MipChain, EndsAtOneTexel) {
+    const auto levels = smaller_levels(image(5, 2, ColorSpace::Linear, std::vector<int>(10, 77)));
+    ASSERT_EQ(levels.size(), 2U);
+    EXPECT_EQ(levels[0].width, 2U);
+    EXPECT_EQ(levels[0].height, 1U);
+    EXPECT_EQ(levels[1].width, 1U);
+    for (const MipLevel& level : levels) {
+        for (const std::byte texel : level.texels) {
+            EXPECT_EQ(std::to_integer<int>(texel), 77) << "a constant stays itself";
+        }
+    }
+    EXPECT_TRUE(smaller_levels(image(1, 1, ColorSpace::Srgb, {3})).empty());
+}
+
+// A blit from 5 to 2 texels drops the middle one.
+TEST(MipChain, CoversEveryTexelOfAnOddSizeEvenly) {
+    const auto levels = smaller_levels(image(5, 1, ColorSpace::Linear, {0, 0, 250, 0, 0}));
+    EXPECT_EQ(code(levels[0], 0), 50) << "half of the middle texel over two and a half";
+    EXPECT_EQ(code(levels[0], 1), 50);
+    EXPECT_EQ(code(levels[1], 0), 50);
+}
+
+TEST(MipChain, AveragesColoursAsLightAndAlphaAsItIs) {
+    const auto levels = smaller_levels(image(2, 1, ColorSpace::Srgb, {0, 255}));
+    EXPECT_EQ(code(levels[0], 0), 188) << "sRGB code of half the light";
+    EXPECT_EQ(code(levels[0], 0, 3), 128);
+    EXPECT_EQ(code(smaller_levels(image(2, 1, ColorSpace::Linear, {0, 255}))[0], 0), 128);
+}
+
+TEST(MipChain, KeepsSixteenBits) {
+    Image deep{.width = 2, .height = 1, .format = TexelFormat::Rgba16};
+    deep.texels.resize(16);
+    const std::array<std::uint16_t, 8> codes{1000, 0, 65535, 1, 1001, 0, 65535, 4};
+    std::memcpy(deep.texels.data(), codes.data(), sizeof codes);
+    const auto levels = smaller_levels(deep);
+    std::array<std::uint16_t, 4> mean{};
+    ASSERT_EQ(levels[0].texels.size(), sizeof mean);
+    std::memcpy(mean.data(), levels[0].texels.data(), sizeof mean);
+    EXPECT_NEAR(mean[0], 1000.5, 0.51);
+    EXPECT_EQ(mean[1], 0);
+    EXPECT_EQ(mean[2], 65535);
+    EXPECT_NEAR(mean[3], 2.5, 0.51);
+}
+
+}  // namespace
+}  // namespace gazeloop::scene::mesh
