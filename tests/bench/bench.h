@@ -78,6 +78,8 @@ std::vector<Figure> prediction(const Options& options);
 /// samples, time of each pass, speed-up over full resolution. Also written as a CSV file and, for
 /// each scene, a plot.
 std::vector<Figure> rivals(const Options& options);
+/// How fast traces are read: MB of CSV per second of CPU time, of the whole reader and of its parts.
+std::vector<Figure> traces(const Options& options);
 
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.
 [[nodiscard]] double median(std::vector<double> values);

@@ -31,7 +31,8 @@ constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
                                Named{"gltf", gltf},
                                Named{"events", events},
                                Named{"prediction", prediction},
-                               Named{"rivals", rivals}};
+                               Named{"rivals", rivals},
+                               Named{"traces", traces}};
 
 /// Preload libraries count from a program's start: it begins once more, under umockdev's.
 void begin_under_umockdev(char** arguments) {

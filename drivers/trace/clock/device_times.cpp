@@ -133,9 +133,10 @@ class DeviceClock {
                     most_ns = epoch_ns;
                     report_wrap(now, *range);
                 }
-            } else if (const auto back = wrapped_range(raw, raw_before, step_ns);
-                       back && epoch_ns >= *back) {
-                epoch_ns -= *back;
+            } else if (epoch_ns > 0) {
+                // Only what was counted on can be counted back.
+                const auto back = wrapped_range(raw, raw_before, step_ns);
+                epoch_ns -= back && epoch_ns >= *back ? *back : 0;
             }
             at_ns_[now] = raw + epoch_ns;
             epoch_of_last_ns_ = epoch_ns;
