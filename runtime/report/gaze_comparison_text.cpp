@@ -37,13 +37,20 @@ std::string gaze_comparison_text(const gaze::GazeComparison& comparison) {
            wrapped_row("azimuth", axis_text(comparison.azimuth)) +
            wrapped_row("height", axis_text(comparison.elevation)) +
            wrapped_row("over", fmt::format("{:.1f} s with gaze in both, every {:.1f} ms",
-                                           comparison.overlap_s, comparison.step_ms));
+                                           comparison.overlap_s, comparison.step_ms)) +
+           (comparison.doubtful()
+                ? wrapped_row("doubt",
+                              fmt::format("velocities of the same eyes correlate by more than "
+                                          "{:.1f}: these may be of other eyes, or of another time",
+                                          gaze::GazeComparison::kLeastCorrelation))
+                : std::string{});
 }
 
 Json gaze_comparison_json(const gaze::GazeComparison& comparison) {
     Json json{{"lag_ms", comparison.lag_ms},
               {"lag_interval_ms", nullptr},
               {"correlation", comparison.correlation},
+              {"doubtful", comparison.doubtful()},
               {"azimuth", axis_json(comparison.azimuth)},
               {"elevation", axis_json(comparison.elevation)},
               {"overlap_s", comparison.overlap_s},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <random>
 #include <vector>
@@ -69,6 +70,7 @@ TEST(GazeComparison, FindsLagGainAndOffset) {
     EXPECT_NEAR(found.elevation.offset_deg, -1.5, 0.05);
     EXPECT_LT(found.azimuth.residual_deg, 0.5);
     EXPECT_GT(found.correlation, 0.9);
+    EXPECT_FALSE(found.doubtful());
     EXPECT_GT(found.overlap_s, 50.0);
 }
 
@@ -83,6 +85,24 @@ TEST(GazeComparison, IsTheOtherWayRoundWithTheOtherSign) {
 TEST(GazeComparison, GivesNoIntervalForAFewSeconds) {
     const auto some = recorded({.duration_ms = 6'000.0});
     EXPECT_FALSE(value_or_throw(compare_gaze(some, some)).lag_interval_ms);
+}
+
+/// Other eyes: some lag correlates most, which means nothing.
+TEST(GazeComparison, DoubtsWhatHardlyAgrees) {
+    auto others = recorded({.duration_ms = 20'000.0});
+    std::mt19937_64 random(9);
+    std::vector<glm::dvec3> places;
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        if (i % 90 == 0) {
+            const double right = std::uniform_real_distribution<double>(-0.2, 0.2)(random);
+            const double up = std::uniform_real_distribution<double>(-0.15, 0.15)(random);
+            places.push_back(glm::normalize(glm::dvec3{right, up, -1.0}));
+        }
+        others[i].eyes[1].direction = places.back();
+    }
+    const auto found = compare_gaze(recorded({.duration_ms = 20'000.0}), others);
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->doubtful()) << found->correlation;
 }
 
 TEST(GazeComparison, RefusesWhatHasNothingInCommon) {
