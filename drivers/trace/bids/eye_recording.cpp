@@ -151,6 +151,7 @@ Expected<EyeRecording> EyeRecording::open(const fs::path& file) {
     if (const Expected<void> units = recording.take_units(*physio, *events); !units) {
         return std::unexpected(units.error());
     }
+    recording.rate_hz_ = *number_in(*physio, "SamplingFrequency");
     recording.find_columns();
     if (const Expected<void> blinks = recording.read_blinks(file); !blinks) {
         return std::unexpected(blinks.error());
@@ -232,9 +233,11 @@ Expected<void> EyeRecording::read_blinks(const fs::path& file) {
     const auto columns = json->find("Columns");
     const bool named = columns != json->end() && columns->is_array() &&
                        std::ranges::all_of(*columns, [](const Json& c) { return c.is_string(); });
-    if (!named || text_in(*json, "OnsetSource") != "timestamp") {
-        table_.note(0, fmt::format("{}: not read, its OnsetSource is not \"timestamp\" or it names "
-                                   "no Columns",
+    const std::string source = text_in(*json, "OnsetSource");
+    blinks_by_row_ = source == "n/a";
+    if (!named || (source != "timestamp" && !blinks_by_row_)) {
+        table_.note(0, fmt::format("{}: not read, its OnsetSource is neither \"timestamp\" nor "
+                                   "\"n/a\", or it names no Columns",
                                    events_file.filename().string()));
         return {};
     }
@@ -260,21 +263,27 @@ Expected<void> EyeRecording::read_blinks(const fs::path& file) {
         }
         const bool is_blink = (type && table->text(*type) == "blink") ||
                               (blink && table->whole(*blink) == std::int64_t{1});
-        const auto begin = table->decimal(*onset, time_decimals_);
+        const auto begin =
+            blinks_by_row_ ? table->whole(*onset) : table->decimal(*onset, time_decimals_);
         const auto lasts_s = table->real(*duration);
         constexpr double kMost_s = 1e6;
-        if (is_blink && begin && lasts_s && *lasts_s >= 0.0 && *lasts_s <= kMost_s &&
-            std::abs(static_cast<double>(*begin)) < 9e18) {
-            blinks_.push_back({*begin, *begin + std::llround(*lasts_s * 1e9)});
+        constexpr double kFarthest = 9e18;
+        if (is_blink && begin && lasts_s && *lasts_s >= 0.0 && *lasts_s <= kMost_s) {
+            const double lasts = *lasts_s * (blinks_by_row_ ? rate_hz_ : 1e9);
+            if (std::abs(static_cast<double>(*begin)) + lasts < kFarthest) {
+                blinks_.push_back({*begin, *begin + std::llround(lasts)});
+            }
         }
     }
-    std::ranges::sort(blinks_, {}, &Blink::begin_ticks);
+    std::ranges::sort(blinks_, {}, &Blink::begin);
     return {};
 }
 
-bool EyeRecording::in_blink(std::int64_t ticks) const {
-    const auto later = std::ranges::upper_bound(blinks_, ticks, {}, &Blink::begin_ticks);
-    return later != blinks_.begin() && ticks <= (later - 1)->end_ticks;
+bool EyeRecording::in_blink() const {
+    const std::optional<std::int64_t> now =
+        blinks_by_row_ ? std::optional{row_number_} : row_.device_ticks;
+    const auto later = std::ranges::upper_bound(blinks_, now.value_or(0), {}, &Blink::begin);
+    return now && later != blinks_.begin() && *now <= (later - 1)->end;
 }
 
 glm::dvec3 EyeRecording::direction(double x, double y) const {
@@ -320,7 +329,7 @@ void EyeRecording::read_eye(BadCells& bad) {
             ray.origin_m[i] = table_.real((*origin_)[static_cast<std::size_t>(i)]).value_or(0.0);
         }
     }
-    if (row_.device_ticks && in_blink(*row_.device_ticks)) {
+    if (in_blink()) {
         first_in_blink_ = in_blinks_++ == 0 ? table_.line() : first_in_blink_;
         ray.valid = false;
     }
@@ -337,6 +346,7 @@ Expected<bool> EyeRecording::next(BadCells& bad) {
         return more;
     }
     row_ = {};
+    ++row_number_;
     row_.line = table_.line();
     row_.device_ticks = table_.decimal(kTimestamp, time_decimals_);
     if (!row_.device_ticks && unread_time_.empty()) {

@@ -38,9 +38,10 @@ class EyeRecording {
 
   private:
     enum class System { Screen_px, Screen_m, Head };
+    /// From a time to a time, ns, or from a row to a row, counted from 0.
     struct Blink {
-        std::int64_t begin_ticks;
-        std::int64_t end_ticks;
+        std::int64_t begin;
+        std::int64_t end;
     };
 
     explicit EyeRecording(std::unique_ptr<std::ifstream> in, CsvTable table)
@@ -52,7 +53,7 @@ class EyeRecording {
     [[nodiscard]] glm::dvec3 direction(double x, double y) const;
     void read_eye(BadCells& bad);
     [[nodiscard]] double fraction(std::optional<std::size_t> column);
-    [[nodiscard]] bool in_blink(std::int64_t ticks) const;
+    [[nodiscard]] bool in_blink() const;
 
     std::unique_ptr<std::ifstream> in_;  // stays where it is, for the table
     CsvTable table_;
@@ -67,7 +68,10 @@ class EyeRecording {
     std::optional<std::size_t> confidence_;
     std::optional<std::array<std::size_t, 3>> origin_;
     std::optional<std::array<std::size_t, 7>> head_;
-    std::vector<Blink> blinks_;  ///< by their beginnings
+    std::vector<Blink> blinks_;     ///< by their beginnings
+    bool blinks_by_row_ = false;    ///< else by time
+    double rate_hz_ = 0.0;          ///< as the sidecar states it
+    std::int64_t row_number_ = -1;  ///< of the current row
     TraceRow row_;
     std::string unread_time_;
     std::uint64_t in_blinks_ = 0;

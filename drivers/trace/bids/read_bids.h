@@ -23,7 +23,8 @@ inline constexpr std::string_view kBids = "bids";
 /// - gaze-in-world and custom have no direction in a head, and are refused.
 ///
 /// "n/a" in x or y is an eye that was not seen; so is one during an event of *_physioevents.tsv.gz
-/// whose trial_type is "blink", or whose column blink is 1, where OnsetSource is "timestamp".
+/// whose trial_type is "blink", or whose column blink is 1; onsets are timestamps, or rows where
+/// OnsetSource is "n/a".
 /// Columns that write_bids adds are read where they are: eye_openness, confidence, origin_x_m to
 /// origin_z_m and head_x_m to head_qw.
 ///

@@ -203,6 +203,17 @@ TEST(Bids, TakesBlinksFromPhysioevents) {
     EXPECT_EQ(valid, "1001");
     EXPECT_THAT(told(trace, gaze::TraceFindingKind::RefusedByBit),
                 ElementsAre("2: gaze not vouched for in 2 rows: a blink (physioevents)"));
+
+    // Onsets by row: one from before the first row on (4 ms each), one of no length at the last.
+    folder.write(stem + ".json",
+                 R"({"Columns": ["onset", "duration", "blink"], "OnsetSource": "n/a"})");
+    folder.write(stem + ".tsv.gz", tests::gzipped("3\t0\t1\n-2\t0.008\t1\n1\t1\t0\n"));
+    const gaze::GazeTrace by_row = value_or_throw(read_trace(file));
+    valid.clear();
+    for (const gaze::GazeSample& sample : by_row.samples) {
+        valid += sample.eyes[0].valid ? '1' : '0';
+    }
+    EXPECT_EQ(valid, "0110");
 }
 
 TEST(Bids, RefusesWithTheRuleOrTheUnit) {
