@@ -65,6 +65,7 @@ std::vector<Figure> monitor(const Options& options);
 /// What the picture metrics take per frame, with two threads: wall time, and processor time, which
 /// a busy machine leaves alone.
 std::vector<Figure> quality(const Options& options);
+
 /// What the eyes do, told by the event detector and by two people (recordings of Andersson et al.
 /// 2017): Cohen's kappa per event and stimulus, on persons on whom no parameter was chosen and on
 /// all, beside coder against coder and plain I-VT; and what an hour of 1 kHz gaze costs.
@@ -74,11 +75,14 @@ std::vector<Figure> events(const Options& options);
 /// 5 to 60 ms, by what the eyes do at the time predicted, of persons on whom no parameter was
 /// chosen and of the others; and what an hour of 1 kHz gaze costs.
 std::vector<Figure> prediction(const Options& options);
+
 /// Every method on every scene, on one display along one gaze trace, frame by frame in turns:
 /// samples, time of each pass, speed-up over full resolution. Also written as a CSV file and, for
 /// each scene, a plot.
 std::vector<Figure> rivals(const Options& options);
-/// How fast traces are read: MB of CSV per second of CPU time, of the whole reader and of its parts.
+
+/// How fast traces are read: MB of CSV per second of CPU time, of the whole reader and of its
+/// parts.
 std::vector<Figure> traces(const Options& options);
 
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.
