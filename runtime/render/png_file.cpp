@@ -5,6 +5,7 @@
 
 #include <array>
 #include <string_view>
+#include <system_error>
 
 #include "runtime/render/srgb.h"
 
@@ -22,16 +23,24 @@ png_image new_image() {
     return image;
 }
 
-/// Decodes what was begun.
-Expected<LinearPicture> finish(png_image& image, const std::string& name) {
+/// Deflate makes at most so many bytes of one.
+constexpr std::uint64_t kMostInflation = 1032;
+
+/// Decodes what was begun, of a file of so many bytes.
+Expected<LinearPicture> finish(png_image& image, const std::string& name, std::uint64_t bytes) {
     if (image.width > kMaxPngSide_px || image.height > kMaxPngSide_px) {
         const std::string size = fmt::format("{}x{}", image.width, image.height);
         png_image_free(&image);
         return refuse(name, fmt::format("{} pixels: a side is over {} px", size, kMaxPngSide_px));
     }
     const std::size_t count = std::size_t{image.width} * image.height;
+    // At a bit per pixel. No memory is taken for what a damaged header claims.
+    if (count / 8 > kMostInflation * bytes) {
+        const std::string size = fmt::format("{}x{}", image.width, image.height);
+        png_image_free(&image);
+        return refuse(name, fmt::format("too short for {} pixels", size));
+    }
     LinearPicture picture{image.width, image.height, {}};
-    picture.pixels.reserve(count);
     // libpng takes 8-bit files to linear light in 8 bits, which dark colours do not survive.
     if ((image.format & PNG_FORMAT_FLAG_LINEAR) == 0) {
         image.format = PNG_FORMAT_RGB;
@@ -40,6 +49,7 @@ Expected<LinearPicture> finish(png_image& image, const std::string& name) {
         if (png_image_finish_read(&image, &black, codes.data(), 0, nullptr) == 0) {
             return refuse(name, image.message);
         }
+        picture.pixels.reserve(count);
         for (const auto& code : codes) {
             picture.pixels.push_back(linear_of(code));
         }
@@ -53,6 +63,7 @@ Expected<LinearPicture> finish(png_image& image, const std::string& name) {
     if (png_image_finish_read(&image, nullptr, values.data(), 0, nullptr) == 0) {
         return refuse(name, image.message);
     }
+    picture.pixels.reserve(count);
     for (std::size_t at = 0; at < values.size(); at += channels) {
         picture.pixels.push_back(glm::vec3(values[at], values[at + 1], values[at + 2]) / 65535.0F);
     }
@@ -66,7 +77,10 @@ Expected<LinearPicture> read_png(const std::filesystem::path& file) {
     if (png_image_begin_read_from_file(&image, file.c_str()) == 0) {
         return refuse(file.string(), image.message);
     }
-    return finish(image, file.string());
+    std::error_code unknown;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
+    // A device or pipe has no size; libpng finds its end.
+    return finish(image, file.string(), unknown ? kMaxPngSide_px * kMaxPngSide_px : bytes);
 }
 
 Expected<LinearPicture> read_png(std::span<const std::byte> bytes, const std::string& name) {
@@ -74,7 +88,7 @@ Expected<LinearPicture> read_png(std::span<const std::byte> bytes, const std::st
     if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
         return refuse(name, image.message);
     }
-    return finish(image, name);
+    return finish(image, name, bytes.size());
 }
 
 Expected<void> write_png(const Picture& picture, const std::filesystem::path& file) {

@@ -3,8 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
+#include "runtime/foveation/eye/fewest_samples.h"
+#include "runtime/foveation/eye/guenter_acuity.h"
 #include "runtime/methods/registry.h"
 #include "runtime/render/off_screen.h"
 #include "runtime/scene/scenes.h"
@@ -48,12 +51,13 @@ class SettingsOfPoint {
     std::vector<Kept> before_;
 };
 
-double total_ms(const frame::FrameGpuRecord& gpu) {
-    double sum = 0.0;
-    for (std::size_t pass = 0; pass < frame::kMostPasses; ++pass) {
-        sum += 1e-6 * static_cast<double>(gpu.passes[pass].value_or(0));
+/// What each pass took; 0 for one that did not run.
+using PassMs = std::array<double, frame::kMostPasses>;
+
+void add(PassMs& sums, const frame::FrameGpuRecord& gpu) {
+    for (std::size_t pass = 0; pass < sums.size(); ++pass) {
+        sums[pass] += 1e-6 * static_cast<double>(gpu.passes[pass].value_or(0));
     }
-    return sum;
 }
 
 double median(std::vector<double> values) {
@@ -113,9 +117,13 @@ class Sweep {
             }
             hooks_.progress(fmt::format("{} of {} rounds timed", round + 1, question_.rounds));
         }
+        const auto fewest = fewest_cells();
+        if (!fewest) {
+            return std::unexpected(fewest.error());
+        }
         std::vector<SweepRow> rows;
         for (Contender& contender : contenders_) {
-            finish(contender);
+            finish(contender, *fewest);
             rows.push_back(std::move(contender.row));
         }
         mark_fronts(rows);
@@ -126,7 +134,8 @@ class Sweep {
     struct Contender {
         SweepRow row;
         std::unique_ptr<render::OffScreen> renderer;
-        std::vector<double> round_ms{};
+        std::vector<double> round_ms{};  ///< means over the frames
+        std::array<std::vector<double>, frame::kMostPasses> round_pass_ms{};
     };
 
     [[nodiscard]] Expected<void> stop_if_interrupted() const {
@@ -242,26 +251,60 @@ class Sweep {
 
     /// All frames by all points that work, in turns.
     Expected<void> time_round() {
-        std::vector<double> sums_ms(contenders_.size());
+        std::vector<PassMs> sums_ms(contenders_.size());
         for (std::size_t frame = 0; frame < question_.gaze.size(); ++frame) {
             for (std::size_t at = 0; at < contenders_.size(); ++at) {
                 if (auto stopped = stop_if_interrupted(); !stopped) {
                     return stopped;
                 }
                 if (contenders_[at].renderer) {
-                    sums_ms[at] +=
-                        total_ms(contenders_[at].renderer->render(view(frame), fovea(frame)).gpu);
+                    add(sums_ms[at],
+                        contenders_[at].renderer->render(view(frame), fovea(frame)).gpu);
                 }
             }
         }
+        const auto frames = static_cast<double>(question_.gaze.size());
         for (std::size_t at = 0; at < contenders_.size(); ++at) {
-            contenders_[at].round_ms.push_back(sums_ms[at] /
-                                               static_cast<double>(question_.gaze.size()));
+            Contender& contender = contenders_[at];
+            double total_ms = 0.0;
+            for (std::size_t pass = 0; pass < frame::kMostPasses; ++pass) {
+                contender.round_pass_ms[pass].push_back(sums_ms[at][pass] / frames);
+                total_ms += sums_ms[at][pass] / frames;
+            }
+            contender.round_ms.push_back(total_ms);
         }
         return {};
     }
 
-    void finish(Contender& contender) const {
+    /// By the comparison's line, both eyes, mean of the frames.
+    [[nodiscard]] Expected<double> fewest_cells() const {
+        const auto model = foveation::GuenterAcuity::create(question_.comparison.line);
+        if (!model) {
+            return std::unexpected(model.error());
+        }
+        double sum = 0.0;
+        double of_frame = 0.0;
+        for (std::size_t frame = 0; frame < question_.gaze.size(); ++frame) {
+            if (frame > 0 && question_.gaze[frame] == question_.gaze[frame - 1]) {
+                sum += of_frame;
+                continue;
+            }
+            of_frame = 0.0;
+            for (const gaze::Eye one : gaze::kEyes) {
+                const std::size_t e = gaze::index(one);
+                const auto field =
+                    foveation::GazeField::create(question_.views[e], question_.gaze[frame][e]);
+                if (!field) {
+                    return std::unexpected(field.error());
+                }
+                of_frame += foveation::fewest_samples(*field, **model, one);
+            }
+            sum += of_frame;
+        }
+        return sum / static_cast<double>(question_.gaze.size());
+    }
+
+    void finish(Contender& contender, double fewest_cells) const {
         if (!contender.renderer) {
             return;
         }
@@ -275,6 +318,11 @@ class Sweep {
                     std::ranges::max(contender.round_ms)};
         row.speedup = median(ratios);
         row.fewer_cells = full_cells() / row.cells;
+        row.cells_over_fewest = row.cells / fewest_cells;
+        const frame::PassList& passes = contender.renderer->renderer().passes();
+        for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+            row.pass_ms.emplace_back(passes[pass], median(contender.round_pass_ms[pass]));
+        }
     }
 
     [[nodiscard]] double full_cells() const {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/methods/method_settings.h"
@@ -43,6 +44,10 @@ struct SweepRow {
     /// How much faster than full resolution with as many samples per pixel, by the rounds' ratios.
     double speedup = 0.0;
     double fewer_cells = 0.0;  ///< than full resolution
+    /// Cells over the fewest that the comparison's acuity line asks for, both eyes, mean of the
+    /// frames (foveation::fewest_samples).
+    double cells_over_fewest = 0.0;
+    std::vector<std::pair<std::string, double>> pass_ms{};  ///< medians of the rounds, by pass
     std::vector<quality::QualityFigure> figures{};
     /// Whether no other point is both cheaper (cells; time) and better by the first figure.
     bool on_cells_front = false;

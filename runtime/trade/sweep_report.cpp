@@ -54,8 +54,8 @@ std::string sweep_text(const SweepSubject& subject, const SweepQuestion& questio
         subject.device);
     std::ranges::stable_sort(rows, std::ranges::greater{}, &SweepRow::cells);
     const SweepRow* const some = with_figures(rows);
-    text += fmt::format("{:40} {:>7} {:>9} {:>19} {:>7}", "point", "fewer", "ms", "(least-most)",
-                        "faster");
+    text += fmt::format("{:40} {:>7} {:>7} {:>9} {:>19} {:>7}", "point", "fewer", "bound", "ms",
+                        "(least-most)", "faster");
     for (const char* const key : kShown) {
         if (some != nullptr && find(*some, key) != nullptr) {
             text += fmt::format(" {:>16}", key);
@@ -80,7 +80,9 @@ std::string sweep_text(const SweepSubject& subject, const SweepQuestion& questio
                             row.on_time_front ? "time" : "");
     }
     text +=
-        "\nfewer: cells shaded, against full resolution. ms: all passes of a frame, both eyes. "
+        "\nfewer: cells shaded, against full resolution. bound: over the fewest that Guenter's "
+        "line "
+        "asks for. ms: all passes of a frame, both eyes. "
         "front: no other point is cheaper and better by the first figure.\n";
     for (const quality::QualityFigure& figure :
          some == nullptr ? std::vector<quality::QualityFigure>() : some->figures) {
@@ -94,7 +96,8 @@ std::string sweep_text(const SweepSubject& subject, const SweepQuestion& questio
 
 std::string sweep_csv(const std::vector<SweepRow>& rows) {
     std::string text =
-        "method,settings,error,cells_per_frame,fewer_cells,time_ms,time_least_ms,time_greatest_ms,"
+        "method,settings,error,cells_per_frame,fewer_cells,cells_over_fewest,time_ms,time_least_ms,"
+        "time_greatest_ms,"
         "speedup,on_cells_front,on_time_front";
     const SweepRow* const some = with_figures(rows);
     std::vector<std::string> keys;
@@ -109,12 +112,13 @@ std::string sweep_csv(const std::vector<SweepRow>& rows) {
         text += fmt::format("{},{},{}", row.point.method, quoted(row.point.settings_text()),
                             quoted(row.error));
         if (!row.error.empty()) {
-            text += std::string(8 + keys.size(), ',') + '\n';
+            text += std::string(9 + keys.size(), ',') + '\n';
             continue;
         }
-        text += fmt::format(",{},{},{},{},{},{},{:d},{:d}", row.cells, row.fewer_cells,
-                            row.time.median_ms, row.time.least_ms, row.time.greatest_ms,
-                            row.speedup, row.on_cells_front, row.on_time_front);
+        text +=
+            fmt::format(",{},{},{},{},{},{},{},{:d},{:d}", row.cells, row.fewer_cells,
+                        row.cells_over_fewest, row.time.median_ms, row.time.least_ms,
+                        row.time.greatest_ms, row.speedup, row.on_cells_front, row.on_time_front);
         for (const std::string& key : keys) {
             text += fmt::format(",{}", find(row, key)->mean);
         }
@@ -154,9 +158,15 @@ ordered_json sweep_json(const SweepSubject& subject, const SweepQuestion& questi
         }
         entry["cells_per_frame"] = row.cells;
         entry["fewer_cells"] = finite(row.fewer_cells);
+        entry["cells_over_fewest"] = finite(row.cells_over_fewest);
+        entry["rays_per_frame"] = row.cells * question.samples;
         entry["time_ms"] = {{"median", row.time.median_ms},
                             {"least", row.time.least_ms},
                             {"greatest", row.time.greatest_ms}};
+        entry["pass_ms"] = ordered_json::object();
+        for (const auto& [pass, ms] : row.pass_ms) {
+            entry["pass_ms"][pass] = ms;
+        }
         entry["speedup"] = finite(row.speedup);
         auto figures = ordered_json::object();
         for (const quality::QualityFigure& figure : row.figures) {

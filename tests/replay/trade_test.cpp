@@ -49,6 +49,15 @@ TEST(Trade, SetsCostAgainstQuality) {
     for (const json& point : points) {
         EXPECT_GT(point.at("time_ms").at("median").get<double>(), 0.0);
         EXPECT_LE(point.at("time_ms").at("least"), point.at("time_ms").at("greatest"));
+        EXPECT_GT(point.at("pass_ms").at(point.at("method") == "full" ? "full" : "resolve"), 0.0);
+        // One bound for all: what Guenter's line asks for at this gaze.
+        EXPECT_NEAR(
+            point.at("cells_per_frame").get<double>() / point.at("cells_over_fewest").get<double>(),
+            points[0].at("cells_per_frame").get<double>() /
+                points[0].at("cells_over_fewest").get<double>(),
+            1.0);
+        EXPECT_EQ(point.at("rays_per_frame").get<double>(),
+                  4.0 * point.at("cells_per_frame").get<double>());
         EXPECT_TRUE(point.at("on_cells_front").get<bool>());
         EXPECT_EQ(point.at("figures").size(), 10U);
     }

@@ -93,7 +93,12 @@ TEST(PngFile, RefusesWithTheFile) {
     EXPECT_THAT(refusal(read_png(std::span(bytes).first(bytes.size() / 2), "half")),
                 HasSubstr("half"));
     EXPECT_THAT(refusal(read_png(std::span<const std::byte>(), "empty")), HasSubstr("empty"));
-    // A header that claims more than is read.
+    // A header that claims more than the file can hold: width and height are its bytes 16 to 23.
+    for (std::size_t at : {18U, 22U}) {
+        bytes[at] = std::byte{0x40};
+    }
+    EXPECT_THAT(refusal(read_png(bytes, "claims")), HasSubstr("claims"));
+    // One that claims more than is read.
     bytes = encoded<std::uint8_t>(PNG_FORMAT_GRAY, 20000, 1, std::vector<std::uint8_t>(20000, 7));
     EXPECT_THAT(refusal(read_png(bytes, "wide")), HasSubstr("20000x1"));
 }
