@@ -94,7 +94,6 @@ TEST(Trade, RefusesWhatItCannotSweep) {
     };
     for (const Case& bad : std::vector<Case>{
              {{"--methods", "kfrr"}, 2, "kfr"},
-             {{"--methods", "layers"}, 2, "layers"},
              {{"--methods", ""}, 2, "empty"},
              {{"--vary", "kfr.sigma"}, 2, "KEY="},
              {{"--vary", "render.spp=1,4"}, 2, "render.spp"},
