@@ -158,6 +158,20 @@ void prepare_heat_maps(const CompareCommand& command, const quality::MetricChoic
     }
 }
 
+/// A picture of another shape than the display's fills it all the same, with pixels that are not
+/// square there.
+void warn_of_shape(const render::LinearPicture& picture, const display::DisplayProfile& display) {
+    const double shape = static_cast<double>(picture.width) / picture.height;
+    const double of_display = static_cast<double>(display.width_px) / display.height_px;
+    constexpr double kNear = 0.02;  // pictures are scaled to whole pixels
+    if (std::abs(shape / of_display - 1.0) > kNear) {
+        spdlog::warn(
+            "the pictures have {}x{} pixels, the display {} {}x{}: taken as filling its "
+            "field of view, with pixels that are not square; --display names another",
+            picture.width, picture.height, display.name, display.width_px, display.height_px);
+    }
+}
+
 ExitCode compare(const CompareCommand& command) {
     run::ProgramSettings settings;
     value_or_throw(command.options.apply_to(settings, true));
@@ -219,6 +233,7 @@ ExitCode compare(const CompareCommand& command) {
         const render::LinearPicture of_test = value_or_throw(render::read_png(test.file(frame)));
         if (!comparison) {
             // The first picture's size is that of all.
+            warn_of_shape(of_reference, display);
             things.question = {
                 .view =
                     display::profile_view(display, eye, of_reference.width, of_reference.height),

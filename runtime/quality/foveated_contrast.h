@@ -43,7 +43,7 @@ struct ContrastOptions {
 /// Exactly symmetric. The same bits with any number of threads. Not modelled: crowding, glare,
 /// adaptation in time, a picture that moves on the retina as the eye turns, saccadic suppression.
 ///
-/// A sequence of pictures takes 96 bytes per pixel for the past, besides some 150 for the work.
+/// It takes some 100 bytes per pixel for the work, and a sequence 96 more for the past.
 class FoveatedContrast {
   public:
     /// The display's geometry, with as many pixels as the pictures have. Errors (Usage): a view

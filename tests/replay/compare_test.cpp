@@ -94,6 +94,15 @@ TEST(Compare, SaysByHowMuchPicturesDiffer) {
               report);
 }
 
+TEST(Compare, SaysWherePicturesHaveAnotherShapeThanTheDisplay) {
+    const ScratchFolder folder;
+    write_picture(folder.file("wide.png"), 0, 64, 48);
+    write_picture(folder.file("eye.png"), 0, 64, 72);
+    EXPECT_THAT(compare({folder.file("wide.png"), folder.file("wide.png")}).err,
+                HasSubstr("not square"));
+    EXPECT_EQ(compare({folder.file("eye.png"), folder.file("eye.png")}).err, "");
+}
+
 TEST(Compare, FollowsGazeLightAndChoice) {
     const ScratchFolder folder;
     write_picture(folder.file("a.png"), 0);
