@@ -9,7 +9,7 @@ struct SeenLayer {
     vec4 blend;     // where nothing is shown of it, as sin(e / 2); how much per unit inside; per px
                     // from its edges: x, y
     vec4 gaze;      // unit, in world; 1, or 0 where it holds nothing
-    vec4 camera;    // eye position in world, m; 1: the view of this frame
+    vec4 camera;    // eye position in world, m; unused
     vec4 axes[3];   // columns of the view's rotation into world
     vec4 tangents;  // of the field of view: left, right, up, down
 };

@@ -9,7 +9,9 @@
 #include "../lib/depth.glsl"
 
 layout(constant_id = 4) const int kLayers = 3;
-layout(constant_id = 5) const bool kHalfRate = false;
+// Which layers were kept from the last frame, by bits; a constant, since a kept layer costs twice
+// what a fresh one does.
+layout(constant_id = 5) const int kKept = 0;
 layout(set = 2, binding = 2) uniform sampler2D layer_1;
 layout(set = 2, binding = 3) uniform sampler2D layer_2;
 layout(set = 2, binding = 4) uniform sampler2D layer_3;
@@ -19,14 +21,15 @@ layout(location = 0) out vec4 color;
 vec4 composed(vec4 under, sampler2D image, int layer, bool outermost, vec3 ray) {
     SeenLayer shown = layers.shown[layer];
     vec2 position = gl_FragCoord.xy;
-    if (kHalfRate && layer > 0) {
+    if (((kKept >> layer) & 1) != 0) {
         // How far away it is, only the layer itself knows: first as if infinitely.
-        vec2 was = position_in(shown, shown.camera.xyz + 1e6 * ray);
+        position = position_in(shown, shown.camera.xyz + 1e6 * ray);
         for (int i = 0; i < 2; ++i) {
-            float nearness = interpolated(image, cell_position(shown, was), shown.cells.xy).a;
-            was = position_in(shown, eye.camera_and_time.xyz + ray / max(nearness, 1e-6));
+            ivec2 cell = clamp(ivec2(cell_position(shown, position)), ivec2(0),
+                               max(ivec2(shown.cells.xy) - 1, ivec2(0)));
+            float nearness = texelFetch(image, cell, 0).a;
+            position = position_in(shown, eye.camera_and_time.xyz + ray / max(nearness, 1e-6));
         }
-        position = mix(was, position, bvec2(shown.camera.w > 0.0));
     }
     vec4 inner = interpolated(image, cell_position(shown, position), shown.cells.xy);
     float half_sine = 0.5 * distance(ray, shown.gaze.xyz);

@@ -25,7 +25,10 @@ constexpr std::size_t kMostLayers = LayeredPlan::kMostLayers;
 constexpr vk::Format kHistoryFormat = vk::Format::eR32G32B32A32Sfloat;
 
 /// Constants of the composite.
-enum Constant : std::uint32_t { kLayers = kOfMethod, kHalfRate };
+enum Constant : std::uint32_t { kLayers = kOfMethod, kKept };
+
+/// Layers that can be kept from the last frame, by bits: none, or those whose turn it is not.
+constexpr std::array<std::uint32_t, 3> kKeptLayers{0b0000, 0b1010, 0b0100};
 
 /// Images of a layer's set.
 enum LayerImage : std::uint32_t { kBefore, kFresh, kLayerImages };
@@ -120,7 +123,7 @@ class LayersPasses final : public MethodPasses {
         }
         draw_pictures(commands, frame, setup_, [&](std::size_t e) {
             bind_sets(commands, composite_layout_, frame, e, composite_sets_.of(frame.slot, e));
-            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *composite_);
+            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *composite(e, plans[e]));
             draw_visible(commands, frame.view.hidden[e].get());
         });
     }
@@ -165,16 +168,33 @@ class LayersPasses final : public MethodPasses {
                                                .fragment = "layers_temporal.frag",
                                                .format = kHistoryFormat});
         }
-        const std::array composing{
-            vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup_.format) ? 0U : 1U},
-            vulkan::ShaderConstant{kLayers, static_cast<std::uint32_t>(config_.layers)},
-            vulkan::ShaderConstant{kHalfRate, config_.half_rate ? 1U : 0U}};
-        composite_ = vulkan::make_pipeline(device, composite_layout_,
-                                           {.vertex = "full_screen.vert",
-                                            .fragment = resolve_shader("layers", setup_),
-                                            .format = setup_.format,
-                                            .depth_format = setup_.depth_format,
-                                            .constants = composing});
+        for (std::size_t kept = 0; kept < kKeptLayers.size(); ++kept) {
+            if (kept > 0 && !config_.half_rate) {
+                continue;
+            }
+            const std::array composing{
+                vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup_.format) ? 0U : 1U},
+                vulkan::ShaderConstant{kLayers, static_cast<std::uint32_t>(config_.layers)},
+                vulkan::ShaderConstant{kKept, kKeptLayers.at(kept)}};
+            composites_.at(kept) =
+                vulkan::make_pipeline(device, composite_layout_,
+                                      {.vertex = "full_screen.vert",
+                                       .fragment = resolve_shader("layers", setup_),
+                                       .format = setup_.format,
+                                       .depth_format = setup_.depth_format,
+                                       .constants = composing});
+        }
+    }
+
+    /// The composite for the layers that an eye keeps from the last frame.
+    [[nodiscard]] const vk::raii::Pipeline& composite(std::size_t e,
+                                                      const foveation::EyePlan& plan) const {
+        const std::size_t layers = plan_.layers(gaze::kEyes.at(e)).size();
+        std::size_t kept = 0;
+        for (std::size_t layer = 1; layer < layers; ++layer) {
+            kept = its_turn(plan, layer) ? kept : 2 - layer % 2;
+        }
+        return composites_.at(kept);
     }
 
     /// Images for any gaze: a layer's rectangle may be the whole picture.
@@ -224,7 +244,6 @@ class LayersPasses final : public MethodPasses {
                 layer.shown = {};
             }
             const LayeredPlan::Layer planned = LayeredPlan::layer_of(plan, i);
-            layer.shown.camera.w = 0.0F;
             if (planned.cells.w > 0.0F) {
                 layer.before = layer.shown;
                 layer.shown = seen_now(frame.view.views[e], plan, planned);
@@ -271,7 +290,7 @@ class LayersPasses final : public MethodPasses {
         SeenLayer seen{.cells = {planned.cells.x, planned.cells.y, 0.0F, 0.0F},
                        .blend = planned.blend,
                        .gaze = glm::vec4(in_world, any ? 1.0F : 0.0F),
-                       .camera = glm::vec4(glm::vec3(frame.camera_and_time), 1.0F),
+                       .camera = glm::vec4(glm::vec3(frame.camera_and_time), 0.0F),
                        .axes = frame.view_axes,
                        .tangents = frame.tangents};
         if (any) {
@@ -312,7 +331,8 @@ class LayersPasses final : public MethodPasses {
     vk::raii::PipelineLayout composite_layout_{nullptr};
     vk::raii::Pipeline shade_{nullptr};
     vk::raii::Pipeline temporal_{nullptr};
-    vk::raii::Pipeline composite_{nullptr};
+    /// By place in kKeptLayers.
+    std::array<vk::raii::Pipeline, kKeptLayers.size()> composites_{nullptr, nullptr, nullptr};
     gaze::PerEye<std::array<Layer, kMostLayers>> layers_;
 };
 
