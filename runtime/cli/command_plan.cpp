@@ -207,7 +207,8 @@ void add_plan_command(Command program) {
     options.switches.clear();
     options.log.add_to(app);
     options.add_settings_to(app);
-    app.option("--method", command->method, "full, kfr, acuity, layers, rings, sparse or all");
+    app.option("--method", command->method,
+               "full, kfr, acuity, layers, rings, sparse, quad, fixed or all");
     app.option("--model", command->model, "guenter, geisler-perry, stelacsf or all");
     app.option("--gaze", command->gaze, "direction of gaze, degrees to the right and up")
         .type("AZ,EL");
