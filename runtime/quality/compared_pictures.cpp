@@ -11,8 +11,10 @@ std::unexpected<Error> refuse(std::string text) {
     return std::unexpected(Error{ErrorKind::BadInput, std::move(text)});
 }
 
-bool is_finite(const glm::vec3& pixel) {
-    return std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z);
+/// False for not-a-number.
+bool is_light(const glm::vec3& pixel) {
+    return std::abs(pixel.x) <= kMostLight && std::abs(pixel.y) <= kMostLight &&
+           std::abs(pixel.z) <= kMostLight;
 }
 
 Expected<void> check(const char* which, const render::LinearPicture& picture) {
@@ -24,16 +26,16 @@ Expected<void> check(const char* which, const render::LinearPicture& picture) {
     std::size_t bad = 0;
     std::size_t first = 0;
     for (std::size_t at = 0; at < count; ++at) {
-        if (!is_finite(picture.pixels[at])) {
+        if (!is_light(picture.pixels[at])) {
             first = bad == 0 ? at : first;
             ++bad;
         }
     }
     if (bad > 0) {
         return refuse(fmt::format(
-            "the {}: {} of {} pixels are not finite, the first at {},{}: nothing can be said of "
-            "such a picture; find what made them",
-            which, bad, count, first % picture.width, first / picture.width));
+            "the {}: {} of {} pixels are not finite or over {:g}, the first at {},{}: nothing can "
+            "be said of such a picture; find what made them",
+            which, bad, count, kMostLight, first % picture.width, first / picture.width));
     }
     return {};
 }

@@ -6,6 +6,10 @@
 
 namespace gazeloop::quality {
 
+/// Brighter than any picture, also in half floats, and small enough that squares of contrasts stay
+/// finite.
+inline constexpr float kMostLight = 1e6F;
+
 /// Whether two pictures can be compared as what this view shows. Errors (BadInput): no pixels,
 /// fewer or more of them than the size says, sizes that differ from each other or from the view's,
 /// a value that is not a number or infinite; the message says which picture, where the first such

@@ -164,10 +164,11 @@ class FoveatedContrast::Work {
     /// null for the rest, under which nothing lies.
     void band_contrasts(const ContrastLevels::Level& level, std::size_t mechanism,
                         const LevelMemory* coarser, LevelMemory& memory) {
-        for (Plane* const plane : {&memory.contrasts[0], &memory.contrasts[1], &memory.luminance,
-                                   &memory.log2_luminance}) {
-            plane->resize(level.width, level.height);
+        for (Plane& plane : memory.contrasts) {
+            plane.resize(level.width, level.height);
         }
+        memory.luminance.resize(level.width, level.height);
+        memory.log2_luminance.resize(level.width, level.height);
         const auto over_gain = static_cast<float>(1.0 / level.band_gain);
         rows_.over(level.height, [&](std::uint32_t from, std::uint32_t to) {
             std::vector<float> scratch(halved(level.width));

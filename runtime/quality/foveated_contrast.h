@@ -50,6 +50,8 @@ class FoveatedContrast {
     /// that is not valid or too large, an option out of range.
     static Expected<FoveatedContrast> create(const gaze::EyeView& view, gaze::Eye eye,
                                              const ContrastOptions& options);
+    FoveatedContrast(const FoveatedContrast&) = delete;
+    FoveatedContrast& operator=(const FoveatedContrast&) = delete;
     FoveatedContrast(FoveatedContrast&&) noexcept;
     FoveatedContrast& operator=(FoveatedContrast&&) noexcept;
     ~FoveatedContrast();

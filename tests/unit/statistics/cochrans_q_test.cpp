@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "runtime/statistics/chi_square.h"
@@ -18,10 +19,9 @@ TEST(ChiSquareTail, IsItsClosedForms) {
         const double x = value / 2.0;
         EXPECT_NEAR(chi_square_tail(value, 1), std::erfc(std::sqrt(x)), 1e-13) << value;
         EXPECT_NEAR(chi_square_tail(value, 2), std::exp(-x), 1e-13) << value;
-        EXPECT_NEAR(
-            chi_square_tail(value, 3),
-            std::erfc(std::sqrt(x)) + std::sqrt(4.0 * x / 3.14159265358979324) * std::exp(-x),
-            1e-12)
+        EXPECT_NEAR(chi_square_tail(value, 3),
+                    std::erfc(std::sqrt(x)) + std::sqrt(4.0 * x / std::numbers::pi) * std::exp(-x),
+                    1e-12)
             << value;
         double term = std::exp(-x);
         double sum = term;
