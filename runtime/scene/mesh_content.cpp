@@ -104,7 +104,7 @@ MaterialUniforms uniforms_of(const mesh::Material& material) {
     uniforms.factors = {material.metallic, material.roughness, material.normal_scale,
                         material.occlusion_strength};
     uniforms.emissive = glm::vec4(material.emissive, material.alpha_cutoff);
-    uniforms.more = {material.transmission, static_cast<float>(kind_of(material)), 0.0F, 0.0F};
+    uniforms.more = {material.transmission, 0.0F, 0.0F, 0.0F};
     std::size_t row = 0;
     for (const mesh::TextureUse* use : textures_of(material)) {
         for (int i = 0; i < 2; ++i) {
@@ -278,7 +278,7 @@ void MeshContent::make_materials(const mesh::MeshData& data) {
                                               sizeof(MaterialUniforms));
         device.updateDescriptorSets(
             vk::WriteDescriptorSet(*state.set, 0, 0, Type::eUniformBuffer, {}, buffer), {});
-        PipelineKey key{0, state.masked};
+        PipelineKey key{0, state.masked, state.kind};
         std::uint32_t binding = 1;
         for (const mesh::TextureUse* use : textures_of(material)) {
             const bool there = use->image != mesh::kNone;
@@ -303,7 +303,8 @@ void MeshContent::make_pipelines(MaterialState& state, const PipelineKey& key) {
     }
     const vk::raii::Device& device = context_->device();
     const std::array constants{vulkan::ShaderConstant{0, key.textures},
-                               vulkan::ShaderConstant{1, key.masked ? 1U : 0U}};
+                               vulkan::ShaderConstant{1, key.masked ? 1U : 0U},
+                               vulkan::ShaderConstant{2, static_cast<std::uint32_t>(key.kind)}};
     Pipelines pipelines{.key = key};
     pipelines.depth = vulkan::make_raster_pipeline(device, mesh_layout_,
                                                    {.vertex = "depth.vert",

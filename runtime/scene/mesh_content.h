@@ -83,6 +83,7 @@ class MeshContent {
     struct PipelineKey {
         std::uint32_t textures = 0;
         bool masked = false;
+        TexelKind kind = TexelKind::Surface;
         friend bool operator==(const PipelineKey&, const PipelineKey&) = default;
     };
     struct Pipelines {

@@ -10,7 +10,9 @@ layout(location = 2) in vec4 both_uv;
 layout(location = 3) in vec4 vertex_color;
 layout(location = 0) out uvec4 packed;
 
-layout(constant_id = 2) const bool kSpecularFilter = true;
+// A constant, no uniform: what control flow depends on would have lavapipe compile for every draw.
+layout(constant_id = 2) const uint kKind = kKindSurface;
+layout(constant_id = 3) const bool kSpecularFilter = true;
 
 vec3 unit_or(vec3 v, vec3 otherwise) {
     float square = dot(v, v);
@@ -55,12 +57,11 @@ void main() {
         float alpha = roughness * roughness;
         roughness = sqrt(sqrt(clamp(alpha * alpha + variance, 0.0, 1.0)));
     }
-    uint kind = uint(material.more.y);
     packed = packed_surface(Surface(clamp(color.rgb, 0.0, 1.0), clamp(occlusion, 0.0, 1.0), normal,
                                     roughness, clamp(rough_metal.y, 0.0, 1.0),
-                                    kind == kKindVeil ? 1.0 - clamp(color.a, 0.0, 1.0)
+                                    kKind == kKindVeil ? 1.0 - clamp(color.a, 0.0, 1.0)
                                                       : material.more.x,
-                                    kind, emitted));
+                                    kKind, emitted));
     if (kMasked && color.a < material.emissive.w) {
         discard;
     }

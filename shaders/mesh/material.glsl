@@ -3,7 +3,7 @@ layout(std140, set = 1, binding = 0) uniform MaterialUniforms {
     vec4 base_color;
     vec4 factors;      // metallic, roughness, normal scale, occlusion strength
     vec4 emissive;     // w: alpha cutoff
-    vec4 more;         // transmission, kind, unused
+    vec4 more;         // transmission; unused
     vec4 transforms[10];  // two rows for each texture: of (u, v, 1); w: set of coordinates
 } material;
 layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
