@@ -115,13 +115,17 @@ class FrameRun {
         config_ = renderer_config();
         check_recorded_target(request_, config_);
         check_picture(request_, config_);
-        scene_ = scene::make_scene(*context_, values_.render.scene);
+        scene_ = scene::make_scene(*context_, values_.render.scene,
+                                   {.require_all = values_.render.require == "all"});
         render::FrameRenderer renderer(*context_, *scene_, make_passes(values_.render.method),
                                        config_);
         spdlog::info("Vulkan: {} ({})", context_->device_name(), context_->driver());
         spdlog::info("{}x{} per eye, method {}, scene {}, {} samples, target {}",
                      config_.extents[0].width, config_.extents[0].height, values_.render.method,
                      values_.render.scene, values_.render.spp, values_.target.name);
+        for (const std::string& skipped : scene_->skipped()) {
+            spdlog::info("left out, since the scene does not need it: {}", skipped);
+        }
         if (request_.clock == RunClock::Wall) {
             // First draws compile shaders, which must not look like a slow first frame.
             render::warm_up(*context_, renderer, profile_views(display_, target_->extents()));
@@ -167,6 +171,10 @@ class FrameRun {
                 .hash = request_.hash,
                 .seen_depth = request_.openxr_gaze && request_.openxr_gaze->from_depth,
                 .frames_in_flight = static_cast<std::uint32_t>(values_.render.frames_in_flight),
+                .lp_gaussian = values_.render.lp_gaussian == "on" ? render::FilterUse::On
+                               : values_.render.lp_gaussian == "off"
+                                   ? render::FilterUse::Off
+                                   : render::FilterUse::AsSceneNeeds,
                 .unshaded = std::nullopt};
     }
 

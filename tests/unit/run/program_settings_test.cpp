@@ -79,7 +79,7 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "sparse.wide_spread"}},
     {Concerns::Output,
      {"acuity.luminance_cd_m2", "acuity.nasal", "render.depth", "render.frames_in_flight",
-      "render.profile", "render.wait_before_latch"}},
+      "render.profile", "render.require", "render.wait_before_latch"}},
     {Concerns::Machine,
      {"monitor.interval_s", "monitor.window_s", "openxr.patience_s", "profile.budget",
       "target.name", "target.validation", "vulkan.device", "vulkan.validation"}}};
