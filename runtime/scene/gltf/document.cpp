@@ -277,7 +277,20 @@ glm::dvec3 vec3_or(const std::vector<double>& numbers, double otherwise) {
                                : glm::dvec3(otherwise);
 }
 
-MaterialSource material_of(const tinygltf::Material& from, const std::string& place) {
+/// 0 stands for a surface that reflects everything at every angle, which is not supported.
+float refraction_of(double ior, const std::string& place, Notes& notes) {
+    const std::string at = place + "/extensions/KHR_materials_ior/ior";
+    if (ior == 0.0) {
+        notes.add("ior", at, "is 0, which is not supported: taken as 1.5");
+        return 1.5F;
+    }
+    if (ior < 1.0) {
+        refuse(at, fmt::format("is {}, must be 0 or at least 1", ior));
+    }
+    return static_cast<float>(ior);
+}
+
+MaterialSource material_of(const tinygltf::Material& from, const std::string& place, Notes& notes) {
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     MaterialSource to;
     mesh::Material& material = to.material;
@@ -305,7 +318,7 @@ MaterialSource material_of(const tinygltf::Material& from, const std::string& pl
             static_cast<float>(number_or(*transmission, "transmissionFactor", 0.0));
     }
     if (const auto* ior = extension("KHR_materials_ior")) {
-        material.index_of_refraction = static_cast<float>(number_or(*ior, "ior", 1.5));
+        material.index_of_refraction = refraction_of(number_or(*ior, "ior", 1.5), place, notes);
     }
     material.unlit = extension("KHR_materials_unlit") != nullptr;
 
@@ -316,6 +329,10 @@ MaterialSource material_of(const tinygltf::Material& from, const std::string& pl
     to.normal = reference_of(from.normalTexture, place + "/normalTexture");
     to.occlusion = reference_of(from.occlusionTexture, place + "/occlusionTexture");
     to.emissive = reference_of(from.emissiveTexture, place + "/emissiveTexture");
+    if (material.unlit) {  // shown is what it emits: that is its base colour, and nothing else
+        material.emissive = glm::vec3(material.base_color);
+        to.emissive = to.base_color;
+    }
     return to;
 }
 
@@ -442,7 +459,7 @@ void fill(Document& to, const tinygltf::Model& from, Notes& notes) {
         to.textures.push_back(texture_of(from, texture));
     }
     for (const tinygltf::Material& material : from.materials) {
-        to.materials.push_back(material_of(material, fmt::format("/materials/{}", count++)));
+        to.materials.push_back(material_of(material, fmt::format("/materials/{}", count++), notes));
     }
     for (const tinygltf::Mesh& mesh : from.meshes) {
         to.meshes.push_back(mesh_of(mesh));

@@ -126,6 +126,16 @@ TEST(GltfDocument, ANumberOfAnExtensionMayBeWrittenAsAnInteger) {
     EXPECT_EQ(loaded(file).data.materials.at(0).emissive.x, 3e9F);
 }
 
+TEST(GltfDocument, UnlitMaterialsEmitTheirBaseColour) {
+    GltfFile file = patched(R"({"materials": [{"pbrMetallicRoughness":
+        {"baseColorFactor": [0.1, 0.2, 0.3, 1]}, "emissiveFactor": [1, 1, 1],
+        "extensions": {"KHR_materials_unlit": {}}}], "extensionsUsed": ["KHR_materials_unlit"],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}]})");
+    const scene::mesh::Material material = loaded(file).data.materials.at(0);
+    EXPECT_TRUE(material.unlit);
+    EXPECT_EQ(material.emissive, glm::vec3(0.1F, 0.2F, 0.3F));
+}
+
 TEST(GltfDocument, NodesComposeAndMayMirror) {
     GltfFile file = patched(R"({"nodes": [
         {"translation": [1, 2, 3], "scale": [2, 2, -2], "children": [1]},

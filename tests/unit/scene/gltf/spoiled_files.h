@@ -121,6 +121,9 @@ inline const SpoiledFile kRefused[] = {
                 "roughnessFactor: is 2, must be at least 0 and at most 1"},
     SpoiledFile{"rotation_of_zero", R"({"nodes": [{"mesh": 0, "rotation": [0, 0, 0, 0]}]})",
                 "/nodes/0/rotation: is zero"},
+    SpoiledFile{"ior", R"({"materials": [{"extensions": {"KHR_materials_ior": {"ior": 0.5}}}],
+                "extensionsUsed": ["KHR_materials_ior"]})",
+                "/materials/0/extensions/KHR_materials_ior/ior: is 0.5, must be 0 or at least 1"},
     SpoiledFile{"projection", R"({"nodes": [{"mesh": 0, "matrix":
                 [1,0,0,0, 0,1,0,0, 0,0,1,1, 0,0,0,1]}]})",
                 "/nodes/0/matrix: its last row must be 0, 0, 0, 1"},
