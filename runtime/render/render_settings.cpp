@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "runtime/render/frame_uniforms.h"
+#include "runtime/scene/scene_file.h"
 #include "runtime/scene/scenes.h"
 
 namespace gazeloop::render {
@@ -34,9 +35,11 @@ std::vector<settings::SettingRow> rows_of(RenderSettings& render,
         // Views are recorded with their sizes.
         {"render.scale", "picture size relative to the display's, each way",
          Number{&render.scale, 0.01, 2.0}, Concerns::Input},
-        {"render.scene", "scene to render",
+        {"render.scene", "scene to render: a name, or a .gltf or .glb file",
          Choice{.value = &render.scene,
-                .names = {scene::scene_names().begin(), scene::scene_names().end()}},
+                .names = {scene::scene_names().begin(), scene::scene_names().end()},
+                .file_extensions = {scene::kSceneFileExtensions.begin(),
+                                    scene::kSceneFileExtensions.end()}},
          Concerns::Picture},
         {"render.spp", "samples per texel or pixel", Whole{&render.spp, 1, kMaxSamples},
          Concerns::Picture},

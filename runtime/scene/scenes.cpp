@@ -10,6 +10,7 @@
 #include "runtime/scene/gallery/gallery_scene.h"
 #include "runtime/scene/mesh_scene.h"
 #include "runtime/scene/ray_scene.h"
+#include "runtime/scene/scene_file.h"
 #include "shaders/shader_library.h"
 
 namespace gazeloop::scene {
@@ -35,6 +36,9 @@ std::span<const std::string_view> scene_names() {
 
 std::unique_ptr<Scene> make_scene(const vulkan::Context& context, std::string_view name,
                                   const SceneOptions& options) {
+    if (is_scene_file(name)) {
+        return make_mesh_scene(context, load_scene_file(name), options);
+    }
     const auto names = scene_names();
     if (std::ranges::find(names, name) == names.end()) {
         throw SetupError(ErrorKind::Usage, fmt::format("there is no scene '{}': there are {}", name,

@@ -16,7 +16,8 @@ struct SceneOptions {
     bool require_all = false;
 };
 
-/// A scene by its name. Throws SetupError (Usage) for one that there is not.
+/// A scene by its name, or of a file (scene_file.h). Throws SetupError: Usage for a name that there
+/// is not, BadInput for a file that cannot be used.
 [[nodiscard]] std::unique_ptr<Scene> make_scene(const vulkan::Context& context,
                                                 std::string_view name,
                                                 const SceneOptions& options = {});

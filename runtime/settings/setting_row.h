@@ -40,6 +40,10 @@ struct Choice {
     std::string* value;
     std::vector<std::string> names{};  ///< empty: any text
     std::string what{};                ///< for messages; empty: the key without its group
+    /// A file whose name ends in one of these may be given instead of a name.
+    std::vector<std::string_view> file_extensions{};
+
+    [[nodiscard]] bool is_file(std::string_view text) const;
 };
 
 /// Numbers with commas between; TOML may give them as an array. Whoever uses them reads them.

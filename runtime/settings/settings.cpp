@@ -114,6 +114,12 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
+bool Choice::is_file(std::string_view text) const {
+    return std::ranges::any_of(file_extensions, [&](std::string_view extension) {
+        return text.size() > extension.size() && text.ends_with(extension);
+    });
+}
+
 void Settings::add(const std::vector<SettingRow>& rows) {
     for (const SettingRow& row : rows) {
         entries_.emplace(row.key, Entry{.row = row});
@@ -205,6 +211,11 @@ Expected<void> Settings::assign(std::string_view key, std::string_view text, Wri
         *list->value = text;
     } else {
         Choice& choice = std::get<Choice>(row.slot);
+        if (choice.is_file(text)) {
+            *choice.value = (folder / text).string();
+            entry_origin = origin;
+            return {};
+        }
         if (!choice.names.empty() && std::ranges::find(choice.names, text) == choice.names.end()) {
             return refuse(origin, unknown_name(choice.what.empty() ? key.substr(key.find('.') + 1)
                                                                    : choice.what,

@@ -16,7 +16,11 @@ class SettingsOfAll : public testing::Test {
   protected:
     SettingsOfAll() {
         settings_.add({
-            {"one.way", "how", Choice{.value = &way_, .names = {"plain", "fine"}},
+            {"one.way", "how",
+             Choice{.value = &way_,
+                    .names = {"plain", "fine"},
+                    .what = {},
+                    .file_extensions = {".way", ".w"}},
              Concerns::Picture},
             {"one.grain",
              "how fine",
@@ -47,6 +51,22 @@ class SettingsOfAll : public testing::Test {
     Settings settings_;
     std::vector<NamedValue> recorded_;
 };
+
+TEST_F(SettingsOfAll, AChoiceMayBeAFileWhereItSaysSo) {
+    ASSERT_TRUE(settings_.set("one.way", "folder/my.w", "--set"));
+    EXPECT_EQ(way_, "folder/my.w");
+    EXPECT_EQ(settings_.origin("one.way"), "--set");
+    for (const char* text : {".w", "my.wa", "my.w.txt", "plan"}) {
+        const auto set = settings_.set("one.way", text, "--set");
+        ASSERT_FALSE(set) << text;
+        EXPECT_EQ(set.error().kind, ErrorKind::Usage);
+    }
+    // In a file, it lies beside that.
+    const tests::ScratchFolder folder;
+    const std::filesystem::path file = folder.write("c.toml", "[one]\nway = \"my.way\"\n");
+    ASSERT_TRUE(settings_.load(file));
+    EXPECT_EQ(way_, (file.parent_path() / "my.way").string());
+}
 
 TEST_F(SettingsOfAll, AreListedByKeyWhoeverAddedThem) {
     std::vector<std::string> keys;
