@@ -27,7 +27,7 @@ bool are_as_recorded(std::span<const NamedValue> recorded, Concerns what,
             return true;
         }
         const auto then = std::ranges::find(recorded, row.key, &NamedValue::name);
-        return then != recorded.end() && then->value == text_of(row);
+        return then == recorded.end() ? settings.is_built_in(row.key) : then->value == text_of(row);
     });
 }
 

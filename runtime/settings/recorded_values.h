@@ -15,8 +15,8 @@ Expected<void> take_recorded(std::span<const NamedValue> recorded, std::string_v
                              Settings& settings);
 
 /// Whether every setting that concerns `what` and is in use has the value that was recorded. A
-/// setting that the recording does not list counts as different: its value may have been another
-/// then.
+/// setting that the recording does not list came later than the recording: its built-in value must
+/// be what the program did before it was there, and any other value counts as different.
 [[nodiscard]] bool are_as_recorded(std::span<const NamedValue> recorded, Concerns what,
                                    const Settings& settings);
 

@@ -33,6 +33,10 @@ struct Options {
 /// corner and along a trace.
 std::vector<Figure> kfr_raycast(const Options& options);
 
+/// Speed of KFR and of the acuity-derived map over full resolution on the built-in scene of meshes,
+/// with the time of each stage under the paper's names; gaze in the middle.
+std::vector<Figure> kfr_mesh(const Options& options);
+
 /// The frame loop's own work: from gaze to fovea, CPU time outside Vulkan and OpenXR, allocations,
 /// memory over 10,000 frames, and the program's start-up.
 std::vector<Figure> loop(const Options& options);

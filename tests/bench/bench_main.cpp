@@ -21,18 +21,19 @@ struct Named {
     std::vector<Figure> (*run)(const Options&);
 };
 constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
+                              Named{"kfr-mesh", kfr_mesh},
                               Named{"acuity", acuity},
                               Named{"loop", loop},
                               Named{"maps", maps},
                               Named{"devices", devices},
                               Named{"report", report},
                               Named{"monitor", monitor},
-                               Named{"quality", quality},
-                               Named{"gltf", gltf},
-                               Named{"events", events},
-                               Named{"prediction", prediction},
-                               Named{"rivals", rivals},
-                               Named{"traces", traces}};
+                              Named{"quality", quality},
+                              Named{"gltf", gltf},
+                              Named{"events", events},
+                              Named{"prediction", prediction},
+                              Named{"rivals", rivals},
+                              Named{"traces", traces}};
 
 /// Preload libraries count from a program's start: it begins once more, under umockdev's.
 void begin_under_umockdev(char** arguments) {

@@ -64,8 +64,14 @@ render::FrameRequest RaycastSetup::frame(double yaw_deg, const gaze::PixelPositi
 
 Contender::Contender(const vulkan::Context& context, const render::MethodConfig& config)
     : config_(config),
-      scene_(scene::make_scene(context, "raymarch")),
-      renderer_(std::make_unique<render::FrameRenderer>(context, *scene_, render::passes_of(config),
+      own_scene_(scene::make_scene(context, "raymarch")),
+      renderer_(std::make_unique<render::FrameRenderer>(context, *own_scene_,
+                                                        render::passes_of(config), config)) {}
+
+Contender::Contender(const vulkan::Context& context, const render::MethodConfig& config,
+                     scene::Scene& shared)
+    : config_(config),
+      renderer_(std::make_unique<render::FrameRenderer>(context, shared, render::passes_of(config),
                                                         config)) {}
 
 void Contender::round(const render::FrameRequest& request, bool keep) {

@@ -45,7 +45,11 @@ class RaycastSetup {
 /// One way to render, with the durations of its rounds.
 class Contender {
   public:
+    /// The ray-marched scene.
     Contender(const vulkan::Context& context, const render::MethodConfig& config);
+    /// A scene that contenders share; it must outlive this.
+    Contender(const vulkan::Context& context, const render::MethodConfig& config,
+              scene::Scene& shared);
 
     /// Renders a frame and keeps what it took, unless it is the first of its kind, which compiles.
     void round(const render::FrameRequest& request, bool keep = true);
@@ -55,6 +59,7 @@ class Contender {
     [[nodiscard]] double median_ms() const;
     /// 0 for a pass that the method does not have.
     [[nodiscard]] double median_ms(std::string_view pass) const;
+    [[nodiscard]] const frame::PassList& passes() const { return renderer_->passes(); }
     /// Of the last round: cells that were shaded, of both eyes.
     [[nodiscard]] double cells() const;
     /// Of the last round, of the measured eye; of log-polar methods.
@@ -62,7 +67,7 @@ class Contender {
 
   private:
     render::MethodConfig config_;
-    std::unique_ptr<scene::Scene> scene_;
+    std::unique_ptr<scene::Scene> own_scene_;  ///< null: it shares one
     std::unique_ptr<render::FrameRenderer> renderer_;
     foveation::LogPolarPlan plan_;
     std::vector<double> total_ms_;

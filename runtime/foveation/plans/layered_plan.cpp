@@ -134,10 +134,11 @@ LayeredPlan::Layer LayeredPlan::plan_shown(const GazeField& field, std::size_t l
                                            bool its_turn, EyePlan& plan) const {
     const PlannedLayer planned = plan_layer(field, shape);
     const Tile& covers = planned.covers;
+    const std::size_t first_band = plan.table.size() / 2;
     Layer shown{.covers = glm::vec4(
                     glm::dvec4(covers.x0, covers.y0, covers.x1 - covers.x0, covers.y1 - covers.y0)),
                 .cells = {static_cast<float>(planned.width), static_cast<float>(planned.height),
-                          static_cast<float>(plan.table.size() / 2), its_turn ? 1.0F : 0.0F},
+                          static_cast<float>(first_band), its_turn ? 1.0F : 0.0F},
                 .blend = blend_of(shape, planned)};
     if (!its_turn) {
         return shown;

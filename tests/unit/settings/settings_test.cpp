@@ -151,10 +151,12 @@ TEST_F(SettingsOfAll, CountOnlyWhileTheyAreInUse) {
     EXPECT_FALSE(same(Concerns::Picture));
 }
 
-// The program that recorded it had none like it, and did nobody knows what.
-TEST_F(SettingsOfAll, AreNotAsRecordedWhereTheRecordingListsNone) {
+// The program that recorded it had none like it, and did what the built-in value stands for.
+TEST_F(SettingsOfAll, ThatARecordingDoesNotListAreAsRecordedWhileTheyAreBuiltIn) {
     recorded_ = settings_.list();
     std::erase_if(recorded_, [](const NamedValue& one) { return one.name == "one.hold"; });
+    EXPECT_TRUE(same(Concerns::Foveae));
+    ASSERT_TRUE(settings_.set("one.hold", "4", "--set").has_value());
     EXPECT_FALSE(same(Concerns::Foveae));
     EXPECT_TRUE(same(Concerns::Picture));
 }

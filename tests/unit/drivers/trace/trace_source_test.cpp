@@ -173,7 +173,7 @@ std::vector<gaze::GazeSample> rows_of(std::size_t count, const Origin& origin, c
 std::vector<double> foveae_of(const std::vector<gaze::GazeSample>& rows) {
     constexpr std::int64_t kPeriod_ns = 11'111'111;
     TraceSource source(trace_of(rows), 0, 12'000'000);
-    gaze::GazeToFovea gaze({.hold_ns = 150'000'000});
+    gaze::GazeToFovea gaze({.loss = {.hold_ns = 150'000'000}});
     std::vector<double> foveae;
     for (std::int64_t latch_ns = 5 * kPeriod_ns; !source.finished(); latch_ns += kPeriod_ns) {
         std::vector<gaze::GazeSample> samples;

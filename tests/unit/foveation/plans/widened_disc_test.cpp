@@ -63,7 +63,7 @@ TEST(WidenedDisc, IsTheFoveaPointsAndOtherwiseAsBefore) {
     ASSERT_TRUE(method.prepare({view(), view()}).has_value());
     const auto shaded = [&](std::optional<double> uncertainty_deg) {
         EyePlan plan;
-        method.plan(gaze::Eye::Left, view(), fovea(uncertainty_deg), nullptr, plan);
+        method.plan(gaze::Eye::Left, view(), fovea(uncertainty_deg), nullptr, {}, plan);
         return plan.grids[1].counts.shaded;
     };
     EXPECT_EQ(shaded(std::nullopt), shaded(0.0));
