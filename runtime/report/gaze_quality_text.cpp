@@ -61,6 +61,17 @@ std::string_view name_of(gaze::SmoothingVerdict verdict) {
     return gaze::kSmoothingVerdictNames[static_cast<std::size_t>(verdict)];
 }
 
+std::string_view answer_of(gaze::SmoothingVerdict verdict) {
+    switch (verdict) {
+        case gaze::SmoothingVerdict::Smoothed:
+            return "yes";
+        case gaze::SmoothingVerdict::NotSmoothed:
+            return "no";
+        default:
+            return "unknown";
+    }
+}
+
 Json precision_json(const std::optional<gaze::EyePrecision>& precision) {
     if (!precision) {
         return nullptr;
@@ -89,7 +100,7 @@ std::string quality_text(const gaze::GazeTrace& trace) {
     }
     text += wrapped_row("noise", precision_text(quality.precision));
     const gaze::SmoothingFinding smoothing = smoothing_of(trace);
-    return text + wrapped_row("smoothed", fmt::format("{}: {}", name_of(smoothing.verdict),
+    return text + wrapped_row("smoothed", fmt::format("{}: {}", answer_of(smoothing.verdict),
                                                       smoothing_text(smoothing)));
 }
 

@@ -56,6 +56,9 @@ vk::Format format_of(const mesh::Image& image) {
 }
 
 vulkan::LayeredImage texture_of(const vulkan::Context& context, const mesh::Image& image) {
+    if (image.format == mesh::TexelFormat::Rgba16 && image.color_space == mesh::ColorSpace::Srgb) {
+        return texture_of(context, mesh::as_light(image));
+    }
     using Usage = vk::ImageUsageFlagBits;
     std::vector<vulkan::LevelTexels> levels{
         {0, 0, vk::Extent2D(image.width, image.height), image.texels}};

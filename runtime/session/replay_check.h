@@ -42,8 +42,8 @@ class ReplayCheck final : public frame::FrameObserver {
         : handed_over_(session),
           finished_(session),
           same_gaze_(same_gaze),
-          other_pictures_(same_gaze || !other_pictures.empty() ? std::move(other_pictures)
-                                                               : "gaze settings differ") {}
+          other_pictures_(same_gaze ? std::move(other_pictures)
+                                    : "the settings differ from the recorded ones") {}
 
     void on_frame(const frame::FrameRecord& record) override;
     void on_gpu(const frame::FrameGpuRecord& record) override;

@@ -94,15 +94,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"target", {"run", "--target", "openrx"}, 2, "did you mean 'openxr'"},
         BadInput{"key", {"run", "--set", "kfr.sgima=2"}, 2, "did you mean 'kfr.sigma'"},
         BadInput{"key_of_a_group",
-                 {"run", "--set", "gaze.nothing=2"},
+                 {"run", "--set", "rings.nothing=2"},
                  2,
-                 "unknown key 'gaze.nothing'; known: gaze.fixation_distance_m, "
-                 "gaze.fixation_from_depth, gaze.hold_ms, "
-                 "gaze.minimum_confidence, gaze.return_ms, gaze.stale_ms\n"},
+                 "unknown key 'rings.nothing'; known: rings.inner_deg, rings.outer_deg, "
+                 "rings.tile_px\n"},
         BadInput{"key_of_no_group",
                  {"run", "--set", "x.y=2"},
                  2,
-                 "unknown key 'x.y'; known: acuity.*, gaze.*, hid.*, kfr.*"},
+                 "unknown key 'x.y'; known: acuity.*, fixed.*, gaze.*, hid.*, kfr.*"},
         BadInput{"useless_map",
                  {"run", "--target", "headless", "--frames", "1", "--set", "kfr.lp_width=2"},
                  2,

@@ -133,4 +133,11 @@ std::vector<MipLevel> smaller_levels(const Image& image) {
     return levels;
 }
 
+Image as_light(const Image& image) {
+    Image light = image;
+    light.color_space = ColorSpace::Linear;
+    light.texels = coded(values_of(image), light).texels;
+    return light;
+}
+
 }  // namespace gazeloop::scene::mesh

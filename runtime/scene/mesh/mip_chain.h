@@ -19,4 +19,8 @@ struct MipLevel {
 /// colours are averaged as light, not as codes.
 [[nodiscard]] std::vector<MipLevel> smaller_levels(const Image& image);
 
+/// The same picture with colours as light, for which Vulkan has no sRGB format: those of 16 bits.
+/// A step of light is 1/65535 of white, at the dark end a twentieth of a code of 8 bits.
+[[nodiscard]] Image as_light(const Image& image);
+
 }  // namespace gazeloop::scene::mesh

@@ -164,20 +164,29 @@ gaze::GazeTrace example_trace() {
 }
 
 TEST(GazeReport, IsTextForPeople) {
-    EXPECT_EQ(gaze_text(example_trace()),
-              "g.csv\n"
-              "format   gazeloop, a tracker\n"
-              "rows     800, used 400\n"
-              "rate     120 Hz for 3.825 s\n"
-              "gaps     0.508 s at 1.66 s\n"
-              "clock    fitted to the host's clock: +148 ppm, within 0.20 ms\n"
-              "eyes     left valid 100.0 %, right 99.8 %, both 99.8 %\n"
-              "axes     agree with anatomy (median vergence 2.4 deg)\n"
-              "head     not recorded\n"
-              "lost     3 by the tracker\n"
-              "found    line 302: time outlier: 2.5 s ahead: of the rows beside it; dropped\n"
-              "         line 410: out of order (12 rows): put in order\n"
-              "         text: decimal commas\n");
+    EXPECT_EQ(
+        gaze_text(example_trace()),
+        "g.csv\n"
+        "format   gazeloop, a tracker\n"
+        "rows     800, used 400\n"
+        "rate     120 Hz for 3.825 s\n"
+        "gaps     0.508 s at 1.66 s\n"
+        "clock    fitted to the host's clock: +148 ppm, within 0.20 ms\n"
+        "eyes     left valid 100.0 %, right 99.8 %, both 99.8 %\n"
+        "interval 8.33 ms median, 8.33 to 8.33 ms (5 to 95 %), 13.1 % of the samples missing\n"
+        "losses   none\n"
+        "noise    left eye 0.455 deg from sample to sample, 2.585 deg SD; right eye 0.408 deg "
+        "from sample to\n"
+        "         sample, 2.186 deg SD (the stiller half of 200 ms windows)\n"
+        "smoothed unknown: too few saccades: 0 of 2 to 30 deg stand out from the noise, 20 are "
+        "needed; look\n"
+        "         around for half a minute\n"
+        "axes     agree with anatomy (median vergence 2.4 deg)\n"
+        "head     not recorded\n"
+        "lost     3 by the tracker\n"
+        "found    line 302: time outlier: 2.5 s ahead: of the rows beside it; dropped\n"
+        "         line 410: out of order (12 rows): put in order\n"
+        "         text: decimal commas\n");
 }
 
 TEST(GazeReport, IsJsonForPrograms) {

@@ -61,6 +61,7 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "quad.periphery",
       "quad.section",
       "render.hidden_area",
+      "render.lp_gaussian",
       "render.method",
       "render.scene",
       "render.spp",

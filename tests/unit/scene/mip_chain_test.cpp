@@ -66,5 +66,22 @@ TEST(MipChain, KeepsSixteenBits) {
     EXPECT_NEAR(mean[3], 2.5, 0.51);
 }
 
+// Half the code is .214048 of the light, by the standard's formula in double.
+TEST(MipChain, TurnsSixteenBitColoursIntoLightAndLeavesAlpha) {
+    Image deep{
+        .width = 1, .height = 1, .color_space = ColorSpace::Srgb, .format = TexelFormat::Rgba16};
+    const std::array<std::uint16_t, 4> codes{0, 32768, 65535, 32768};
+    deep.texels.resize(sizeof codes);
+    std::memcpy(deep.texels.data(), codes.data(), sizeof codes);
+    const Image light = as_light(deep);
+    EXPECT_EQ(light.color_space, ColorSpace::Linear);
+    std::array<std::uint16_t, 4> texel{};
+    std::memcpy(texel.data(), light.texels.data(), sizeof texel);
+    EXPECT_EQ(texel[0], 0);
+    EXPECT_NEAR(texel[1], 65535 * 0.214048, 1.0);
+    EXPECT_EQ(texel[2], 65535);
+    EXPECT_EQ(texel[3], 32768);
+}
+
 }  // namespace
 }  // namespace gazeloop::scene::mesh
