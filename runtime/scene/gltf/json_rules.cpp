@@ -659,6 +659,47 @@ void check_nesting(std::string_view text) {
     }
 }
 
+/// Names that one object has twice, of which the parser keeps the last in silence. In a pass of its
+/// own: the parser's callback looks at all that came before in a list at the end of each object.
+class DuplicateNames final : public nlohmann::json_sax<json> {
+  public:
+    explicit DuplicateNames(Notes& notes) : notes_(notes) {}
+
+    bool start_object(std::size_t /*elements*/) override {
+        names_.emplace_back();
+        return true;
+    }
+    bool key(string_t& name) override {
+        if (!names_.back().insert(name).second) {
+            notes_.add(
+                "duplicate " + name, "",
+                fmt::format("one object has two members {}: the last one counts", cited(name)));
+        }
+        return true;
+    }
+    bool end_object() override {
+        names_.pop_back();
+        return true;
+    }
+    bool null() override { return true; }
+    bool boolean(bool /*value*/) override { return true; }
+    bool number_integer(number_integer_t /*value*/) override { return true; }
+    bool number_unsigned(number_unsigned_t /*value*/) override { return true; }
+    bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return true; }
+    bool string(string_t& /*value*/) override { return true; }
+    bool binary(binary_t& /*value*/) override { return true; }
+    bool start_array(std::size_t /*elements*/) override { return true; }
+    bool end_array() override { return true; }
+    bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+                     const nlohmann::detail::exception& /*error*/) override {
+        return false;  // json::parse() has thrown it before
+    }
+
+  private:
+    Notes& notes_;
+    std::vector<std::set<std::string, std::less<>>> names_;
+};
+
 }  // namespace
 
 bool is_supported_extension(std::string_view name) {
@@ -676,24 +717,10 @@ json parse_json(std::string_view text, Notes& notes) {
                   "starts with a byte order mark, which the standard forbids");
     }
     check_nesting(text);
-    std::vector<std::set<std::string, std::less<>>> names;
-    const auto note_duplicates = [&](int /*depth*/, json::parse_event_t event, json& parsed) {
-        if (event == json::parse_event_t::object_start) {
-            names.emplace_back();
-        } else if (event == json::parse_event_t::object_end) {
-            names.pop_back();
-        } else if (event == json::parse_event_t::key) {
-            const auto& name = parsed.get_ref<const std::string&>();
-            if (!names.back().insert(name).second) {
-                notes.add(
-                    "duplicate " + name, "",
-                    fmt::format("one object has two members {}: the last one counts", cited(name)));
-            }
-        }
-        return true;
-    };
     try {
-        json document = json::parse(text, note_duplicates);
+        json document = json::parse(text);
+        DuplicateNames duplicates(notes);
+        json::sax_parse(text, &duplicates);
         if (!document.is_object()) {
             refuse("", fmt::format("its JSON is {}, must be an object", cited(document)));
         }

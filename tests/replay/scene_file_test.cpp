@@ -1,0 +1,93 @@
+// Scenes from files, as users run them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/encoded_pictures.h"
+#include "tests/support/gltf_file.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gazeloop::tests {
+namespace {
+
+using testing::HasSubstr;
+
+ProgramResult run_scene(const std::filesystem::path& scene, const std::string& method = "kfr") {
+    return run_gazeloop({"run", "--scene", scene.string(), "--method", method, "--gaze",
+                         "fixed:0,0", "--target", "headless", "--clock", "virtual", "--frames", "2",
+                         "--spp", "1", "--set", "render.scale=0.05", "--hash"});
+}
+
+void write(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+}
+
+/// A triangle of a material with a picture beside it.
+GltfFile textured() {
+    GltfFile file = one_triangle();
+    file.document.merge_patch(nlohmann::json::parse(R"({"textures": [{"source": 0}],
+        "images": [{"uri": "a.png"}], "materials": [{"doubleSided": true,
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]})"));
+    auto& primitive = file.document["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["attributes"]["TEXCOORD_0"] = file.add_accessor<float>("VEC2", {0, 0, 1, 0, 0, 1});
+    file.document["nodes"][0]["translation"] = {-0.5, 1.2, -2.0};
+    return file;
+}
+
+TEST(SceneFiles, AreShownByEveryMethodTheSameWayTwice) {
+    const TemporaryFolder folder;
+    const std::vector<std::uint8_t> red{200, 0, 0, 255};
+    write(folder / "a.png", encoded_png(1, 1, PNG_FORMAT_RGBA, red.data()));
+    write(folder / "a.glb", textured().glb());
+    for (const char* method : {"full", "kfr", "acuity"}) {
+        const ProgramResult first = run_scene(folder / "a.glb", method);
+        ASSERT_EQ(first.exit_code, 0) << first.err;
+        EXPECT_THAT(first.err, HasSubstr("a.glb: 1 triangles in 1 instances, 1 pictures"));
+        const auto hashes = [](const std::string& out) { return out.substr(out.find("hash ")); };
+        EXPECT_EQ(hashes(first.out), hashes(run_scene(folder / "a.glb", method).out));
+    }
+}
+
+TEST(SceneFiles, ThatCannotBeUsedEndTheRunWithThree) {
+    const TemporaryFolder folder;
+    write(folder / "missing.glb", textured().glb());
+    ProgramResult result = run_scene(folder / "missing.glb");
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr("/images/0: "));
+    EXPECT_THAT(result.err, HasSubstr("a.png cannot be read (No such file"));
+
+    result = run_scene(folder / "nowhere.gltf");
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr("nowhere.gltf cannot be read"));
+
+    GltfFile draco = one_triangle();
+    draco.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    write(folder / "draco.glb", draco.glb());
+    result = run_scene(folder / "draco.glb");
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr("requires \"KHR_draco_mesh_compression\""));
+}
+
+TEST(SceneFiles, NamesThatAreNeitherAreRefused) {
+    const ProgramResult result = run_scene("galery");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr("did you mean 'gallery'"));
+}
+
+TEST(SceneFiles, InAConfigurationLieBesideIt) {
+    const TemporaryFolder folder;
+    write(folder / "a.glb", one_triangle().glb());
+    std::ofstream(folder / "config.toml") << "[render]\nscene = \"a.glb\"\n";
+    const ProgramResult result =
+        run_gazeloop({"run", "--config", folder / "config.toml", "--print-config"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr((folder / "a.glb").string()));
+}
+
+}  // namespace
+}  // namespace gazeloop::tests
