@@ -36,8 +36,11 @@ struct RunOptions {
     };
     std::vector<Alias> aliases{
         {"--target", "target.name", "openxr or headless", ""},
-        {"--scene", "render.scene", "scene to render", ""},
-        {"--method", "render.method", "which samples a picture takes: full, kfr, acuity", ""},
+        {"--scene", "render.scene", "scene to render: raymarch, gallery, or a .gltf or .glb file",
+         ""},
+        {"--method", "render.method",
+         "which samples a picture takes: full, kfr, acuity, layers, rings, sparse, quad, fixed",
+         ""},
         {"--display", "profile.display", "display profile: a name or a .toml file", ""},
         {"--budget", "profile.budget", "latency budget: none, a name or a .toml file", ""},
         {"--sigma", "kfr.sigma", "picture width / LP-buffer width, .5 to 32", ""},
