@@ -16,13 +16,14 @@ double uncertainty_rad(const UncertaintyPolicy& policy, const KnownGaze& known) 
         return greatest_rad;
     }
     const double age_s = static_cast<double>(std::max<std::int64_t>(*known.age_ns, 0)) * 1e-9;
+    const PredictedGaze predicted = known.predicted.value_or(PredictedGaze{});
     const double noise_deg =
         known.covariance ? glm::degrees(greatest_sd_rad(*known.covariance)) : policy.noise_deg;
     const auto deg = widening_deg({
         .bias95_deg = bias95_deg(policy.median_error_deg),
         .sample_sd_deg = noise_deg,
         .pursuit_deg_s = policy.pursuit_deg_per_s,
-        .latency_s = age_s,
+        .latency_s = std::max(age_s - static_cast<double>(predicted.horizon_ns) * 1e-9, 0.0),
         .head_rate_deg_s = known.head_known ? 0.0 : policy.head_deg_per_s,
         .gaze_age_s = age_s,
     });
@@ -30,7 +31,9 @@ double uncertainty_rad(const UncertaintyPolicy& policy, const KnownGaze& known) 
         return greatest_rad;  // a covariance that is none
     }
     const double lost_deg = known.state == FoveaState::Held ? policy.lost_deg_per_s * age_s : 0.0;
-    return std::min(glm::radians(*deg + lost_deg) + known.parallax_rad.value_or(0.0), greatest_rad);
+    return std::min(glm::radians(*deg + lost_deg) + known.parallax_rad.value_or(0.0) +
+                        predicted.uncertainty_rad,
+                    greatest_rad);
 }
 
 }  // namespace gazeloop::gaze

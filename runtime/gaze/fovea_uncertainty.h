@@ -18,18 +18,28 @@ struct UncertaintyPolicy {
     double greatest_deg = 20.0;    ///< of what comes out
 };
 
+/// How sure a prediction of the gaze is (gaze/events/gaze_predictor.h).
+struct PredictedGaze {
+    double uncertainty_rad = 0.0;
+    std::int64_t horizon_ns = 0;  ///< so far ahead of the sample
+};
+
 /// What is known of one eye's gaze in one frame.
 struct KnownGaze {
     FoveaState state = FoveaState::Ahead;
     std::optional<DirectionCovariance> covariance{};
     std::optional<double> parallax_rad{};
     bool head_known = false;
-    std::optional<std::int64_t> age_ns{};  ///< from the sample to the frame's display
+    /// From the sample to the frame's display, and by how much a filter makes the sample older.
+    std::optional<std::int64_t> age_ns{};
+    std::optional<PredictedGaze> predicted{};
 };
 
 /// How far from the fovea the eye may look when the frame is shown, radians: by widening_deg
 /// (gaze/gaze_uncertainty.h), with the age in place of the latency, and the parallax of a ray that
-/// is shared by both eyes on top. An unfinished saccade is not part of it. While gaze is held, it
+/// is shared by both eyes on top. Of predicted gaze, the prediction's own uncertainty stands in
+/// place of the latency that it covers. It includes the noise of a resting eye, which so counts
+/// twice. Without a prediction, an unfinished saccade is not part of it. While gaze is held, it
 /// grows with its age; of gaze that is lost for good, or of unknown age, nothing is known, which is
 /// the greatest. In 0 .. greatest_deg.
 [[nodiscard]] double uncertainty_rad(const UncertaintyPolicy& policy, const KnownGaze& known);

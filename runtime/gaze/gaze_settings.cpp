@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <glm/trigonometric.hpp>
 #include <string_view>
 
@@ -30,6 +31,11 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
     using settings::Number;
     using settings::Path;
     constexpr double kForever_ms = 1e7;
+    const settings::OnlyWhile one_euro{.key = "gaze.filter",
+                                       .values = {std::string(name(GazeFilter::OneEuro))}};
+    const settings::OnlyWhile fixation{.key = "gaze.filter",
+                                       .values = {std::string(name(GazeFilter::Fixation))}};
+    const settings::OnlyWhile predicting{.key = "gaze.prediction", .values = {"true"}};
     return {
         {"gaze.after_hold", "lost gaze: after the hold, return to straight ahead, or stay",
          Choice{&gaze.after_hold, {std::string(kReturn), std::string(kStay)}}, Concerns::Foveae},
@@ -44,8 +50,17 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
          "an eye that is stated to be less open than this is shut, 0 to 1; 0: openness counts for "
          "nothing",
          Number{&gaze.closed_below, 0.0, 1.0}, Concerns::Foveae},
+        {"gaze.events", "record what the eyes do, also without filter and prediction", &gaze.events,
+         Concerns::Foveae},
         {"gaze.field_deg", "gaze farther than this from straight ahead is taken for an error",
          Number{&gaze.field_deg, 1.0, 180.0}, Concerns::Foveae},
+        {"gaze.filter",
+         "filter of the gaze that foveae rest on: one-euro, or fixation, which filters nothing "
+         "else",
+         Choice{.value = &gaze.filter, .names = {kGazeFilterNames.begin(), kGazeFilterNames.end()}},
+         Concerns::Foveae},
+        {"gaze.filter_memory_ms", "the filter fixation averages over about this long",
+         Number{&gaze.filter_memory_ms, 1.0, 1000.0}, Concerns::Foveae, fixation},
         {"gaze.fixation_distance_m",
          "distance at which gaze is held in world and one ray is split between the eyes, m",
          Number{&gaze.fixation_distance_m, 0.1, 1000.0}, Concerns::Foveae},
@@ -55,8 +70,17 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
          &gaze.fixation_from_depth, Concerns::Input},
         {"gaze.hold_ms", "lost gaze: hold the last point for this long",
          Number{&gaze.hold_ms, 0.0, kForever_ms}, Concerns::Foveae},
+        {"gaze.longest_prediction_ms", "gaze is predicted no further than this",
+         Number{&gaze.longest_prediction_ms, 0.0, 200.0}, Concerns::Foveae, predicting},
         {"gaze.minimum_confidence", "samples that state a lower confidence are invalid",
          Number{&gaze.minimum_confidence, 0.0, 1.0}, Concerns::Foveae},
+        {"gaze.one_euro_hz_per_deg_per_s",
+         "the filter one-euro's cut-off rises by this with the speed, Hz per deg/s",
+         Number{&gaze.one_euro_hz_per_deg_per_s, 0.0, 100.0}, Concerns::Foveae, one_euro},
+        {"gaze.one_euro_least_hz", "the filter one-euro's cut-off for a resting gaze, Hz",
+         Number{&gaze.one_euro_least_hz, 0.01, 1000.0}, Concerns::Foveae, one_euro},
+        {"gaze.prediction", "predict the gaze to the time at which the frame is shown",
+         &gaze.prediction, Concerns::Foveae},
         {"gaze.reopen_ms", "after a blink (gaze.closed_below), use no sample for this long",
          Number{&gaze.reopen_ms, 0.0, 1000.0}, Concerns::Foveae},
         {"gaze.return_ms", "lost gaze: after the hold, return to straight ahead in this time",
@@ -86,6 +110,15 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
 }
 
 FoveaPolicy fovea_policy(const GazeSettings& gaze) {
+    const auto filter = std::ranges::find(kGazeFilterNames, gaze.filter);
+    const MotionPolicy motion{
+        .tell_events = gaze.events,
+        .filter = static_cast<GazeFilter>(filter - kGazeFilterNames.begin()),
+        .one_euro = {.least_cutoff_hz = gaze.one_euro_least_hz,
+                     .cutoff_hz_per_deg_per_s = gaze.one_euro_hz_per_deg_per_s},
+        .fixation = {.memory_s = 1e-3 * gaze.filter_memory_ms},
+        .predict = gaze.prediction,
+        .longest_prediction_ns = time::ms_to_ns(gaze.longest_prediction_ms)};
     return {.loss = {.stale_ns = time::ms_to_ns(gaze.stale_ms),
                      .hold_ns = time::ms_to_ns(gaze.hold_ms),
                      .return_ns = time::ms_to_ns(gaze.return_ms),
@@ -97,7 +130,8 @@ FoveaPolicy fovea_policy(const GazeSettings& gaze) {
                      .field_rad = glm::radians(gaze.field_deg),
                      .hold_for_ever = gaze.after_hold == kStay},
             .fixation_distance_m = gaze.fixation_distance_m,
-            .uncertainty = gaze.widen ? std::optional(uncertainty_policy(gaze)) : std::nullopt};
+            .uncertainty = gaze.widen ? std::optional(uncertainty_policy(gaze)) : std::nullopt,
+            .motion = motion};
 }
 
 Expected<void> check(const GazeSettings& gaze, const settings::Settings& all) {

@@ -32,6 +32,13 @@ struct GazeSettings {
     double widen_pursuit_deg_per_s = 10.0;
     double fixation_distance_m = 1.5;
     bool fixation_from_depth = true;  ///< of sources with one ray for both eyes
+    bool events = false;
+    std::string filter = "none";  ///< of kGazeFilterNames
+    double one_euro_least_hz = OneEuroFilter::Parameters{}.least_cutoff_hz;
+    double one_euro_hz_per_deg_per_s = OneEuroFilter::Parameters{}.cutoff_hz_per_deg_per_s;
+    double filter_memory_ms = 1e3 * FixationFilter::Parameters{}.memory_s;
+    bool prediction = false;
+    double longest_prediction_ms = 60.0;
 };
 
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(GazeSettings& gaze);

@@ -9,12 +9,31 @@
 #include "runtime/time/span.h"
 
 namespace gazeloop::gaze {
+namespace {
 
-GazeToFovea::GazeToFovea(const FoveaPolicy& policy) : policy_(policy), loss_(policy.loss) {}
+/// When a sample counts as seen; unknown if neither is known.
+time::Stamp seen_at(const time::Stamp& sampled, const time::Stamp& arrived) {
+    return sampled.known() ? sampled : arrived;
+}
+
+}  // namespace
+
+GazeToFovea::GazeToFovea(const FoveaPolicy& policy) : policy_(policy), loss_(policy.loss) {
+    if (policy.motion.is_on()) {
+        motion_.emplace(policy.motion);
+    }
+}
 
 void GazeToFovea::add(const GazeSample& sample) {
     const std::optional<JudgedSample> judged = loss_.add(sample);
-    if (!judged || !judged->usable) {
+    if (!judged) {
+        return;
+    }
+    if (!judged->usable) {
+        const time::Stamp lost = seen_at(sample.sampled, sample.arrived);
+        if (motion_ && lost.known()) {
+            motion_->lose(lost.ns);
+        }
         return;
     }
     ValidSample valid{.direction_in_head = {},
@@ -25,24 +44,46 @@ void GazeToFovea::add(const GazeSample& sample) {
                       .arrived = sample.arrived,
                       .ready = sample.ready,
                       .uncertainty_ns = sample.uncertainty_ns};
+    const time::Stamp seen = seen_at(sample.sampled, sample.arrived);
+    PerEye<std::optional<glm::dvec3>> directions = judged->directions;
+    if (motion_ && seen.known()) {
+        motion_->add(seen.ns, directions, valid.head);
+    }
     for (const Eye eye : kEyes) {
         const std::size_t i = index(eye);
+        const Eye whose = directions[i] ? eye : other(eye);
         valid.borrowed_for[i] = judged->causes[i];
-        valid.direction_in_head[i] =
-            judged->directions[i] ? *judged->directions[i] : *judged->directions[index(other(eye))];
-        valid.covariance[i] = sample.eyes[judged->directions[i] ? i : index(other(eye))].covariance;
+        valid.direction_in_head[i] = *directions[index(whose)];
+        valid.covariance[i] = sample.eyes[index(whose)].covariance;
+        if (motion_ && seen.known() && policy_.motion.filter != GazeFilter::None) {
+            valid.filter_delay_ns[i] = motion_->filter_delay_ns(whose);
+        }
     }
     last_valid_ = valid;
 }
 
 void GazeToFovea::move_origin(const Pose& new_in_old) {
+    if (motion_) {
+        motion_->turn_world(glm::conjugate(new_in_old.orientation));
+    }
     if (last_valid_ && last_valid_->head) {
         last_valid_->head = carried(new_in_old, *last_valid_->head);
     }
 }
 
+/// Only of what is fresh: held gaze goes nowhere.
+std::optional<GazePrediction> GazeToFovea::predict(const LossCondition& condition,
+                                                   const time::Stamp& display) const {
+    if (!policy_.motion.predict || condition.state != FoveaState::Tracking || !display.known() ||
+        !seen_at(last_valid_->sampled, last_valid_->arrived).known()) {
+        return std::nullopt;
+    }
+    return motion_->predict(display.ns);
+}
+
 FoveaPoint GazeToFovea::fovea_of(std::size_t eye, const LossCondition& condition, const Pose& head,
-                                 const EyeView& view) const {
+                                 const EyeView& view,
+                                 const std::optional<GazePrediction>& prediction) const {
     const Pose world_in_head = inverse(head);
     const Pose view_in_head = compose(world_in_head, view.pose);
     const glm::dquat head_to_view = glm::conjugate(view_in_head.orientation);
@@ -61,13 +102,25 @@ FoveaPoint GazeToFovea::fovea_of(std::size_t eye, const LossCondition& condition
         point.ready = valid.ready;
         point.uncertainty_ns = valid.uncertainty_ns;
         point.parallax_rad = valid.parallax_rad;
+        if (motion_) {
+            point.event = motion_->event();
+        }
+        if (condition.state != FoveaState::Ahead) {
+            point.filter_delay_ns = valid.filter_delay_ns[eye];
+        }
+        if (prediction) {
+            const bool held_back = prediction->verdict == PredictionVerdict::DoNotExtrapolate;
+            point.horizon_ns = held_back ? 0 : prediction->horizon_ns;
+            point.uncertainty_rad = prediction->uncertainty_rad;
+        }
         if (condition.state == FoveaState::Tracking && valid.borrowed_for[eye] != LossCause::None) {
             point.state = FoveaState::OtherEye;
             point.cause = valid.borrowed_for[eye];
         }
         if (condition.state != FoveaState::Ahead) {
             // In the frame of the head now, so that large world positions cost no precision.
-            const glm::dvec3& looked = valid.direction_in_head[eye];
+            const glm::dvec3 looked = prediction ? prediction->turn * valid.direction_in_head[eye]
+                                                 : valid.direction_in_head[eye];
             const glm::dvec3 eye_offset_m = view_in_head.position_m;
             const Pose then_in_now = valid.head ? compose(world_in_head, *valid.head) : Pose{};
             const glm::dvec3 point_m =
@@ -83,23 +136,24 @@ FoveaPoint GazeToFovea::fovea_of(std::size_t eye, const LossCondition& condition
     return point;
 }
 
-std::optional<double> GazeToFovea::uncertainty_of(std::size_t eye, const LossCondition& condition,
-                                                  const time::Stamp& latched,
-                                                  const time::Stamp& display) const {
-    if (!policy_.uncertainty) {
-        return std::nullopt;
-    }
+double GazeToFovea::widening_of(std::size_t eye, const LossCondition& condition,
+                                const time::Stamp& shown,
+                                const std::optional<GazePrediction>& prediction) const {
     KnownGaze known{.state = condition.state};
     if (last_valid_) {
         const ValidSample& valid = *last_valid_;
-        const time::Stamp& seen = valid.sampled.known() ? valid.sampled : valid.arrived;
-        const time::Stamp& shown = display.known() ? display : latched;
         known.covariance = valid.covariance[eye];
         known.parallax_rad = valid.parallax_rad;
         known.head_known = valid.head.has_value();
+        const time::Stamp seen = seen_at(valid.sampled, valid.arrived);
         if (seen.known()) {
-            known.age_ns = time::between(seen, shown).ns;
+            known.age_ns = time::saturated(static_cast<__int128>(time::between(seen, shown).ns) +
+                                           valid.filter_delay_ns[eye].value_or(0));
         }
+    }
+    if (prediction && prediction->uncertainty_rad) {
+        known.predicted = {.uncertainty_rad = *prediction->uncertainty_rad,
+                           .horizon_ns = prediction->horizon_ns};
     }
     return uncertainty_rad(*policy_.uncertainty, known);
 }
@@ -107,12 +161,17 @@ std::optional<double> GazeToFovea::uncertainty_of(std::size_t eye, const LossCon
 FrameFovea GazeToFovea::latch(time::Stamp latched, const Pose& head, const StereoView& views,
                               time::Stamp display) const {
     const LossCondition condition = loss_.condition(latched.ns);
+    const std::optional<GazePrediction> prediction = predict(condition, display);
     FrameFovea frame;
     frame.latched = latched;
     for (const Eye eye : kEyes) {
         FoveaPoint& point = frame.eyes[index(eye)];
-        point = fovea_of(index(eye), condition, head, views[index(eye)]);
-        point.uncertainty_rad = uncertainty_of(index(eye), condition, latched, display);
+        point = fovea_of(index(eye), condition, head, views[index(eye)], prediction);
+        if (policy_.uncertainty) {
+            point.widens = true;
+            point.uncertainty_rad =
+                widening_of(index(eye), condition, display.known() ? display : latched, prediction);
+        }
     }
     return frame;
 }

@@ -6,6 +6,7 @@
 
 #include "runtime/gaze/fovea_point.h"
 #include "runtime/gaze/fovea_uncertainty.h"
+#include "runtime/gaze/gaze_motion.h"
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/loss_machine.h"
 #include "runtime/gaze/view.h"
@@ -19,8 +20,9 @@ struct FoveaPolicy {
     /// sideways between sample and display: the error in radians is about the moved distance over
     /// this distance.
     double fixation_distance_m = 1.5;
-    /// None: the foveae's uncertainty is not computed.
+    /// None: the foveae are not widened (FoveaPoint::uncertainty_rad).
     std::optional<UncertaintyPolicy> uncertainty{};
+    MotionPolicy motion{};  ///< by default samples are taken as they are
 };
 
 /// From gaze samples to the fovea of a frame. Pure: time is an argument, so that a recorded stream
@@ -36,6 +38,11 @@ struct FoveaPolicy {
 /// used. A sample without a (finite) head pose is held in the head instead: head motion since then
 /// goes unseen. Head poses of samples and latches must be given in one world; where its origin
 /// moves, whoever notices says so (move_origin; gaze/origin_watch.h).
+///
+/// Where the policy says so, the directions that LossMachine lets through are filtered as samples
+/// come (the recorded samples stay as they are), and foveae that rest on a fresh sample are
+/// predicted to the time at which the frame is shown. A sample counts as seen at its time, or at
+/// its arrival where that is unknown.
 class GazeToFovea {
   public:
     explicit GazeToFovea(const FoveaPolicy& policy);
@@ -50,8 +57,9 @@ class GazeToFovea {
     void move_origin(const Pose& new_in_old);
 
     /// The foveae of a frame whose gaze is read at `latched` (known), for views at their display
-    /// time. `head` is the head pose that those views belong to. `display` is that time: the
-    /// uncertainty is that of then (unknown: of the latch). Precondition: is_valid(view) of both.
+    /// time. `head` is the head pose that those views belong to. `display` is that time: gaze is
+    /// predicted to it (unknown: not at all), and the uncertainty is that of then (unknown: of the
+    /// latch). Precondition: is_valid(view) of both.
     [[nodiscard]] FrameFovea latch(time::Stamp latched, const Pose& head, const StereoView& views,
                                    time::Stamp display = {}) const;
 
@@ -68,19 +76,25 @@ class GazeToFovea {
         time::Stamp arrived;
         time::Stamp ready;
         std::optional<std::int64_t> uncertainty_ns;
+        PerEye<std::optional<std::int64_t>> filter_delay_ns{};
     };
 
-    [[nodiscard]] FoveaPoint fovea_of(std::size_t eye, const LossCondition& condition,
-                                      const Pose& head, const EyeView& view) const;
+    [[nodiscard]] std::optional<GazePrediction> predict(const LossCondition& condition,
+                                                        const time::Stamp& display) const;
 
-    [[nodiscard]] std::optional<double> uncertainty_of(std::size_t eye,
-                                                       const LossCondition& condition,
-                                                       const time::Stamp& latched,
-                                                       const time::Stamp& display) const;
+    [[nodiscard]] FoveaPoint fovea_of(std::size_t eye, const LossCondition& condition,
+                                      const Pose& head, const EyeView& view,
+                                      const std::optional<GazePrediction>& prediction) const;
+
+    /// Precondition: the policy widens. `shown`: when the frame will be.
+    [[nodiscard]] double widening_of(std::size_t eye, const LossCondition& condition,
+                                     const time::Stamp& shown,
+                                     const std::optional<GazePrediction>& prediction) const;
 
     FoveaPolicy policy_;
     LossMachine loss_;
     std::optional<ValidSample> last_valid_;
+    std::optional<GazeMotion> motion_;  ///< where the policy asks for any of it
 };
 
 }  // namespace gazeloop::gaze

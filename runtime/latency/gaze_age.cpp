@@ -41,6 +41,11 @@ ShownFrame shown_frame(const frame::FrameStamps& stamps, std::int64_t period_ns)
 
 namespace {
 
+/// Precondition: both are known.
+time::Span sum(const time::Span& a, const time::Span& b) {
+    return {time::saturated(static_cast<__int128>(a.ns) + b.ns), time::weaker(a.kind, b.kind)};
+}
+
 /// A method may draw before the gaze is read: what it then still does after the submit counts.
 time::Stamp gpu_start(const frame::FrameStamps& stamps) {
     const time::Stamp& begin = stamps.gpu_begin;
@@ -80,6 +85,12 @@ GazeAge gaze_age(const gaze::FoveaPoint& fovea, const frame::FrameStamps& stamps
                               time::weaker(age.at_display.kind, time::StampKind::Profile)};
         }
     };
+    if (fovea.filter_delay_ns) {
+        const time::Span delay{*fovea.filter_delay_ns, time::StampKind::Modelled};
+        time::Span& filter = age.stages[static_cast<std::size_t>(Stage::Filter)];
+        filter = filter.known() ? sum(filter, delay) : delay;
+        age.at_display = age.at_display.known() ? sum(age.at_display, delay) : age.at_display;
+    }
     add(Stage::Row, row_ns);
     add(Stage::Switching, switching_ns);
     __int128 rest = age.at_display.ns;

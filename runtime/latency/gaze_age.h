@@ -16,10 +16,12 @@ namespace gazeloop::latency {
 /// for Gpu: between the submit and the first pass nobody stamps anything, and that time is
 /// unaccounted.
 enum class Stage : std::size_t {
-    Tracker,    ///< the eye was seen -> the host could have had the sample at the earliest
-    Delivery,   ///< -> the host had it; where the earliest is unknown, Tracker has this time too
-    Queue,      ///< -> the gaze was latched
-    Filter,     ///< -> the foveae were computed; where that is unknown, Submit has this time too
+    Tracker,   ///< the eye was seen -> the host could have had the sample at the earliest
+    Delivery,  ///< -> the host had it; where the earliest is unknown, Tracker has this time too
+    Queue,     ///< -> the gaze was latched
+    /// -> the foveae were computed; where that is unknown, Submit has this time too. And how much
+    /// older the filtered gaze is than its newest sample.
+    Filter,
     Submit,     ///< -> the last pass was handed to the GPU
     Gpu,        ///< the first pass began, after the submit or at it -> the last pass ended
     Present,    ///< -> the compositor presented it; where that is unknown, Wait has this time too
@@ -59,9 +61,9 @@ struct ShownFrame {
 
 /// How old the gaze was in one frame.
 struct GazeAge {
-    time::Span at_latch;  ///< sampled -> latch
-    time::Span
-        at_display;  ///< sampled -> shown, with the display's row and switching times if known
+    time::Span at_latch;    ///< sampled -> latch
+    time::Span at_display;  ///< sampled -> shown, with the gaze filter's delay, and the display's
+                            ///< row and switching times, if known
     /// Uncertainty of both ages, either way: from the tracker's fitted clock and its profile's
     /// delay.
     time::Span uncertainty;

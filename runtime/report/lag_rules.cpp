@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "runtime/gaze/gaze_motion.h"
 #include "runtime/report/lag_reasons.h"
 #include "runtime/time/milliseconds.h"
 
@@ -159,6 +160,11 @@ constexpr std::array kStanding{
 
 // Cost.
 
+bool filters_gaze(const LagFacts& facts) {
+    const std::string_view filter = facts.setting("gaze.filter");
+    return !filter.empty() && filter != gaze::name(gaze::GazeFilter::None);
+}
+
 constexpr std::array kCost{
     LagRule{"cost-tracker", dearest_is<Stage::Tracker>,
             [](const LagFacts& f) {
@@ -173,7 +179,11 @@ constexpr std::array kCost{
                 return cost(f, "while the sample waits for the loop to read it");
             }},
     LagRule{"cost-filter", dearest_is<Stage::Filter>,
-            [](const LagFacts& f) { return cost(f, "while the foveae are computed"); }},
+            [](const LagFacts& f) {
+                return cost(f, filters_gaze(f) ? "in the gaze filter and while the foveae are "
+                                                 "computed"
+                                               : "while the foveae are computed");
+            }},
     LagRule{"cost-submit", dearest_is<Stage::Submit>,
             [](const LagFacts& f) {
                 return cost(f, "on the CPU, between the read gaze and the last pass handed over");
@@ -373,6 +383,12 @@ constexpr std::array kRemedy{
                     f.setting("render.wait_before_latch") == "true"
                         ? ""
                         : ", or render.wait_before_latch=true, which reads the gaze later");
+            }},
+    LagRule{"try-no-filter",
+            [](const LagFacts& f) { return dearest_is<Stage::Filter>(f) && filters_gaze(f); },
+            [](const LagFacts& f) {
+                return fmt::format("Try gaze.filter=none (now {}), or a shorter memory of it.",
+                                   f.setting("gaze.filter"));
             }},
     LagRule{"try-more-cpu",
             [](const LagFacts& f) {

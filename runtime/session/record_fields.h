@@ -22,11 +22,11 @@ namespace gazeloop::session {
 // A new member changes its record's size, so that this does not compile any more. Decide whether a
 // session keeps it (SCHEMA.md), and let the property test draw it.
 static_assert(sizeof(gaze::GazeSample) == 376, "a new member: see above");
-static_assert(sizeof(gaze::FoveaPoint) == 152, "a new member: see above");
+static_assert(sizeof(gaze::FoveaPoint) == 192, "a new member: see above");
 static_assert(sizeof(gaze::EyeView) == 96, "a new member: see above");
 static_assert(sizeof(frame::FrameStamps) == 176, "a new member: see above");
 static_assert(sizeof(frame::GridCounts) == 40, "a new member: see above");
-static_assert(sizeof(frame::FrameRecord) == 1136, "a new member: see above");
+static_assert(sizeof(frame::FrameRecord) == 1216, "a new member: see above");
 static_assert(sizeof(frame::FrameGpuRecord) == 264, "a new member: see above");
 static_assert(sizeof(gaze::OriginChange) == 72, "a new member: see above");
 
@@ -280,7 +280,10 @@ void visit_fovea(Visitor& visit, Frame& frame, Eye& eye, Fovea& fovea) {
     visit_clocked(visit, fovea);
     visit("parallax", "_rad", fovea.parallax_rad);
     visit_named(visit, "cause", fovea.cause);
+    visit("event", "", fovea.event);
+    visit("horizon", "_ns", fovea.horizon_ns);
     visit("uncertainty", "_rad", fovea.uncertainty_rad);
+    visit("filter_delay", "_ns", fovea.filter_delay_ns);
 }
 
 template <typename Visitor, typename Frame, typename Eye, typename Triangle>

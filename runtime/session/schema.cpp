@@ -227,6 +227,7 @@ CREATE TABLE fovea (
     uncertainty_rad ANY,
     filter_state    BLOB,
     cause           INTEGER,
+    filter_delay_ns INTEGER,
     PRIMARY KEY (frame, eye)
 ) STRICT, WITHOUT ROWID;
 

@@ -52,7 +52,10 @@ inline constexpr auto kLaterColumns = std::to_array<std::string_view>({"texels_h
                                                                        "processing",
                                                                        "tracker_gone",
                                                                        "cause",
-                                                                       "uncertainty_rad"});
+                                                                       "uncertainty_rad",
+                                                                       "event",
+                                                                       "horizon_ns",
+                                                                       "filter_delay_ns"});
 inline constexpr std::string_view kHiddenTable = "hidden_area";
 inline constexpr std::string_view kOriginTable =
     "origin";  ///< the first files of version 2 lack it

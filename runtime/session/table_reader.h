@@ -103,6 +103,14 @@ class TableReader {
     void read(const Cell& cell, frame::GazeErrorGap& value) const {
         read_name<frame::kGazeErrorGapCount>(cell, value);
     }
+    void read(const Cell& cell, gaze::EyeEvent& value) const {
+        constexpr std::int64_t kEnd = gaze::kEyeEventNames.size() + 1;
+        const std::int64_t number = integer_below(cell, kEnd);
+        if (number == 0) {
+            fail_field("an integer from 1 to 5");
+        }
+        value = static_cast<gaze::EyeEvent>(number);
+    }
     void read(const Cell& cell, gaze::LossReason& value) const {
         read_name<gaze::kLossReasonNames.size()>(cell, value);
     }

@@ -1,11 +1,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
+#include "drivers/trace/read_trace.h"
 #include "runtime/gaze/events/gaze_predictor.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/headset_prediction.h"
 #include "tests/bench/hour_of_gaze.h"
 #include "tests/support/coded/prediction_errors.h"
 
@@ -13,6 +16,7 @@ namespace gazeloop::bench {
 namespace {
 
 constexpr const char* kBench = "prediction";
+constexpr const char* kHeadset = "headset";
 
 using tests::Predictor;
 using tests::TargetClass;
@@ -64,6 +68,49 @@ void add_class(std::vector<Figure>& figures, const std::string& whose,
     }
 }
 
+/// Of traces recorded in a headset with the head's poses; two persons.
+void add_headset(std::vector<Figure>& figures) {
+    const auto folder = tests::coded_recordings_folder().parent_path() / "htc_vive_pro";
+    if (!std::filesystem::exists(folder)) {
+        fmt::print(stderr, "prediction: {} is skipped: no recorded data\n", kHeadset);
+        return;
+    }
+    std::vector<gaze::GazeTrace> traces;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        traces.push_back(value_or_throw(drivers::read_trace(entry.path().string())));
+    }
+    for (const std::int64_t ahead_ms : {20, 40}) {
+        std::array<HeadsetErrors, gaze::kEyeEventNames.size()> all;
+        for (const gaze::GazeTrace& trace : traces) {
+            const auto errors = headset_errors(trace, ahead_ms * 1'000'000);
+            for (std::size_t event = 0; event < all.size(); ++event) {
+                const auto append = [](std::vector<double>& to, const std::vector<double>& from) {
+                    to.insert(to.end(), from.begin(), from.end());
+                };
+                append(all[event].held_in_head, errors[event].held_in_head);
+                append(all[event].held_in_world, errors[event].held_in_world);
+                append(all[event].predicted, errors[event].predicted);
+            }
+        }
+        for (std::size_t event = 0; event + 1 < all.size(); ++event) {
+            const auto add = [&](const char* how, const std::vector<double>& errors) {
+                for (const double percent : {50.0, 95.0}) {
+                    figures.push_back(
+                        {kBench, kHeadset,
+                         fmt::format("{}, {} ms: {} P{:.0f}", gaze::kEyeEventNames[event], ahead_ms,
+                                     how, percent),
+                         tests::percentile(errors, percent), "deg", "lower"});
+                }
+            };
+            if (all[event].predicted.size() >= tests::kFewestErrors) {
+                add("held in head", all[event].held_in_head);
+                add("held in world", all[event].held_in_world);
+                add("predicted", all[event].predicted);
+            }
+        }
+    }
+}
+
 double seconds_of_prediction() {
     constexpr std::int64_t kAhead_ns = 20'000'000;
     gaze::GazePredictor predictor;
@@ -87,6 +134,9 @@ std::vector<Figure> prediction(const Options& options) {
         }
         figures.push_back({kBench, kHourOfGaze, "detection and a prediction per sample",
                            median(seconds), "s", "lower", std::nullopt, 2.0});
+    }
+    if (options.wants(kHeadset)) {
+        add_headset(figures);
     }
     if (!std::filesystem::exists(tests::coded_recordings_folder())) {
         fmt::print(stderr, "prediction: skipped: no recorded data\n");

@@ -22,8 +22,8 @@ namespace {
 using Bits = std::vector<std::uint64_t>;
 
 // A new member is drawn and compared below, or it is not tested.
-static_assert(sizeof(gaze::GazeSample) == 376 && sizeof(gaze::FoveaPoint) == 152 &&
-              sizeof(gaze::EyeView) == 96 && sizeof(frame::FrameRecord) == 1136 &&
+static_assert(sizeof(gaze::GazeSample) == 376 && sizeof(gaze::FoveaPoint) == 192 &&
+              sizeof(gaze::EyeView) == 96 && sizeof(frame::FrameRecord) == 1216 &&
               sizeof(frame::FrameGpuRecord) == 264);
 
 /// Draws any content of a record from a seed. Not-a-number is the quiet one, which is what a
@@ -93,7 +93,12 @@ class AnyRecord {
                      {}};
             clocked(fovea);
             if (coin()) {
-                fovea.uncertainty_rad = coin() ? 0.0 : 1e-3;
+                fovea.event = static_cast<gaze::EyeEvent>(1 + below(gaze::kEyeEventNames.size()));
+                fovea.horizon_ns = signed_integer();
+            }
+            if (coin()) {
+                fovea.uncertainty_rad = coin() ? 0.0 : 1e-300;
+                fovea.filter_delay_ns = signed_integer();
             }
         }
         frame.fovea.latched = stamp();
@@ -307,12 +312,17 @@ Bits bits_of(const frame::FrameRecord& frame) {
         append(bits, static_cast<std::uint64_t>(fovea.state));
         append(bits, static_cast<std::uint64_t>(fovea.reason));
         append(bits, static_cast<std::uint64_t>(fovea.cause));
-        append(bits, std::uint64_t{fovea.uncertainty_rad.has_value()});
-        append(bits, fovea.uncertainty_rad.value_or(0.0));
         append(bits, fovea.sample_sequence);
         append(bits, fovea.sampled);
         append(bits, fovea.arrived);
         append_clocked(bits, fovea);
+        append(bits, fovea.event ? static_cast<std::uint64_t>(*fovea.event) : 0);
+        append(bits, std::uint64_t{fovea.horizon_ns.has_value()});
+        append(bits, fovea.horizon_ns.value_or(0));
+        append(bits, std::uint64_t{fovea.uncertainty_rad.has_value()});
+        append(bits, fovea.uncertainty_rad.value_or(0.0));
+        append(bits, std::uint64_t{fovea.filter_delay_ns.has_value()});
+        append(bits, fovea.filter_delay_ns.value_or(0));
     }
     const frame::SampleCounts& samples = frame.samples;
     append(bits, std::uint64_t{samples.grid_count});

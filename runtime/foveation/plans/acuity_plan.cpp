@@ -69,7 +69,7 @@ void AcuityPlan::plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::Fove
                       const HiddenArea* hidden, const FrameInRun& /*frame*/, EyePlan& plan) const {
     plan_log_polar(plan, [&](LogPolarPlan& made) {
         plan_acuity(parameters_, *profiles_[gaze::index(eye)], view, fovea.direction, made, hidden,
-                    fovea.uncertainty_rad.value_or(0.0) / kRadiansPerDegree);
+                    fovea.widens ? fovea.uncertainty_rad.value_or(0.0) / kRadiansPerDegree : 0.0);
     });
 }
 

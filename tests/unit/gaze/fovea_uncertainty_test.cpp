@@ -36,6 +36,19 @@ TEST(FoveaUncertainty, IsTheSumOfItsTerms) {
     EXPECT_NEAR(deg_of(known), 5.79 - 0.49 + 1.96, 1e-9);
 }
 
+TEST(FoveaUncertainty, CountsAPredictionInPlaceOfTheLatencyThatItCovers) {
+    KnownGaze known{.state = FoveaState::Tracking, .head_known = true, .age_ns = 50 * kMs};
+    known.predicted = {.uncertainty_rad = glm::radians(0.7), .horizon_ns = 30 * kMs};
+    // 2.6 x .5 + 1.96 x .25 + 10 deg/s x 20 ms + .7
+    EXPECT_NEAR(deg_of(known), 1.3 + 0.49 + 0.2 + 0.7, 1e-9);
+    known.predicted->horizon_ns = 60 * kMs;
+    EXPECT_NEAR(deg_of(known), 1.3 + 0.49 + 0.7, 1e-9) << "it covers no more than all";
+    known.head_known = false;
+    EXPECT_NEAR(deg_of(known), 1.3 + 0.49 + 0.7 + 2.0, 1e-9) << "of the head it knows nothing";
+    known.predicted->uncertainty_rad = 1e300;
+    EXPECT_NEAR(deg_of(known), 20.0, 1e-9);
+}
+
 TEST(FoveaUncertainty, GrowsWhileGazeIsHeldUpToItsGreatest) {
     KnownGaze known{.state = FoveaState::Held, .head_known = true, .age_ns = 200 * kMs};
     EXPECT_NEAR(deg_of(known), 1.3 + 0.49 + 2.0 + 6.0, 1e-9);

@@ -144,6 +144,25 @@ TEST_F(GazeAgeOfAFrame, HasStagesThatAddUp) {
     EXPECT_EQ(age.unaccounted, (time::Span{0, time::StampKind::Predicted}));
 }
 
+TEST_F(GazeAgeOfAFrame, HasTheFiltersDelay) {
+    fovea.filter_delay_ns = 3'000;
+    const GazeAge age = gaze_age(fovea, stamps, stamps.display, 2'000);
+    EXPECT_EQ(stage(age, Stage::Filter), (time::Span{3'000, time::StampKind::Modelled}));
+    EXPECT_EQ(age.at_display, (time::Span{24'000, time::StampKind::Predicted}));
+    EXPECT_EQ(age.unaccounted.ns, 0);
+    stamps.filtered = measured(8'400);
+    const GazeAge stamped = gaze_age(fovea, stamps, stamps.display, 2'000);
+    EXPECT_EQ(stage(stamped, Stage::Filter), (time::Span{3'400, time::StampKind::Modelled}));
+    EXPECT_EQ(stage(stamped, Stage::Submit).ns, 1'100);
+    EXPECT_EQ(stamped.at_display, age.at_display);
+    EXPECT_EQ(stamped.unaccounted.ns, 0);
+    const GazeAge never_shown = gaze_age(fovea, stamps, {}, 2'000);
+    EXPECT_FALSE(never_shown.at_display.known());
+    fovea.filter_delay_ns = std::numeric_limits<std::int64_t>::max();
+    EXPECT_EQ(gaze_age(fovea, stamps, stamps.display, 2'000).at_display.ns,
+              std::numeric_limits<std::int64_t>::max());
+}
+
 TEST_F(GazeAgeOfAFrame, SplitsTheTrackersTimeWhereAClockWasFitted) {
     fovea.ready = measured(5'200);
     fovea.uncertainty_ns = 700;

@@ -252,6 +252,12 @@ const std::vector<RuleCase>& cases() {
          "a higher rate of the tracker (now 50 Hz)."},
         {"try-more-cpu", [](Made& m) { m.set(Stage::Submit, 14.0); }, "more of the CPU"},
         {"try-more-cpu", [](Made& m) { m.set(Stage::Filter, 14.0); }, "more of the CPU"},
+        {"try-no-filter",
+         [](Made& m) {
+             m.set(Stage::Filter, 14.0);
+             m.settings.push_back({"gaze.filter", "one-euro"});
+         },
+         "gaze.filter=none (now one-euro)"},
         {"try-less-gpu-work", [](Made& m) { m.set(Stage::Gpu, 14.0); }, "a higher kfr.sigma"},
         {"try-less-gpu-work",
          [](Made& m) {

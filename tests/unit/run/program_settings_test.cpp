@@ -28,11 +28,31 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "profile.display", "profile.tracker", "render.scale", "steam_frame.file", "steam_frame.rays",
       "trace.accept_repairs", "trace.axes", "trace.longest_gap_s", "virtual_time.gpu_ms"}},
     {Concerns::Foveae,
-     {"gaze.after_hold", "gaze.blink_hold_ms", "gaze.closed_below", "gaze.field_deg",
-      "gaze.fixation_distance_m", "gaze.hold_ms", "gaze.minimum_confidence", "gaze.reopen_ms",
-      "gaze.return_ms", "gaze.stale_ms", "gaze.unplugged_hold_ms", "gaze.widen",
-      "gaze.widen_error_deg", "gaze.widen_head_deg_per_s", "gaze.widen_lost_deg_per_s",
-      "gaze.widen_most_deg", "gaze.widen_noise_deg", "gaze.widen_pursuit_deg_per_s"}},
+     {"gaze.after_hold",
+      "gaze.blink_hold_ms",
+      "gaze.closed_below",
+      "gaze.events",
+      "gaze.field_deg",
+      "gaze.filter",
+      "gaze.filter_memory_ms",
+      "gaze.fixation_distance_m",
+      "gaze.hold_ms",
+      "gaze.longest_prediction_ms",
+      "gaze.minimum_confidence",
+      "gaze.one_euro_hz_per_deg_per_s",
+      "gaze.one_euro_least_hz",
+      "gaze.prediction",
+      "gaze.reopen_ms",
+      "gaze.return_ms",
+      "gaze.stale_ms",
+      "gaze.unplugged_hold_ms",
+      "gaze.widen",
+      "gaze.widen_error_deg",
+      "gaze.widen_head_deg_per_s",
+      "gaze.widen_lost_deg_per_s",
+      "gaze.widen_most_deg",
+      "gaze.widen_noise_deg",
+      "gaze.widen_pursuit_deg_per_s"}},
     {Concerns::Picture,
      {"acuity.border_px",
       "acuity.disc",
@@ -113,6 +133,9 @@ TEST(ProgramSettings, OfMethodsAreInUseUnderTheirs) {
     }
     for (const SettingRow& row : settings.rows()) {
         const std::string group = row.key.substr(0, row.key.find('.'));
+        if (group == "gaze") {
+            continue;  // below
+        }
         if (row.concerns != Concerns::Picture || group == "render") {
             EXPECT_EQ(row.only_while.key, "") << row.key;
             continue;
@@ -129,6 +152,28 @@ TEST(ProgramSettings, OfMethodsAreInUseUnderTheirs) {
         for (const std::string& method : row.only_while.values) {
             EXPECT_TRUE(groups.contains(method)) << row.key << ": " << method;
         }
+    }
+}
+
+TEST(ProgramSettings, OfGazeAreInUseWithTheirFilterOrPrediction) {
+    const std::map<std::string, std::pair<std::string, std::string>> only_while{
+        {"gaze.filter_memory_ms", {"gaze.filter", "fixation"}},
+        {"gaze.longest_prediction_ms", {"gaze.prediction", "true"}},
+        {"gaze.one_euro_hz_per_deg_per_s", {"gaze.filter", "one-euro"}},
+        {"gaze.one_euro_least_hz", {"gaze.filter", "one-euro"}}};
+    const ProgramSettings settings;
+    for (const SettingRow& row : settings.rows()) {
+        if (!row.key.starts_with("gaze.")) {
+            continue;
+        }
+        const auto expected = only_while.find(row.key);
+        if (expected == only_while.end()) {
+            EXPECT_EQ(row.only_while.key, "") << row.key;
+            continue;
+        }
+        const auto& [key, value] = expected->second;
+        EXPECT_EQ(row.only_while.key, key) << row.key;
+        EXPECT_EQ(row.only_while.values, std::vector{value}) << row.key;
     }
 }
 

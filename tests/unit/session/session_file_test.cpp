@@ -240,7 +240,21 @@ TEST_F(ReadSession, ReadsFilesFromBeforeTheseColumns) {
             change(std::string("ALTER TABLE ") + table + " DROP COLUMN " + column);
         }
     }
+    for (const char* const column : {"event", "horizon_ns", "uncertainty_rad", "filter_delay_ns"}) {
+        change(std::string("ALTER TABLE fovea DROP COLUMN ") + column);
+    }
     EXPECT_EQ(error(), "no error");
+}
+
+TEST_F(ReadSession, RefusesAnEventThatItDoesNotKnow) {
+    record();
+    change("UPDATE fovea SET event = 5");
+    EXPECT_EQ(error(), "no error");
+    change("UPDATE fovea SET event = 6 WHERE frame = 2 AND eye = 1");
+    EXPECT_THAT(error(), HasSubstr("table fovea, row 6: column event holds '6' where an integer "
+                                   "from 0 to 5"));
+    change("UPDATE fovea SET event = 0");
+    EXPECT_THAT(error(), HasSubstr("column event holds '0' where an integer from 1 to 5"));
 }
 
 TEST_F(ReadSession, NamesTableRowAndColumnOfAWrongType) {

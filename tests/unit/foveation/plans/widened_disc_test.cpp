@@ -23,6 +23,7 @@ gaze::FoveaPoint fovea(std::optional<double> uncertainty_deg) {
     point.direction = {0.2, -0.1, -0.97};
     if (uncertainty_deg) {
         point.uncertainty_rad = glm::radians(*uncertainty_deg);
+        point.widens = true;
     }
     return point;
 }
@@ -61,13 +62,18 @@ TEST(WidenedDisc, ReachesEveryPlaceWhereTheEyeMayLook) {
 TEST(WidenedDisc, IsTheFoveaPointsAndOtherwiseAsBefore) {
     AcuityPlan method{AcuityParameters{}};
     ASSERT_TRUE(method.prepare({view(), view()}).has_value());
-    const auto shaded = [&](std::optional<double> uncertainty_deg) {
+    const auto shaded = [&](const gaze::FoveaPoint& point) {
         EyePlan plan;
-        method.plan(gaze::Eye::Left, view(), fovea(uncertainty_deg), nullptr, {}, plan);
+        method.plan(gaze::Eye::Left, view(), point, nullptr, {}, plan);
         return plan.grids[1].counts.shaded;
     };
-    EXPECT_EQ(shaded(std::nullopt), shaded(0.0));
-    EXPECT_GT(shaded(12.0), 2 * shaded(0.0));
+    const std::uint64_t plain = shaded(fovea(std::nullopt));
+    EXPECT_EQ(plain, shaded(fovea(0.0)));
+    EXPECT_GT(shaded(fovea(12.0)), 2 * plain);
+    // What a prediction states of itself widens nothing.
+    gaze::FoveaPoint predicted = fovea(12.0);
+    predicted.widens = false;
+    EXPECT_EQ(plain, shaded(predicted));
 }
 
 }  // namespace
