@@ -114,15 +114,17 @@ Expected<SteamFrameFile> SteamFrameFile::create(const std::filesystem::path& pat
                           : "cannot be made");
     }
     void* memory = MAP_FAILED;
-    if (ftruncate(fd, kFileBytes) == 0) {
+    // Not ftruncate(), which reserves nothing: a write to a full disk would then be a signal.
+    int error = posix_fallocate(fd, 0, kFileBytes);
+    if (error == 0) {
         memory = mmap(nullptr, kFileBytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+        error = errno;
     }
-    const int error = errno;
     close(fd);
     if (memory == MAP_FAILED) {
         unlink(path.c_str());
         errno = error;
-        return failed("cannot be mapped");
+        return failed("cannot be made and mapped: free space there, or name another file");
     }
     SteamFrameFile file(path, static_cast<std::uint8_t*>(memory), version);
     file.set_initialised(initialised);

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -184,6 +185,11 @@ ExitCode compare(const CompareCommand& command) {
     if (!json_file.empty()) {
         value_or_throw(report::check_output(json_file));
     }
+    const std::array<report::NamedFile, 2> outputs{
+        {{"--heat-map", command.heat_map}, {"--json", json_file}}};
+    const std::array<report::NamedFile, 2> inputs{
+        {{"the reference", command.reference}, {"the test", command.test}}};
+    value_or_throw(report::check_apart(outputs, inputs));
     const display::DisplayProfile display =
         value_or_throw(profiles::display_in_force(settings.values().profile, settings));
     const quality::MetricChoice metrics = command.quality.metric_choice();

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -97,6 +98,10 @@ ExitCode convert(const ConvertCommand& command) {
     if (!command.json.empty()) {
         value_or_throw(report::check_output(command.json));
     }
+    const std::array<report::NamedFile, 2> outputs{
+        {{"the file to write", command.out}, {"--json", command.json}}};
+    const std::array<report::NamedFile, 1> inputs{{{"the recording", command.in}}};
+    value_or_throw(report::check_apart(outputs, inputs));
     const gaze::GazeTrace trace = recorded_gaze(command.in, command.recorded);
     const Written written = write(command, trace);
     if (command.json != "-") {

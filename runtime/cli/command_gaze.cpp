@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -44,6 +45,10 @@ ExitCode compare(const GazeCommand& command) {
 ExitCode gaze(const GazeCommand& command) {
     if (!command.json.empty()) {
         value_or_throw(report::check_output(command.json));
+        const std::array<report::NamedFile, 1> outputs{{{"--json", command.json}}};
+        const std::array<report::NamedFile, 2> inputs{
+            {{"the recording", command.file}, {"the other recording", command.other}}};
+        value_or_throw(report::check_apart(outputs, inputs));
     }
     if (!command.other.empty()) {
         return compare(command);

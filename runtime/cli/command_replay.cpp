@@ -162,6 +162,7 @@ ExitCode replay(const ReplayCommand& command, const std::string& command_line) {
     request.settings = &settings;
     request.command_line = command_line;
     command.options.fill(request);
+    request.reads.push_back({"the recording", command.file});
     if (session::looks_like_session(command.file)) {
         return replay_session(command, settings, request);
     }

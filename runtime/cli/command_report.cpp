@@ -83,23 +83,21 @@ struct Report {
     std::optional<probe::Comparison> measured{};
 };
 
-/// One output takes stdout, and no two take the same file.
+/// One output takes stdout, and no two take the same file, nor one that is read.
 void check_outputs(const ReportCommand& command) {
-    const auto outputs = command.outputs();
-    for (std::size_t place = 0; place < outputs.size(); ++place) {
-        const auto& [option, file] = outputs[place];
-        if (file->empty()) {
-            continue;
-        }
-        value_or_throw(report::check_output(*file));
-        for (std::size_t before = 0; before < place; ++before) {
-            if (*outputs[before].second == *file) {
-                throw SetupError(ErrorKind::Usage,
-                                 fmt::format("{} and {} both name {}: give each a file of its own",
-                                             outputs[before].first, option, *file));
-            }
+    std::vector<report::NamedFile> outputs;
+    for (const auto& [option, file] : command.outputs()) {
+        if (!file->empty()) {
+            value_or_throw(report::check_output(*file));
+            outputs.push_back({option, *file});
         }
     }
+    const std::array<report::NamedFile, 5> inputs{{{"the session", command.file},
+                                                   {"--against", command.against},
+                                                   {"--probe", command.probe},
+                                                   {"--runtime-metrics", command.runtime.metrics},
+                                                   {"--runtime-csv", command.runtime.csv}}};
+    value_or_throw(report::check_apart(outputs, inputs));
 }
 
 /// None: nothing decides the exit code.

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
@@ -136,6 +137,8 @@ ExitCode trade_of(const TradeCommand& command) {
             value_or_throw(report::check_output(file));
         }
     }
+    const std::array<report::NamedFile, 2> outputs{{{"--csv", command.csv}, {"--json", json}}};
+    value_or_throw(report::check_apart(outputs, {}));
     const std::vector<std::string> methods = chosen_methods(command.methods);
     const std::vector<trade::SweepPoint> points =
         value_or_throw(trade::sweep_points(methods, chosen_variation(command, methods)));

@@ -48,6 +48,13 @@ std::optional<run::FrameRunRequest> GazeRunOptions::prepare(run::ProgramSettings
     request.live_gaze = request.from_device || gaze == "sim";
     request.clock = clock == "wall" ? run::RunClock::Wall : run::RunClock::Virtual;
     options.fill(request);
+    constexpr std::string_view kTrace = "trace:";
+    if (gaze.starts_with(kTrace)) {
+        request.reads.push_back({"--gaze", gaze.substr(kTrace.size())});
+    }
+    if (const std::filesystem::path scene = settings.values().render.scene; scene.has_extension()) {
+        request.reads.push_back({"--scene", scene});
+    }
     request.loop.end_with_source = !options.frames && !options.seconds;
     return request;
 }

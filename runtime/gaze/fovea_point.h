@@ -63,9 +63,9 @@ struct FoveaPoint {
     std::optional<std::int64_t> uncertainty_ns;  ///< of `sampled`
     std::optional<double> parallax_rad;          ///< of that sample, as in GazeSample
     /// How far the eye may look from here when the frame is shown. With `gaze.widen` by the
-    /// widening (gaze/fovea_uncertainty.h). Without it, what the prediction says: the direction is
-    /// farther off in at most 5 % of cases, if no saccade begins before it is shown. None where
-    /// neither is computed.
+    /// widening (gaze/fovea_uncertainty.h). Without it, what the prediction says: meant to hold in
+    /// 95 % of cases, if no saccade begins before it is shown (GazePrediction says how often it
+    /// does). None where neither is computed.
     std::optional<double> uncertainty_rad{};
     /// Whether a method is to shade as far around as uncertainty_rad says (`gaze.widen`). A session
     /// keeps the setting.

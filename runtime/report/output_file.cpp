@@ -60,6 +60,37 @@ int open_beside(const fs::path& file, const std::string& beside) {
 
 }  // namespace
 
+Expected<void> check_apart(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs) {
+    const auto same = [](const fs::path& a, const fs::path& b) {
+        std::error_code missing;
+        return a == b || followed(a) == followed(b) || fs::equivalent(a, b, missing);
+    };
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const auto& [name, file] = outputs[i];
+        if (file.empty()) {
+            continue;
+        }
+        for (const NamedFile& before : outputs.first(i)) {
+            if (!before.file.empty() && same(before.file, file)) {
+                return std::unexpected(
+                    Error{ErrorKind::Usage,
+                          fmt::format("{} and {} both name {}: give each a file of its own",
+                                      before.name, name, file.string())});
+            }
+        }
+        for (const NamedFile& read : inputs) {
+            if (file != "-" && !read.file.empty() && same(read.file, file)) {
+                return std::unexpected(
+                    Error{ErrorKind::Usage,
+                          fmt::format("{} names {}, which is read ({}): it would be lost; name "
+                                      "another file",
+                                      name, file.string(), read.name)});
+            }
+        }
+    }
+    return {};
+}
+
 Expected<void> check_output(const fs::path& file) {
     if (file == "-") {
         return {};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,16 @@ namespace gazeloop::report {
 /// Checks whether write_text() should succeed, so that a long run is not started for nothing.
 /// Creates and changes nothing. Errors (BadInput): file and reason are named.
 Expected<void> check_output(const std::filesystem::path& file);
+
+/// A file with the option or the word that names it. Empty: none; "-": stdin or stdout.
+struct NamedFile {
+    std::string_view name;
+    std::filesystem::path file;
+};
+
+/// Checks that each output has a file of its own, and none of what is read. Links are followed.
+/// Errors (Usage): both names and the file.
+Expected<void> check_apart(std::span<const NamedFile> outputs, std::span<const NamedFile> inputs);
 
 /// A file that is written piece by piece; "-" is stdout. An existing file is replaced at the end,
 /// by a complete new one. Where that is not possible (a device, a folder without write permission),

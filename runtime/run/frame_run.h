@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "drivers/gaze_source.h"
 #include "drivers/openxr/openxr_source.h"
 #include "runtime/error.h"
 #include "runtime/frame_loop.h"
+#include "runtime/report/output_file.h"
 #include "runtime/run/program_settings.h"
 #include "runtime/session/open_session.h"
 
@@ -57,6 +59,8 @@ struct FrameRunRequest {
     std::optional<std::filesystem::path> record;
     std::optional<std::filesystem::path> snapshot;
     std::optional<std::filesystem::path> json;
+    /// What the run reads: none of it is written over.
+    std::vector<report::NamedFile> reads{};
 };
 
 /// Sets up target, device and renderer, runs the loop, and prints the summary to stdout. Throws

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
+
 #include "runtime/methods/registry.h"
 #include "runtime/report/output_file.h"
 #include "runtime/session/session_recorder.h"
@@ -32,6 +34,9 @@ void check_request(const FrameRunRequest& request) {
     if (request.json) {
         value_or_throw(report::check_output(*request.json));
     }
+    const std::array<report::NamedFile, 2> outputs{
+        {{"--record", request.record.value_or("")}, {"--json", request.json.value_or("")}}};
+    value_or_throw(report::check_apart(outputs, request.reads));
 }
 
 void check_recorded_target(const FrameRunRequest& request, const render::RendererConfig& config) {

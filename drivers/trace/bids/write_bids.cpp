@@ -213,6 +213,8 @@ void write_losses(const gaze::GazeTrace& trace, const Recording& recording, std:
     }
 }
 
+constexpr std::size_t kMostEyes = 3;  ///< labels of BIDS: eye1, eye2, eye3
+
 class Writer {
   public:
     Writer(const gaze::GazeTrace& trace, fs::path folder, const BidsLabels& labels)
@@ -229,13 +231,18 @@ class Writer {
             return std::unexpected(described.error());
         }
         const std::vector<Recording> recordings = recordings_of(trace_);
+        const auto stem_of = [&](std::size_t eye) {
+            return (beh / fmt::format("sub-{}_task-{}_recording-eye{}", labels_.subject,
+                                      labels_.task, eye))
+                .string();
+        };
         for (std::size_t i = 0; i < recordings.size(); ++i) {
-            const std::string stem = (beh / fmt::format("sub-{}_task-{}_recording-eye{}",
-                                                        labels_.subject, labels_.task, i + 1))
-                                         .string();
-            if (const Expected<void> one = write(recordings[i], stem, rate_hz); !one) {
+            if (const Expected<void> one = write(recordings[i], stem_of(i + 1), rate_hz); !one) {
                 return std::unexpected(one.error());
             }
+        }
+        for (std::size_t eye = recordings.size() + 1; eye <= kMostEyes; ++eye) {
+            remove_eye(stem_of(eye));
         }
         if (recordings.front().recorded == "cyclopean") {
             say_what_is_lost();
@@ -244,6 +251,19 @@ class Writer {
     }
 
   private:
+    /// An eye of the recording that stood here before: read beside the new ones, it would be taken
+    /// for the same person's.
+    void remove_eye(const std::string& stem) {
+        for (const char* const end :
+             {"_physio.tsv.gz", "_physio.json", "_physioevents.tsv.gz", "_physioevents.json"}) {
+            std::error_code error;
+            if (fs::remove(stem + end, error)) {
+                written_.left_out.push_back(fmt::format(
+                    "{}{}, of the recording that was there before: removed", stem, end));
+            }
+        }
+    }
+
     Expected<void> describe_data_set() {
         const fs::path description = folder_ / "dataset_description.json";
         std::error_code ignored;

@@ -27,7 +27,8 @@ struct WrittenBids {
 /// no column for stands in columns of our own, described in the sidecar (read_bids). Where gaze is
 /// lost, *_physioevents.tsv.gz has an event "loss".
 ///
-/// Files of this recording are replaced. Errors (BadInput): a label with anything else in it, a
+/// Files of this recording are replaced, and those of eyes that it no longer has removed, which is
+/// said. Errors (BadInput): a label with anything else in it, a
 /// trace of fewer than two samples with known times, a file that cannot be written.
 [[nodiscard]] Expected<WrittenBids> write_bids(const gaze::GazeTrace& trace,
                                                const std::filesystem::path& folder,

@@ -26,7 +26,7 @@ struct GazePrediction {
     /// both eyes the same. None but with Extrapolated.
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
     std::int64_t horizon_ns = 0;  ///< how far ahead of the last sample; at most the bound
-    /// So far off the prediction is in at most 5 % of cases, if no saccade begins meanwhile.
+    /// Meant for 95 % of cases, if no saccade begins; holds in 86 to 92, less while eyes swing.
     /// None with a loss.
     std::optional<double> uncertainty_rad;
     EyeEvent event = EyeEvent::Lost;  ///< at the last sample

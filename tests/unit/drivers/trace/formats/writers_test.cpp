@@ -141,6 +141,21 @@ TEST(WriteBids, WritesEachEyeByItsRules) {
     EXPECT_EQ(bytes, (std::string{std::istreambuf_iterator<char>(second), {}}));
 }
 
+TEST(WriteBids, RemovesTheEyesOfTheRecordingBefore) {
+    const tests::TemporaryFolder folder;
+    value_or_throw(write_bids(two_eyes(), folder / "ds"));
+    const auto eye2 =
+        folder / "ds" / "sub-01" / "beh" / "sub-01_task-gaze_recording-eye2_physio.tsv.gz";
+    ASSERT_TRUE(std::filesystem::exists(eye2));
+    gaze::GazeTrace one = two_eyes();
+    for (gaze::GazeSample& sample : one.samples) {
+        sample.eyes[1].valid = false;
+    }
+    const WrittenBids written = value_or_throw(write_bids(one, folder / "ds"));
+    EXPECT_FALSE(std::filesystem::exists(eye2));
+    EXPECT_THAT(written.left_out, ::testing::Contains(::testing::HasSubstr("eye2_physio.tsv.gz")));
+}
+
 TEST(WriteBids, WritesOneRayAsTheCyclopeanEye) {
     RecordingFolder folder;
     const gaze::GazeTrace trace = one_ray();
