@@ -42,11 +42,6 @@ void check_table_output(const ConvertCommand& command) {
             ErrorKind::BadInput,
             fmt::format("{}: a directory: name a file in it, or --to bids", command.out));
     }
-    std::error_code ignored;
-    if (std::filesystem::equivalent(command.in, command.out, ignored)) {
-        throw SetupError(ErrorKind::BadInput,
-                         fmt::format("{}: is what is read: name another file", command.out));
-    }
 }
 
 /// What a table of angles has no columns for.

@@ -129,6 +129,9 @@ class FrameRun {
         if (request_.clock == RunClock::Wall) {
             // First draws compile shaders, which must not look like a slow first frame.
             render::warm_up(*context_, renderer, profile_views(display_, target_->extents()));
+        } else if (request_.clock == RunClock::Virtual) {
+            // What a method refuses, it refuses before there is a recording.
+            renderer.prepare(profile_views(display_, target_->extents()));
         }
         open_recording(renderer);
         if (!display_.assumed.empty()) {

@@ -96,7 +96,10 @@ TEST(Convert, RefusesWithTheRightCode) {
     EXPECT_EQ(refused.exit_code, 3);
     EXPECT_TRUE(has(refused.err, "pixels have no direction without screen_size_m")) << refused.err;
     EXPECT_FALSE(fs::exists(out));
-    EXPECT_EQ(run_gazeloop({"convert", in, in}).exit_code, 3);
+    EXPECT_EQ(run_gazeloop({"convert", in, in}).exit_code, 2);
+    EXPECT_EQ(run_gazeloop({"convert", in, out, "--json", in}).exit_code, 2);
+    EXPECT_EQ(run_gazeloop({"gaze", in, "--json", in}).exit_code, 2);
+    EXPECT_EQ(fs::file_size(in), pupil_labs(400).size());
     EXPECT_EQ(run_gazeloop({"convert", in, "/nonexistent/o.csv"}).exit_code, 3);
     EXPECT_EQ(
         run_gazeloop({"convert", in, folder.file("d"), "--to", "bids", "--task", "a b"}).exit_code,
