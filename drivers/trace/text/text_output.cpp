@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -53,18 +55,30 @@ class TextOutput::Gzip : public std::streambuf {
 };
 
 TextOutput::TextOutput(std::string file) : file_(std::move(file)) {
+    std::error_code ignored;
+    const std::filesystem::path real = std::filesystem::weakly_canonical(file_, ignored);
+    real_ = ignored ? file_ : real.string();
+    const bool in_place = std::filesystem::exists(real_, ignored) &&
+                          !std::filesystem::is_regular_file(real_, ignored);
+    written_ = in_place ? "" : real_ + ".unfinished";
+    const std::string& to = in_place ? real_ : written_;
     errno = 0;
     if (file_.ends_with(".gz")) {
-        gzip_ = std::make_unique<Gzip>(file_);
+        gzip_ = std::make_unique<Gzip>(to);
     } else {
-        plain_.open(file_, std::ios::binary | std::ios::trunc);
+        plain_.open(to, std::ios::binary | std::ios::trunc);
     }
     opened_errno_ = errno;
     stream_ = std::make_unique<std::ostream>(gzip_ ? static_cast<std::streambuf*>(gzip_.get())
                                                    : plain_.rdbuf());
 }
 
-TextOutput::~TextOutput() = default;
+TextOutput::~TextOutput() {
+    if (!written_.empty()) {
+        std::error_code ignored;
+        std::filesystem::remove(written_, ignored);
+    }
+}
 
 Expected<void> TextOutput::close() {
     errno = opened_errno_;
@@ -75,7 +89,11 @@ Expected<void> TextOutput::close() {
         plain_.close();
         written = !plain_.fail() && written;
     }
+    if (written && !written_.empty()) {
+        written = std::rename(written_.c_str(), real_.c_str()) == 0;
+    }
     if (written) {
+        written_.clear();
         return {};
     }
     return std::unexpected(

@@ -11,7 +11,9 @@
 namespace gazeloop::drivers {
 
 /// A file of text that is written piece by piece; gzip where its name ends with ".gz" (without a
-/// time in it, so that the same text gives the same bytes).
+/// time in it, so that the same text gives the same bytes). An existing file is replaced by
+/// close(), by a complete new one; until then, and after an error, it stays as it was. What is no
+/// file (a device) is written in place.
 class TextOutput {
   public:
     explicit TextOutput(std::string file);
@@ -28,7 +30,9 @@ class TextOutput {
   private:
     class Gzip;
 
-    std::string file_;
+    std::string file_;     ///< as it was named
+    std::string real_;     ///< what it stands for: links are followed
+    std::string written_;  ///< becomes that in the end; empty: done, or nothing to remove
     int opened_errno_ = 0;
     std::ofstream plain_;
     std::unique_ptr<Gzip> gzip_;  ///< null: plain

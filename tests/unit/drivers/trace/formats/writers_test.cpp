@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -216,6 +219,32 @@ TEST(TextOutput, SaysWhatCannotBeWritten) {
         out.stream() << "text";
         EXPECT_FALSE(out.close()) << file;
     }
+}
+
+TEST(TextOutput, LeavesWhatWasThereUntilTheNewFileIsWhole) {
+    const tests::TemporaryFolder folder;
+    const auto content = [](const std::filesystem::path& file) {
+        std::ifstream in(file);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    std::ofstream(folder / "a.csv") << "before";
+    std::filesystem::create_symlink("a.csv", folder / "link.csv");
+    {
+        TextOutput given_up((folder / "a.csv").string());
+        given_up.stream() << "half" << std::flush;
+    }
+    EXPECT_EQ(content(folder / "a.csv"), "before");
+    TextOutput out((folder / "link.csv").string());
+    out.stream() << "after";
+    EXPECT_EQ(content(folder / "a.csv"), "before");
+    EXPECT_TRUE(out.close().has_value());
+    EXPECT_EQ(content(folder / "a.csv"), "after");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.csv"));
+    std::size_t files = 0;
+    for (const auto& one : std::filesystem::directory_iterator(folder / "")) {
+        files += one.exists() ? 1 : 0;
+    }
+    EXPECT_EQ(files, 2U) << "nothing unfinished stays";
 }
 
 }  // namespace
