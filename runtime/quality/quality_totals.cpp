@@ -28,7 +28,8 @@ constexpr std::array kKinds{
     Kind{"contrast_achromatic", "of that, by luminance that stays", true, false, mechanism<0>},
     Kind{"contrast_red_green", "of that, by red against green", true, false, mechanism<1>},
     Kind{"contrast_yellow_violet", "of that, by yellow against violet", true, false, mechanism<2>},
-    Kind{"contrast_flicker", "of that, by luminance that changes (sequences)", true, false, mechanism<3>},
+    Kind{"contrast_flicker", "of that, by luminance that changes (sequences)", true, false,
+         mechanism<3>},
     Kind{"flip", "LDR-FLIP, 0 to 1; knows no gaze", true, false,
          [](const FrameQuality& frame) {
              return frame.flip ? std::optional(frame.flip->mean) : std::nullopt;
