@@ -4,11 +4,9 @@
 # An optional integer that is written as a whole float counts as absent: "mesh": 0.0 (valid by the
 # standard, and by Khronos' validator) loads as a node without a mesh, so that the scene is empty. A
 # required extension is not looked at: EXT_mesh_gpu_instancing in extensionsRequired loads as one
-# instance. Indices are not checked: a child that there is not, two nodes that are each other's child,
-# an accessor past the end of its view and the mode 9 all load. Indices without a bufferView (zeros, or
-# all sparse), which the standard allows, are refused. A number of an extension is kept as an int:
-# 3000000000 becomes -1294967296.
-# Check the JSON against the standard before, and every index and range after.
+# instance. Indices without a bufferView (zeros, or all sparse), which the standard allows, are refused. A
+# number of an extension is kept as an int: 3000000000 becomes -1294967296.
+# All of these files are valid. Check the JSON against the standard before, and what came of it after.
 set -euo pipefail
 
 folder=$(mktemp -d)
@@ -59,13 +57,6 @@ int main() {
     expect("\"mesh\": 0.0 is no mesh", in_silence(result) && result.model.nodes[0].mesh == -1);
     result = load(R"("extensionsRequired": ["EXT_mesh_gpu_instancing"])");
     expect("a required extension is passed over", in_silence(result));
-    result = load(R"("nodes": [{"children": [1, 7]}, {"children": [0]}])");
-    expect("a circle, and a child that there is not, load", in_silence(result));
-    result = load(R"("accessors": [{"bufferView": 0, "componentType": 5126, "count": 300, "type": "VEC3"}],)" +
-                  mesh);
-    expect("an accessor past its view loads", in_silence(result));
-    result = load(accessor + R"("meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 9}]}])");
-    expect("mode 9 loads", in_silence(result) && result.model.meshes[0].primitives[0].mode == 9);
     result = load(R"("accessors": [{"componentType": 5123, "count": 3, "type": "SCALAR"},
         {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 1}, "indices": 0}]}])");
