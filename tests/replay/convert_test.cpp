@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/recorded_data.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::tests {
@@ -121,10 +122,10 @@ TEST(GazeCommand, ComparesTwoRecordings) {
 }
 
 TEST(RecordedTraces, AllReplay) {
-    const fs::path traces = fs::path(GAZELOOP_SOURCE_DIR) / ".." / "shared/data/traces";
-    if (!fs::exists(traces)) {
-        GTEST_SKIP() << "no recorded data";
+    if (const std::string missing = no_recorded_data("traces"); !missing.empty()) {
+        GTEST_SKIP() << missing;
     }
+    const fs::path traces = recorded_data("traces");
     for (const char* const file :
          {"andersson2017/dots/TH20_trial1.csv", "andersson2017/img/TH34_img_Europe.csv",
           "htc_vive_pro/TESTNA05_360VR_Spread7.csv", "pico_neo_3/boxing_VR.csv",

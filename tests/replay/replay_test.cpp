@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/session/session_file.h"
+#include "tests/support/recorded_data.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::tests {
@@ -397,11 +398,11 @@ TEST_F(Replay, PlaysEveryMethodAndTarget) {
 }
 
 TEST_F(Replay, PlaysARecordingFromAHeadset) {
-    const std::string recorded = std::string(GAZELOOP_SOURCE_DIR) +
-                                 "/../shared/data/traces/htc_vive_pro/TESTNA01_360VR_Fist3.csv";
-    if (!std::filesystem::exists(recorded)) {
-        GTEST_SKIP() << "no recorded data";
+    const std::string name = "traces/htc_vive_pro/TESTNA01_360VR_Fist3.csv";
+    if (const std::string missing = no_recorded_data(name); !missing.empty()) {
+        GTEST_SKIP() << missing;
     }
+    const std::string recorded = recorded_data(name).string();
     const ProgramResult run =
         run_gazeloop({"replay", recorded, "--frames", "30", "--set", "render.scale=0.02"});
     EXPECT_EQ(run.exit_code, 0) << run.err;

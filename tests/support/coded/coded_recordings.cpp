@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+#include "tests/support/recorded_data.h"
 
 namespace gazeloop::tests {
 namespace {
@@ -57,9 +58,7 @@ CodedRecording read(const std::filesystem::path& csv, const std::string& stimulu
 
 }  // namespace
 
-std::filesystem::path coded_recordings_folder() {
-    return std::filesystem::path(GAZELOOP_SOURCE_DIR) / ".." / "shared/data/traces/andersson2017";
-}
+std::filesystem::path coded_recordings_folder() { return recorded_data("traces/andersson2017"); }
 
 std::vector<CodedRecording> read_coded_recordings(const std::filesystem::path& folder) {
     std::vector<CodedRecording> recordings;

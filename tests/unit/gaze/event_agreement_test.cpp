@@ -7,6 +7,7 @@
 #include <map>
 
 #include "tests/support/coded/prediction_errors.h"
+#include "tests/support/recorded_data.h"
 
 namespace gazeloop::tests {
 namespace {
@@ -26,8 +27,9 @@ TEST(Kappa, IsAgreementBeyondChance) {
 class CodedRecordings : public testing::Test {
   protected:
     void SetUp() override {
-        if (!std::filesystem::exists(coded_recordings_folder())) {
-            GTEST_SKIP() << "skipped: no recorded data";
+        if (const std::string missing = tests::no_recorded_data("traces/andersson2017");
+            !missing.empty()) {
+            GTEST_SKIP() << missing;
         }
         all = read_coded_recordings(coded_recordings_folder());
         for (const CodedRecording& recording : all) {

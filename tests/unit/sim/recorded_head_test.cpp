@@ -10,6 +10,7 @@
 
 #include "drivers/trace/read_trace.h"
 #include "sim/gaze_generator.h"
+#include "tests/support/recorded_data.h"
 #include "tests/unit/sim/statistics.h"
 
 namespace gazeloop::sim {
@@ -60,14 +61,15 @@ void print(const std::string& name, const Speeds& speeds) {
 }
 
 TEST(RecordedHeads, MoveAsTheSimulatedOneDoes) {
-    const std::filesystem::path folder =
-        std::filesystem::path(GAZELOOP_SOURCE_DIR) / "../shared/data/traces/htc_vive_pro";
-    if (!std::filesystem::exists(folder)) {
-        GTEST_SKIP() << "no recorded data";
+    const std::string name = "traces/htc_vive_pro";
+    if (const std::string missing = tests::no_recorded_data(name); !missing.empty()) {
+        GTEST_SKIP() << missing;
     }
+    const std::filesystem::path folder = tests::recorded_data(name);
     const Speeds simulated =
         speeds_of(generate_gaze({.tracker = {.rate_hz = 125.0, .noise_deg = 0.135}}, 300.0));
     print("simulated, 125 Hz", simulated);
+    std::size_t compared = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         if (entry.path().extension() != ".csv") {
             continue;
@@ -79,7 +81,9 @@ TEST(RecordedHeads, MoveAsTheSimulatedOneDoes) {
         const double ratio = quantile(simulated.head_yaw, 0.95) / quantile(recorded.head_yaw, 0.95);
         EXPECT_GT(ratio, 1.0 / 3.0) << entry.path();
         EXPECT_LT(ratio, 3.0) << entry.path();
+        ++compared;
     }
+    EXPECT_GT(compared, 0U) << folder << " is there and holds nothing";
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/recorded_data.h"
 #include "tests/unit/drivers/trace/trace_text.h"
 
 namespace gazeloop::drivers {
@@ -115,12 +116,12 @@ TEST(HtcVivePro, AppliesRollThenPitchThenYaw) {
 
 // ---- Recordings of people -----------------------------------------------------------------------
 
-const std::filesystem::path kRecordings =
-    std::filesystem::path(GAZELOOP_SOURCE_DIR) / ".." / "shared/data/traces/htc_vive_pro";
+constexpr const char* kRecordings = "traces/htc_vive_pro";
 
 std::vector<gaze::GazeTrace> recorded() {
     std::vector<std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(kRecordings)) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(tests::recorded_data(kRecordings))) {
         files.push_back(entry.path().string());
     }
     std::sort(files.begin(), files.end());
@@ -213,8 +214,8 @@ Velocities velocities(const gaze::GazeTrace& trace, std::size_t eye) {
 }
 
 TEST(HtcViveProRecordings, HaveTheEyesOnTheirSidesAndLookForward) {
-    if (!std::filesystem::exists(kRecordings)) {
-        GTEST_SKIP() << "no recorded data";
+    if (const std::string missing = tests::no_recorded_data(kRecordings); !missing.empty()) {
+        GTEST_SKIP() << missing;
     }
     const std::vector<gaze::GazeTrace> traces = recorded();
     ASSERT_FALSE(traces.empty()) << kRecordings << " is there and holds nothing";
@@ -243,8 +244,8 @@ TEST(HtcViveProRecordings, HaveTheEyesOnTheirSidesAndLookForward) {
 }
 
 TEST(HtcViveProRecordings, ShowTheVestibuloOcularReflex) {
-    if (!std::filesystem::exists(kRecordings)) {
-        GTEST_SKIP() << "no recorded data";
+    if (const std::string missing = tests::no_recorded_data(kRecordings); !missing.empty()) {
+        GTEST_SKIP() << missing;
     }
     const std::vector<gaze::GazeTrace> traces = recorded();
     ASSERT_FALSE(traces.empty()) << kRecordings << " is there and holds nothing";

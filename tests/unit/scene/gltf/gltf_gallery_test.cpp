@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "tests/support/recorded_data.h"
 #include "tests/unit/scene/gltf/loaded.h"
 
 namespace gazeloop::tests {
@@ -12,11 +13,11 @@ namespace {
 using testing::HasSubstr;
 
 TEST(GltfGallery, HoldsWhatItsMakerSays) {
-    const std::filesystem::path file =
-        GAZELOOP_SOURCE_DIR "/../shared/data/scenes/gallery/gallery.gltf";
-    if (!std::filesystem::exists(file)) {
-        GTEST_SKIP() << "no recorded data";
+    const std::string name = "scenes/gallery/gallery.gltf";
+    if (const std::string missing = no_recorded_data(name); !missing.empty()) {
+        GTEST_SKIP() << missing;
     }
+    const std::filesystem::path file = recorded_data(name);
     const auto scene = scene::gltf::load_gltf(file);
     ASSERT_TRUE(scene) << scene.error().message;
     const auto& data = scene->data;

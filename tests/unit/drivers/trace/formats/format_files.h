@@ -61,9 +61,4 @@ inline void expect_anatomy(const gaze::GazeTrace& trace) {
     EXPECT_GE(anatomy.vergence_deg->median, 0.0);
 }
 
-/// Folder of recordings of people; their tests are skipped where it is missing.
-inline std::filesystem::path recordings() {
-    return std::filesystem::path(GAZELOOP_SOURCE_DIR) / ".." / "shared/data/traces";
-}
-
 }  // namespace gazeloop::drivers

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/support/gzip.h"
+#include "tests/support/recorded_data.h"
 #include "tests/unit/drivers/trace/formats/format_files.h"
 #include "tests/unit/drivers/trace/trace_findings.h"
 
@@ -61,10 +62,11 @@ TEST(PicoNeo3, ReadsDecimalCommasBesideSemicolons) {
 }
 
 TEST(PicoNeo3Recording, IsRead) {
-    const auto file = recordings() / "pico_neo_3/boxing_VR.csv";
-    if (!std::filesystem::exists(file)) {
-        GTEST_SKIP() << "no recorded data";
+    const std::string name = "traces/pico_neo_3/boxing_VR.csv";
+    if (const std::string missing = tests::no_recorded_data(name); !missing.empty()) {
+        GTEST_SKIP() << missing;
     }
+    const auto file = tests::recorded_data(name);
     const gaze::GazeTrace trace = value_or_throw(read_trace(file.string()));
     EXPECT_EQ(trace.report.rows, 492U);
     EXPECT_EQ(trace.report.rows_dropped(), 0U);

@@ -8,6 +8,7 @@
 
 #include "drivers/trace/directions.h"
 #include "drivers/trace/trace_source.h"
+#include "tests/support/recorded_data.h"
 #include "tests/unit/drivers/trace/formats/format_files.h"
 #include "tests/unit/drivers/trace/trace_findings.h"
 
@@ -194,10 +195,11 @@ TEST(PupilLabs, ArrivesByTheTrackersDelay) {
 }
 
 TEST(PupilLabsRecording, IsRead) {
-    const auto file = recordings() / "pupil_invisible/trampoline_02/gaze.csv";
-    if (!std::filesystem::exists(file)) {
-        GTEST_SKIP() << "no recorded data";
+    const std::string name = "traces/pupil_invisible/trampoline_02/gaze.csv";
+    if (const std::string missing = tests::no_recorded_data(name); !missing.empty()) {
+        GTEST_SKIP() << missing;
     }
+    const auto file = tests::recorded_data(name);
     const gaze::GazeTrace trace = value_or_throw(read_trace(file.string()));
     EXPECT_EQ(trace.report.rows, 5338U);
     EXPECT_EQ(trace.report.rows_dropped(), 0U);

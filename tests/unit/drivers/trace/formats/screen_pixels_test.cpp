@@ -8,6 +8,7 @@
 #include <string>
 
 #include "drivers/trace/screen_geometry.h"
+#include "tests/support/recorded_data.h"
 #include "tests/unit/drivers/trace/formats/format_files.h"
 #include "tests/unit/drivers/trace/trace_findings.h"
 
@@ -100,10 +101,11 @@ TEST(ScreenPixels, IsRefusedFromAStream) {
 }
 
 TEST(AnderssonRecordings, AreAllRead) {
-    const auto folder = recordings() / "andersson2017";
-    if (!std::filesystem::exists(folder)) {
-        GTEST_SKIP() << "no recorded data";
+    const std::string name = "traces/andersson2017";
+    if (const std::string missing = tests::no_recorded_data(name); !missing.empty()) {
+        GTEST_SKIP() << missing;
     }
+    const auto folder = tests::recorded_data(name);
     std::size_t files = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (entry.path().extension() != ".csv") {

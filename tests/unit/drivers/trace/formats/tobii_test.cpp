@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/support/gzip.h"
+#include "tests/support/recorded_data.h"
 #include "tests/unit/drivers/trace/formats/format_files.h"
 #include "tests/unit/drivers/trace/trace_findings.h"
 
@@ -85,10 +86,11 @@ TEST(TobiiGlasses3, RefusesWhatIsNotIt) {
 }
 
 TEST(TobiiGlasses3Recording, IsReadWithTheLeftEyeOnTheLeft) {
-    const auto file = recordings() / "tobii_glasses_3/gazedata.gz";
-    if (!std::filesystem::exists(file)) {
-        GTEST_SKIP() << "no recorded data";
+    const std::string name = "traces/tobii_glasses_3/gazedata.gz";
+    if (const std::string missing = tests::no_recorded_data(name); !missing.empty()) {
+        GTEST_SKIP() << missing;
     }
+    const auto file = tests::recorded_data(name);
     const gaze::GazeTrace trace = value_or_throw(read_trace(file.string()));
     EXPECT_EQ(trace.report.rows, 6547U);
     EXPECT_EQ(trace.report.rows_dropped(), 0U);
