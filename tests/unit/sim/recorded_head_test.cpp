@@ -62,10 +62,10 @@ void print(const std::string& name, const Speeds& speeds) {
 
 TEST(RecordedHeads, MoveAsTheSimulatedOneDoes) {
     const std::string name = "traces/htc_vive_pro";
-    if (const std::string missing = tests::no_recorded_data(name); !missing.empty()) {
+    if (const std::string missing = gazeloop::tests::no_recorded_data(name); !missing.empty()) {
         GTEST_SKIP() << missing;
     }
-    const std::filesystem::path folder = tests::recorded_data(name);
+    const std::filesystem::path folder = gazeloop::tests::recorded_data(name);
     const Speeds simulated =
         speeds_of(generate_gaze({.tracker = {.rate_hz = 125.0, .noise_deg = 0.135}}, 300.0));
     print("simulated, 125 Hz", simulated);
