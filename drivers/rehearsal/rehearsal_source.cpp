@@ -12,10 +12,11 @@ RehearsalSource::RehearsalSource(const calibration::TargetSchedule& schedule,
     : schedule_(schedule),
       targets_(schedule.targets()),
       bad_point_(bad_point),
-      tracker_(simulation.tracker, simulation.seed, start_ns) {}
+      arriving_(sim::EyeTracker(simulation.tracker, simulation.seed, start_ns)) {}
 
 glm::dvec3 RehearsalSource::looks_at(double seconds) const {
     constexpr double kReaction_s = 0.2;
+    constexpr double kBeside_deg = 8.0;
     const auto shown = schedule_.at(seconds - kReaction_s);
     if (!shown) {
         return targets_.front();
@@ -23,32 +24,22 @@ glm::dvec3 RehearsalSource::looks_at(double seconds) const {
     glm::dvec3 direction = targets_[shown->target];
     if (shown->target == bad_point_) {
         calibration::GazeAngles angles = calibration::angles_of(direction);
-        angles.azimuth_rad += glm::radians(8.0);
+        angles.azimuth_rad += glm::radians(kBeside_deg);
         direction = calibration::direction_of(angles);
     }
     return direction;
 }
 
 void RehearsalSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) {
-    while (true) {
-        if (pending_) {
-            if (pending_->arrived.ns > now_ns) {
-                return;
-            }
-            samples.push_back(*pending_);
-            pending_.reset();
-        }
-        if (tracker_.finished() || tracker_.earliest_arrival_ns() > now_ns) {
-            return;
-        }
+    arriving_.take(now_ns, samples, [this](sim::EyeTracker& tracker) {
         sim::TrueGaze truth;
         for (gaze::EyeRay& ray : truth.eyes) {
-            ray.direction = looks_at(tracker_.next_s());
+            ray.direction = looks_at(tracker.next_s());
             ray.openness = 1.0;
             ray.valid = true;
         }
-        pending_ = tracker_.step(truth, false);
-    }
+        return tracker.step(truth, false);
+    });
 }
 
 std::string RehearsalSource::description() const {

@@ -7,7 +7,7 @@
 
 #include "drivers/gaze_source.h"
 #include "runtime/calibration/target_schedule.h"
-#include "sim/eye_tracker.h"
+#include "sim/arriving_samples.h"
 
 namespace gazeloop::drivers {
 
@@ -23,7 +23,7 @@ class RehearsalSource final : public GazeSource {
                     std::int64_t start_ns);
 
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;
-    [[nodiscard]] bool finished() const override { return tracker_.finished(); }
+    [[nodiscard]] bool finished() const override { return arriving_.finished(); }
     [[nodiscard]] std::string description() const override;
 
     /// Where both eyes truly look so many seconds after the start: a unit vector in the head.
@@ -33,8 +33,7 @@ class RehearsalSource final : public GazeSource {
     calibration::TargetSchedule schedule_;
     std::vector<glm::dvec3> targets_;
     std::optional<std::size_t> bad_point_;
-    sim::EyeTracker tracker_;
-    std::optional<gaze::GazeSample> pending_;  ///< taken, but not arrived yet
+    sim::ArrivingSamples arriving_;
 };
 
 }  // namespace gazeloop::drivers

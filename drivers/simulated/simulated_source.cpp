@@ -22,22 +22,11 @@ SimulatedSource::SimulatedSource(const sim::GazeSimulation& simulation, std::int
       start_ns_(start_ns),
       person_(simulation.eye, simulation.head, simulation.seed),
       head_(person_, start_ns),
-      tracker_(simulation.tracker, simulation.seed, start_ns) {}
+      arriving_(sim::EyeTracker(simulation.tracker, simulation.seed, start_ns)) {}
 
 void SimulatedSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) {
-    while (true) {
-        if (pending_) {
-            if (pending_->arrived.ns > now_ns) {
-                return;
-            }
-            samples.push_back(*pending_);
-            pending_.reset();
-        }
-        if (tracker_.finished() || tracker_.earliest_arrival_ns() > now_ns) {
-            return;
-        }
-        pending_ = tracker_.step(person_);
-    }
+    arriving_.take(now_ns, samples,
+                   [this](sim::EyeTracker& tracker) { return tracker.step(person_); });
 }
 
 const gaze::HeadMotion* SimulatedSource::head_track() const {

@@ -7,7 +7,7 @@
 
 #include "drivers/gaze_source.h"
 #include "runtime/gaze/head_motion.h"
-#include "sim/eye_tracker.h"
+#include "sim/arriving_samples.h"
 #include "sim/gaze_simulation.h"
 #include "sim/person.h"
 
@@ -26,7 +26,7 @@ class SimulatedSource final : public GazeSource {
     /// here.
     [[nodiscard]] const gaze::HeadMotion* head_track() const override;
     /// Where host time, int64 nanoseconds, ends.
-    [[nodiscard]] bool finished() const override { return tracker_.finished() && !pending_; }
+    [[nodiscard]] bool finished() const override { return arriving_.finished(); }
     [[nodiscard]] std::string description() const override;
 
     /// What the eyes truly do at a host time; before the start, what they do at the start.
@@ -47,8 +47,7 @@ class SimulatedSource final : public GazeSource {
     std::int64_t start_ns_;
     sim::Person person_;
     Head head_;
-    sim::EyeTracker tracker_;
-    std::optional<gaze::GazeSample> pending_;  ///< taken, but not arrived yet
+    sim::ArrivingSamples arriving_;
 };
 
 }  // namespace gazeloop::drivers

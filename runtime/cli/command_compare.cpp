@@ -34,7 +34,6 @@ struct CompareCommand {
     RunOptions options;
     std::string reference;
     std::string test;
-    std::string gaze = "0,0";
     QualityOptions quality;
     std::vector<std::string> limits;
     std::optional<double> frames_per_second;
@@ -221,7 +220,7 @@ ExitCode compare(const CompareCommand& command) {
     }
 
     const gaze::Eye eye = command.quality.which_eye();
-    const ComparedGaze gaze = value_or_throw(ComparedGaze::parse(command.gaze, eye));
+    const ComparedGaze gaze = value_or_throw(ComparedGaze::parse(command.quality.gaze, eye));
     const double frame_seconds = 1.0 / command.frames_per_second.value_or(display.refresh_hz);
 
     quality::ComparedThings things{.reference = command.reference,
@@ -304,10 +303,6 @@ void add_compare_command(Command program) {
         .required()
         .type("REFERENCE");
     app.option("test", command->test, "the same of what is to be judged").required().type("TEST");
-    app.option("--gaze", command->gaze,
-               "direction of gaze, degrees to the right and up, or a trace whose first sample is "
-               "the first frame's")
-        .type("AZ,EL|trace:FILE");
     command->quality.add_to(app);
     app.option("--fps", command->frames_per_second,
                "frames per second of a sequence; the display's refresh rate without it")

@@ -34,7 +34,6 @@ struct TradeCommand {
     std::string alphas;
     std::string slopes;
     std::vector<std::string> varied;
-    std::string gaze = "0,0";
     std::uint64_t frames = 4;
     std::uint64_t rounds = 3;
     std::uint64_t reference_samples = 16;
@@ -103,7 +102,7 @@ trade::SweepQuestion question_of(const TradeCommand& command, const run::Program
         question.views[gaze::index(one)] =
             display::profile_view(display, one, extent.width, extent.height);
     }
-    const ComparedGaze gaze = value_or_throw(ComparedGaze::parse(command.gaze, eye));
+    const ComparedGaze gaze = value_or_throw(ComparedGaze::parse(command.quality.gaze, eye));
     for (std::uint64_t frame = 0; frame < command.frames; ++frame) {
         const glm::dvec3 in_head = gaze.direction_at(
             std::llround(static_cast<double>(frame) * question.frame_seconds * 1e9));
@@ -154,7 +153,7 @@ ExitCode trade_of(const TradeCommand& command) {
                      {.progress = [](const std::string& said) { spdlog::info("{}", said); },
                       .interrupted = run::interrupted}));
     const trade::SweepSubject subject{
-        .display = display.name, .gaze = command.gaze, .device = context.device_name()};
+        .display = display.name, .gaze = command.quality.gaze, .device = context.device_name()};
     if (json != "-" && command.csv != "-" && !command.options.log.quiet) {
         fmt::print("{}", trade::sweep_text(subject, question, rows));
     }
@@ -184,7 +183,8 @@ void add_trade_command(Command program) {
     RunOptions& options = command->options;
     options.aliases = {
         {"--display", "profile.display", "display profile, by name or .toml file", ""},
-        {"--scene", "render.scene", "scene to render", ""},
+        {"--scene", "render.scene", "scene to render: raymarch, gallery, or a .gltf or .glb file",
+         ""},
         {"--spp", "render.spp", "samples per texel or pixel, 1 to 16", ""},
     };
     options.switches.clear();
@@ -198,10 +198,6 @@ void add_trade_command(Command program) {
     app.option("--vary", command->varied,
                "values of any setting of a method; may be repeated: all combinations are rendered")
         .type("KEY=V1,V2,...");
-    app.option("--gaze", command->gaze,
-               "direction of gaze, degrees to the right and up, or a trace whose first sample is "
-               "the first frame's")
-        .type("AZ,EL|trace:FILE");
     app.option("--frames", command->frames, "frames at the display's rate (4); 1: a still")
         .number_between(1, 100'000);
     app.option("--rounds", command->rounds,

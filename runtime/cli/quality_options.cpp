@@ -10,6 +10,11 @@
 namespace gazeloop::cli {
 
 void QualityOptions::add_to(Command command) {
+    command
+        .option("--gaze", gaze,
+                "direction of gaze, degrees to the right and up, or a trace whose first sample is "
+                "the first frame's")
+        .type("AZ,EL|trace:FILE");
     command.option("--eye", eye, "whose view is compared: left or right").one_of({"left", "right"});
     command.option("--metric", metrics,
                    "contrast, flip, ssim or psnr; may be repeated; all without it");

@@ -140,32 +140,18 @@ Json sidecar_of(const gaze::GazeTrace& trace, const Recording& recording, const 
 void write_rows(const gaze::GazeTrace& trace, const Recording& recording, const Extras& extras,
                 std::ostream& out) {
     LineWriter line('\t', kMissing);
-    const auto add_if_known = [&](double value) {
-        if (value >= 0.0) {
-            line.add(value);
-        } else {
-            line.add_missing();
-        }
-    };
     for (const gaze::GazeSample& sample : trace.samples) {
         if (!sample.sampled.known()) {
             continue;
         }
         const gaze::EyeRay& ray = sample.eyes[gaze::index(recording.eye)];
-        const glm::dvec3& d = ray.direction;
         line.add(sample.sampled.ns);
-        if (ray.valid) {
-            line.add(glm::degrees(std::atan2(d.x, -d.z)));
-            line.add(glm::degrees(std::atan2(d.y, std::hypot(d.x, d.z))));
-        } else {
-            line.add_missing();
-            line.add_missing();
-        }
+        line.add_angles(ray);
         if (extras.openness) {
-            add_if_known(ray.openness);
+            line.add_if_known(ray.openness);
         }
         if (extras.confidence) {
-            add_if_known(ray.confidence);
+            line.add_if_known(ray.confidence);
         }
         if (extras.origin) {
             line.add_finite(ray.origin_m);

@@ -101,29 +101,15 @@ const TraceFormat& angle_table() { return kFormat; }
 void write_angle_table(const gaze::GazeTrace& trace, std::ostream& out) {
     out << fmt::format("{}\n", fmt::join(kColumns, ","));
     LineWriter line;
-    const auto add_if_known = [&](double value) {
-        if (value >= 0.0) {
-            line.add(value);
-        } else {
-            line.add_missing();
-        }
-    };
     for (const gaze::GazeSample& sample : trace.samples) {
         if (!sample.sampled.known()) {
             continue;
         }
         line.add_text(seconds_text(sample.sampled.ns));
         for (const gaze::EyeRay& ray : sample.eyes) {
-            const glm::dvec3& d = ray.direction;
-            if (ray.valid) {
-                line.add(glm::degrees(std::atan2(d.x, -d.z)));
-                line.add(glm::degrees(std::atan2(d.y, std::hypot(d.x, d.z))));
-            } else {
-                line.add_missing();
-                line.add_missing();
-            }
-            add_if_known(ray.openness);
-            add_if_known(ray.confidence);
+            line.add_angles(ray);
+            line.add_if_known(ray.openness);
+            line.add_if_known(ray.confidence);
         }
         if (sample.head) {
             const glm::dquat& q = sample.head->orientation;

@@ -3,10 +3,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
 #include <ostream>
 #include <string>
 #include <string_view>
+
+#include "runtime/gaze/gaze_sample.h"
 
 namespace gazeloop::drivers {
 
@@ -41,6 +44,27 @@ class LineWriter {
         add_finite(v.x);
         add_finite(v.y);
         add_finite(v.z);
+    }
+
+    /// An openness or confidence, which is below 0 where it is unknown.
+    void add_if_known(double value) {
+        if (value >= 0.0) {
+            add(value);
+        } else {
+            add_missing();
+        }
+    }
+    /// Azimuth and elevation of an eye in degrees, to the right and up, -Z forward; missing where
+    /// the tracker does not vouch for it.
+    void add_angles(const gaze::EyeRay& ray) {
+        if (!ray.valid) {
+            add_missing();
+            add_missing();
+            return;
+        }
+        const glm::dvec3& d = ray.direction;
+        add(glm::degrees(std::atan2(d.x, -d.z)));
+        add(glm::degrees(std::atan2(d.y, std::hypot(d.x, d.z))));
     }
 
     /// At least one cell was added.
