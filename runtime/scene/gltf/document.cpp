@@ -12,6 +12,7 @@
 
 #include "runtime/scene/gltf/check_document.h"
 #include "runtime/scene/gltf/json_rules.h"
+#include "runtime/scene/gltf/json_text.h"
 
 namespace gazeloop::scene::gltf {
 namespace {

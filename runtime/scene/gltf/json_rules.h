@@ -11,10 +11,6 @@ namespace gazeloop::scene::gltf {
 /// name.
 [[nodiscard]] bool is_supported_extension(std::string_view name);
 
-/// A file's JSON. Refuses what is no JSON of glTF 2.x: syntax, nesting deeper than 64, over 1 GiB.
-/// Notes names that are there twice, and a byte order mark.
-[[nodiscard]] nlohmann::json parse_json(std::string_view text, Notes& notes);
-
 /// Holds a document against the standard's own rules (glTF 2.0 section 5, and those of the
 /// supported extensions): what must be there, types, ranges, words, lengths of lists, and that each
 /// index points at something. Refuses with the JSON pointer of the first offence.
