@@ -16,7 +16,7 @@
 
 #include "runtime/error.h"
 #include "runtime/scene/mesh/check_mesh_data.h"
-#include "runtime/scene/mesh/mip_chain.h"
+#include "runtime/scene/mesh_texture.h"
 #include "runtime/scene/sky/sky_cube.h"
 #include "runtime/vulkan/raster_pipeline.h"
 
@@ -25,7 +25,6 @@ namespace {
 
 using Type = vk::DescriptorType;
 
-constexpr std::size_t kTextures = 5;
 constexpr std::size_t kMaterialStride = 256;  ///< the most that offsets of uniforms may ask for
 static_assert(sizeof(MaterialUniforms) <= kMaterialStride);
 
@@ -47,33 +46,6 @@ constexpr std::array kAttributes{
                                         offsetof(mesh::Vertex, color))};
 constexpr std::array kDepthAttributes{kAttributes[0], kAttributes[3], kAttributes[4]};
 
-vk::Format format_of(const mesh::Image& image) {
-    if (image.format == mesh::TexelFormat::Rgba16) {
-        return vk::Format::eR16G16B16A16Unorm;
-    }
-    return image.color_space == mesh::ColorSpace::Srgb ? vk::Format::eR8G8B8A8Srgb
-                                                       : vk::Format::eR8G8B8A8Unorm;
-}
-
-vulkan::LayeredImage texture_of(const vulkan::Context& context, const mesh::Image& image) {
-    if (image.format == mesh::TexelFormat::Rgba16 && image.color_space == mesh::ColorSpace::Srgb) {
-        return texture_of(context, mesh::as_light(image));
-    }
-    using Usage = vk::ImageUsageFlagBits;
-    std::vector<vulkan::LevelTexels> levels{
-        {0, 0, vk::Extent2D(image.width, image.height), image.texels}};
-    for (mesh::MipLevel& level : mesh::smaller_levels(image)) {
-        levels.push_back({static_cast<std::uint32_t>(levels.size()), 0,
-                          vk::Extent2D(level.width, level.height), std::move(level.texels)});
-    }
-    vulkan::LayeredImage texture(context, {.extent = vk::Extent2D(image.width, image.height),
-                                           .format = format_of(image),
-                                           .usage = Usage::eSampled | Usage::eTransferDst,
-                                           .levels = static_cast<std::uint32_t>(levels.size())});
-    vulkan::upload(context, texture, levels);
-    return texture;
-}
-
 vk::SamplerAddressMode mode_of(mesh::Wrap wrap) {
     switch (wrap) {
         case mesh::Wrap::Repeat:
@@ -86,62 +58,11 @@ vk::SamplerAddressMode mode_of(mesh::Wrap wrap) {
     return vk::SamplerAddressMode::eRepeat;
 }
 
-TexelKind kind_of(const mesh::Material& material) {
-    if (material.transmission > 0.0F) {
-        return TexelKind::Glass;
-    }
-    if (material.alpha_mode == mesh::AlphaMode::Blend) {
-        return TexelKind::Veil;
-    }
-    return material.unlit ? TexelKind::Unlit : TexelKind::Surface;
-}
-
-std::array<const mesh::TextureUse*, kTextures> textures_of(const mesh::Material& material) {
-    return {&material.base_color_texture, &material.metallic_roughness_texture,
-            &material.normal_texture, &material.occlusion_texture, &material.emissive_texture};
-}
-
-MaterialUniforms uniforms_of(const mesh::Material& material) {
-    MaterialUniforms uniforms;
-    uniforms.base_color = material.base_color;
-    uniforms.factors = {material.metallic, material.roughness, material.normal_scale,
-                        material.occlusion_strength};
-    uniforms.emissive = glm::vec4(material.emissive, material.alpha_cutoff);
-    uniforms.more = {material.transmission, 0.0F, 0.0F, 0.0F};
-    std::size_t row = 0;
-    for (const mesh::TextureUse* use : textures_of(material)) {
-        for (int i = 0; i < 2; ++i) {
-            uniforms.transforms.at(row++) = {use->transform[0][i], use->transform[1][i],
-                                             use->transform[2][i], static_cast<float>(use->uv_set)};
-        }
-    }
-    return uniforms;
-}
-
 mesh::Light default_sun() {
     mesh::Light light;
     light.intensity = 3.0F;
     light.direction = glm::normalize(glm::vec3(-0.5F, -0.75F, -0.45F));
     return light;
-}
-
-LightUniforms light_uniforms(const mesh::Light& light) {
-    LightUniforms uniforms;
-    const bool everywhere = light.kind == mesh::LightKind::Directional;
-    uniforms.place =
-        everywhere ? glm::vec4(-light.direction, 0.0F) : glm::vec4(light.position_m, 1.0F);
-    uniforms.axis = glm::vec4(light.direction, everywhere || std::isinf(light.range_m)
-                                                   ? 0.0F
-                                                   : 1.0F / (light.range_m * light.range_m));
-    uniforms.color = glm::vec4(light.color * light.intensity, 0.0F);
-    uniforms.shape = {0.0F, 1.0F, 0.0F, 0.0F};
-    if (light.kind == mesh::LightKind::Spot) {
-        const float outer = std::cos(light.outer_cone_rad);
-        const float scale = 1.0F / std::max(0.001F, std::cos(light.inner_cone_rad) - outer);
-        uniforms.shape.x = scale;
-        uniforms.shape.y = -outer * scale;
-    }
-    return uniforms;
 }
 
 template <typename T>
@@ -395,7 +316,7 @@ void MeshContent::make_lights(const mesh::MeshData& data) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const mesh::Light& light = lights[i];
         LightUniforms& uniforms = lighting_.lights.at(i);
-        uniforms = light_uniforms(light);
+        uniforms = uniforms_of(light);
         if (!casts(light)) {
             continue;
         }

@@ -5,6 +5,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
+#include "runtime/scene/mesh/mesh_data.h"
+
 namespace gazeloop::scene {
 
 // What the shaders of mesh scenes read, std140.
@@ -65,5 +67,14 @@ enum MeshConstantId : std::uint32_t {
 
 /// Kinds of a G-buffer's texel (shaders/lib/g_buffer.glsl).
 enum class TexelKind : std::uint8_t { Unlit, Surface, Glass, Veil };
+
+[[nodiscard]] TexelKind kind_of(const mesh::Material& material);
+
+/// In the order of the bindings and of MaterialUniforms::transforms.
+[[nodiscard]] std::array<const mesh::TextureUse*, 5> textures_of(const mesh::Material& material);
+
+[[nodiscard]] MaterialUniforms uniforms_of(const mesh::Material& material);
+/// Without its shadow map.
+[[nodiscard]] LightUniforms uniforms_of(const mesh::Light& light);
 
 }  // namespace gazeloop::scene
