@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "runtime/cli/commands.h"
-#include "runtime/cli/compared_gaze.h"
 #include "runtime/cli/quality_options.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/probe/frame_files.h"
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/quality/comparison_report.h"
 #include "runtime/quality/heat_map.h"
+#include "runtime/recordings/compared_gaze.h"
 #include "runtime/render/png_file.h"
 #include "runtime/report/output_file.h"
 #include "runtime/report/summary_json.h"
@@ -220,7 +220,8 @@ ExitCode compare(const CompareCommand& command) {
     }
 
     const gaze::Eye eye = command.quality.which_eye();
-    const ComparedGaze gaze = value_or_throw(ComparedGaze::parse(command.quality.gaze, eye));
+    const recordings::ComparedGaze gaze =
+        value_or_throw(recordings::ComparedGaze::parse(command.quality.gaze, eye));
     const double frame_seconds = 1.0 / command.frames_per_second.value_or(display.refresh_hz);
 
     quality::ComparedThings things{.reference = command.reference,

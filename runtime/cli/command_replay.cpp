@@ -13,12 +13,12 @@
 #include "drivers/session/session_source.h"
 #include "drivers/trace/read_trace.h"
 #include "runtime/cli/commands.h"
-#include "runtime/cli/recorded_gaze.h"
+#include "runtime/cli/recorded_gaze_options.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/profiles/profiles_in_force.h"
+#include "runtime/recordings/trace_of_session.h"
 #include "runtime/run/frame_run.h"
 #include "runtime/run/gaze_sources.h"
-#include "runtime/run/trace_of_session.h"
 #include "runtime/session/playback.h"
 #include "runtime/settings/recorded_values.h"
 
@@ -38,7 +38,7 @@ ExitCode replay_trace(const ReplayCommand& command, gaze::GazeTrace trace,
     const profiles::TrackerProfile tracker =
         value_or_throw(profiles::tracker_in_force(settings.values().profile, settings));
     // A session knows when its samples arrived; other traces get the profile's delay.
-    const std::int64_t delay_ns = trace.format == run::kSessionFormat ? 0 : tracker.delay_ns;
+    const std::int64_t delay_ns = trace.format == recordings::kSessionFormat ? 0 : tracker.delay_ns;
     request.make_source = run::trace_player(std::move(trace), delay_ns, command.speed);
     request.clock = command.clock == "wall" ? run::RunClock::Wall : run::RunClock::Virtual;
     request.loop.end_with_source = true;
@@ -134,7 +134,7 @@ ExitCode replay_session(const ReplayCommand& command, run::ProgramSettings& sett
     }
     value_or_throw(settings.check());
     if (command.clock == "wall") {
-        return replay_trace(command, run::trace_of_session(session), settings, request);
+        return replay_trace(command, recordings::trace_of_session(session), settings, request);
     }
     if (command.speed != 1.0) {
         throw SetupError(ErrorKind::Usage,

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "runtime/cli/commands.h"
-#include "runtime/cli/compared_gaze.h"
 #include "runtime/cli/quality_options.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/methods/registry.h"
 #include "runtime/present/scaled_extent.h"
 #include "runtime/profiles/profiles_in_force.h"
+#include "runtime/recordings/compared_gaze.h"
 #include "runtime/report/output_file.h"
 #include "runtime/report/summary_json.h"
 #include "runtime/run/interrupt.h"
@@ -102,7 +102,8 @@ trade::SweepQuestion question_of(const TradeCommand& command, const run::Program
         question.views[gaze::index(one)] =
             display::profile_view(display, one, extent.width, extent.height);
     }
-    const ComparedGaze gaze = value_or_throw(ComparedGaze::parse(command.quality.gaze, eye));
+    const recordings::ComparedGaze gaze =
+        value_or_throw(recordings::ComparedGaze::parse(command.quality.gaze, eye));
     for (std::uint64_t frame = 0; frame < command.frames; ++frame) {
         const glm::dvec3 in_head = gaze.direction_at(
             std::llround(static_cast<double>(frame) * question.frame_seconds * 1e9));

@@ -2,8 +2,8 @@
 
 #include "drivers/trace/axes_correction.h"
 #include "drivers/trace/read_trace.h"
+#include "runtime/recordings/trace_log.h"
 #include "runtime/run/interrupt.h"
-#include "runtime/run/trace_log.h"
 #include "runtime/time/clock.h"
 #include "sim/gaze_generator.h"
 
@@ -36,7 +36,7 @@ gaze::GazeTrace PlayedGaze::samples() const {
     drivers::ReadOptions options = read;
     options.axes = drivers::axes_correction_named(axes);
     gaze::GazeTrace samples = value_or_throw(drivers::read_trace(trace, options));
-    run::log_trace(samples);
+    recordings::log_trace(samples);
     return samples;
 }
 

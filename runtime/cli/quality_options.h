@@ -15,7 +15,7 @@ struct QualityOptions {
     quality::DisplayLight light;
     std::uint64_t threads = 0;
     std::string eye = "left";
-    std::string gaze = "0,0";  ///< see ComparedGaze::parse
+    std::string gaze = "0,0";  ///< see recordings::ComparedGaze::parse
 
     void add_to(Command command);
 

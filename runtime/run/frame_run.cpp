@@ -21,6 +21,8 @@
 #include "runtime/preview/preview_feed.h"
 #include "runtime/preview/window_process.h"
 #include "runtime/profiles/profiles_in_force.h"
+#include "runtime/recordings/trace_log.h"
+#include "runtime/recordings/trace_of_session.h"
 #include "runtime/render/off_screen.h"
 #include "runtime/render/snapshot.h"
 #include "runtime/report/lag_reasons.h"
@@ -36,8 +38,6 @@
 #include "runtime/run/run_monitor.h"
 #include "runtime/run/run_summary.h"
 #include "runtime/run/run_target.h"
-#include "runtime/run/trace_log.h"
-#include "runtime/run/trace_of_session.h"
 #include "runtime/run/tracker_figures.h"
 #include "runtime/scene/scenes.h"
 #include "runtime/session/replay_check.h"
@@ -348,7 +348,7 @@ class FrameRun {
 
     /// What its reader found is said wherever the run is spoken of.
     void tell_of_trace(const gaze::GazeTrace& trace) {
-        log_trace(trace);
+        recordings::log_trace(trace);
         for (const std::string& text : report::trace_events(trace.report)) {
             trace_.take(frame::kTraceEvent.name, text);
             if (recorder_ != nullptr) {
@@ -425,7 +425,7 @@ class FrameRun {
     std::unique_ptr<drivers::GazeSource> calibrated(std::unique_ptr<drivers::GazeSource> source) {
         const bool recorded =
             request_.clock == RunClock::Recorded ||
-            (source->trace() != nullptr && source->trace()->format == kSessionFormat);
+            (source->trace() != nullptr && source->trace()->format == recordings::kSessionFormat);
         if (!calibration_ || recorded || source->fixed_in_head()) {
             return source;
         }

@@ -1,28 +1,13 @@
-#include "runtime/cli/compared_gaze.h"
+#include "runtime/recordings/compared_gaze.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 
 #include "drivers/fixed/fixed_source.h"
-#include "drivers/trace/read_trace.h"
-#include "runtime/run/trace_of_session.h"
+#include "runtime/recordings/recorded_gaze.h"
 
-namespace gazeloop::cli {
-namespace {
-
-Expected<gaze::GazeTrace> trace_of(const std::string& file) {
-    if (!session::looks_like_session(file)) {
-        return drivers::read_trace(file);
-    }
-    auto opened = session::OpenSession::open(file);
-    if (!opened) {
-        return std::unexpected(opened.error());
-    }
-    return run::trace_of_session(std::move(*opened));
-}
-
-}  // namespace
+namespace gazeloop::recordings {
 
 Expected<ComparedGaze> ComparedGaze::parse(const std::string& text, gaze::Eye eye) {
     constexpr std::string_view kTrace = "trace:";
@@ -37,12 +22,9 @@ Expected<ComparedGaze> ComparedGaze::parse(const std::string& text, gaze::Eye ey
         return gaze;
     }
     const std::string file = text.substr(kTrace.size());
-    const auto trace = trace_of(file);
-    if (!trace) {
-        return std::unexpected(trace.error());
-    }
+    const gaze::GazeTrace trace = recorded_gaze(file, {});
     gaze.moves_ = true;
-    for (const gaze::GazeSample& sample : trace->samples) {
+    for (const gaze::GazeSample& sample : trace.samples) {
         if (!sample.sampled.known()) {
             continue;
         }
@@ -73,4 +55,4 @@ std::optional<std::int64_t> ComparedGaze::end_ns() const {
     return moves_ ? std::optional(end_ns_) : std::nullopt;
 }
 
-}  // namespace gazeloop::cli
+}  // namespace gazeloop::recordings

@@ -1,4 +1,4 @@
-#include "runtime/run/trace_of_session.h"
+#include "runtime/recordings/trace_of_session.h"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 
 #include "runtime/session/playback.h"
 
-namespace gazeloop::run {
+namespace gazeloop::recordings {
 namespace {
 
 /// Makes a session's gaze a trace, in the order in which it arrived, the first of it at 0. What has
@@ -61,4 +61,4 @@ gaze::GazeTrace trace_of_session(const session::OpenSession& session) {
     return trace.take();
 }
 
-}  // namespace gazeloop::run
+}  // namespace gazeloop::recordings

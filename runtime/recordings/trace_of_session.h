@@ -5,7 +5,7 @@
 #include "runtime/gaze/gaze_trace.h"
 #include "runtime/session/open_session.h"
 
-namespace gazeloop::run {
+namespace gazeloop::recordings {
 
 /// The format of such a trace.
 inline constexpr std::string_view kSessionFormat = "session";
@@ -14,4 +14,4 @@ inline constexpr std::string_view kSessionFormat = "session";
 /// Throws SetupError (BadInput): damaged, or it holds no gaze.
 [[nodiscard]] gaze::GazeTrace trace_of_session(const session::OpenSession& session);
 
-}  // namespace gazeloop::run
+}  // namespace gazeloop::recordings

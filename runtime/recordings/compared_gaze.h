@@ -2,19 +2,21 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "runtime/error.h"
 #include "runtime/gaze/eye.h"
 
-namespace gazeloop::cli {
+namespace gazeloop::recordings {
 
 /// Where one eye looks while pictures are compared: at one place, or along a recorded trace.
 class ComparedGaze {
   public:
     /// "AZ,EL" in degrees, or "trace:FILE" (a trace or a session). Errors: Usage for what is
-    /// neither; BadInput as read_trace(), and for a trace without a valid sample of this eye.
+    /// neither; BadInput for a trace without a valid sample of this eye.
+    /// @throws SetupError as recorded_gaze()
     static Expected<ComparedGaze> parse(const std::string& text, gaze::Eye eye);
 
     /// In the head frame, so long after the first sample: by the newest valid sample until then, or
@@ -35,4 +37,4 @@ class ComparedGaze {
     std::vector<Looked> looked_;  ///< in order of time; at least one
 };
 
-}  // namespace gazeloop::cli
+}  // namespace gazeloop::recordings

@@ -1,10 +1,10 @@
-#include "runtime/run/trace_log.h"
+#include "runtime/recordings/trace_log.h"
 
 #include <spdlog/spdlog.h>
 
 #include "runtime/report/trace_account.h"
 
-namespace gazeloop::run {
+namespace gazeloop::recordings {
 
 void log_trace(const gaze::GazeTrace& trace) {
     const auto level = trace.report.worth_a_warning() ? spdlog::level::warn : spdlog::level::info;
@@ -15,4 +15,4 @@ void log_trace(const gaze::GazeTrace& trace) {
     }
 }
 
-}  // namespace gazeloop::run
+}  // namespace gazeloop::recordings

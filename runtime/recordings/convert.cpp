@@ -1,0 +1,108 @@
+#include "runtime/recordings/convert.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "drivers/trace/formats/angle_table.h"
+#include "drivers/trace/native_trace.h"
+#include "drivers/trace/text/text_output.h"
+#include "runtime/recordings/recorded_gaze.h"
+#include "runtime/report/gaze_report.h"
+#include "runtime/report/output_file.h"
+#include "runtime/report/summary_json.h"
+
+namespace gazeloop::recordings {
+namespace {
+
+struct Written {
+    std::vector<std::string> files;
+    std::vector<std::string> left_out;
+};
+
+void check_table_output(const Conversion& conversion) {
+    if (std::filesystem::is_directory(conversion.out)) {
+        throw SetupError(
+            ErrorKind::BadInput,
+            fmt::format("{}: a directory: name a file in it, or --to bids", conversion.out));
+    }
+}
+
+/// What a table of angles has no columns for.
+std::vector<std::string> beside_angles(const gaze::GazeTrace& trace) {
+    bool places = false;
+    bool arrivals = false;
+    std::size_t untimed = 0;
+    for (const gaze::GazeSample& sample : trace.samples) {
+        places = places || sample.eyes[0].origin_m != glm::dvec3{0.0} ||
+                 sample.eyes[1].origin_m != glm::dvec3{0.0};
+        arrivals = arrivals || sample.arrived.known();
+        untimed += sample.sampled.known() ? 0U : 1U;
+    }
+    std::vector<std::string> left_out;
+    if (places) {
+        left_out.emplace_back("each eye's place");
+    }
+    if (arrivals) {
+        left_out.emplace_back("when samples arrived");
+    }
+    if (untimed > 0) {
+        left_out.push_back(fmt::format("{} samples whose time nobody knows", untimed));
+    }
+    return left_out;
+}
+
+Written write(const Conversion& conversion, const gaze::GazeTrace& trace) {
+    if (conversion.to == "bids") {
+        const drivers::WrittenBids bids =
+            value_or_throw(drivers::write_bids(trace, conversion.out, conversion.labels));
+        Written written{.files = {}, .left_out = bids.left_out};
+        for (const std::filesystem::path& file : bids.files) {
+            written.files.push_back(file.string());
+        }
+        return written;
+    }
+    check_table_output(conversion);
+    if (conversion.to == "angles") {
+        drivers::TextOutput out(conversion.out);
+        drivers::write_angle_table(trace, out.stream());
+        value_or_throw(out.close());
+        return {{conversion.out}, beside_angles(trace)};
+    }
+    value_or_throw(drivers::write_native_trace(trace, conversion.out));
+    return {{conversion.out, conversion.out + ".json"}, {}};
+}
+
+}  // namespace
+
+void convert(const Conversion& conversion) {
+    if (!conversion.json.empty()) {
+        value_or_throw(report::check_output(conversion.json));
+    }
+    const std::array<report::NamedFile, 2> outputs{
+        {{"the file to write", conversion.out}, {"--json", conversion.json}}};
+    const std::array<report::NamedFile, 1> inputs{{{"the recording", conversion.in}}};
+    value_or_throw(report::check_apart(outputs, inputs));
+    const gaze::GazeTrace trace = recorded_gaze(conversion.in, conversion.read);
+    const Written written = write(conversion, trace);
+    if (conversion.json != "-") {
+        fmt::print("{}", report::gaze_text(trace));
+        for (const std::string& file : written.files) {
+            fmt::print("wrote    {}\n", file);
+        }
+        for (const std::string& what : written.left_out) {
+            fmt::print("left out {}\n", what);
+        }
+    }
+    if (!conversion.json.empty()) {
+        nlohmann::ordered_json json = report::gaze_json(trace);
+        json["written"] = {
+            {"format", conversion.to}, {"files", written.files}, {"left_out", written.left_out}};
+        value_or_throw(report::write_text(conversion.json, report::json_text(json)));
+    }
+}
+
+}  // namespace gazeloop::recordings

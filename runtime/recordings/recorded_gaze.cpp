@@ -1,0 +1,42 @@
+#include "runtime/recordings/recorded_gaze.h"
+
+#include <utility>
+
+#include "drivers/trace/read_trace.h"
+#include "runtime/recordings/trace_of_session.h"
+
+namespace gazeloop::recordings {
+namespace {
+
+gaze::GazeTrace session_gaze(const std::string& file) {
+    return trace_of_session(value_or_throw(session::OpenSession::open(file)));
+}
+
+}  // namespace
+
+gaze::GazeTrace recorded_gaze(const std::string& file, const drivers::ReadOptions& options) {
+    return session::looks_like_session(file) ? session_gaze(file)
+                                             : value_or_throw(drivers::read_trace(file, options));
+}
+
+gaze::GazeTrace recorded_gaze_even_refused(const std::string& file,
+                                           const drivers::ReadOptions& options,
+                                           std::string& refusal) {
+    if (session::looks_like_session(file)) {
+        return session_gaze(file);
+    }
+    auto trace = drivers::read_trace(file, options);
+    if (trace || options.accept_repairs) {
+        return value_or_throw(std::move(trace));
+    }
+    drivers::ReadOptions accepting = options;
+    accepting.accept_repairs = true;
+    auto repaired = drivers::read_trace(file, accepting);
+    if (!repaired) {
+        throw SetupError(trace.error());
+    }
+    refusal = trace.error().message;
+    return std::move(*repaired);
+}
+
+}  // namespace gazeloop::recordings
