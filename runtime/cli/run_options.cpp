@@ -152,6 +152,13 @@ Expected<void> RunOptions::set_in(settings::Settings& settings, bool standard_fi
     return {};
 }
 
+bool RunOptions::prints(const settings::Settings& settings) const {
+    if (print_config) {
+        fmt::print("{}", settings.describe());
+    }
+    return print_config;
+}
+
 void RunOptions::fill(run::FrameRunRequest& request) const {
     const auto path = [](const std::string& text) {
         return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text);

@@ -84,6 +84,9 @@ struct RunOptions {
     /// The same without the file of a kernel table.
     Expected<void> set_in(settings::Settings& settings, bool standard_files) const;
 
+    /// Whether --print-config asked for the settings alone; they have then been printed.
+    [[nodiscard]] bool prints(const settings::Settings& settings) const;
+
     /// What these options say of a run.
     void fill(run::FrameRunRequest& request) const;
 };

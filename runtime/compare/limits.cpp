@@ -1,0 +1,87 @@
+#include "runtime/compare/limits.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "runtime/settings/nearest_name.h"
+
+namespace gazeloop::compare {
+namespace {
+
+Limit parse_limit(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    Limit limit{.key = text.substr(0, equals), .value = 0.0};
+    const char* const end = text.data() + text.size();
+    const char* const begin = equals == std::string::npos ? end : text.data() + equals + 1;
+    const auto [stopped, error] = std::from_chars(begin, end, limit.value);
+    if (error != std::errc{} || stopped != end || !std::isfinite(limit.value)) {
+        throw SetupError(
+            ErrorKind::Usage,
+            fmt::format("--limit: '{}' must be FIGURE=NUMBER, e.g. contrast=0.5", text));
+    }
+    return limit;
+}
+
+/// Refuses limits of figures that this comparison will not have.
+void check_limits(const std::vector<Limit>& limits, const quality::MetricChoice& metrics) {
+    quality::FrameQuality any;
+    const auto asked = [&](quality::Metric metric) {
+        return metrics[static_cast<std::size_t>(metric)];
+    };
+    if (asked(quality::Metric::Contrast)) {
+        any.contrast.emplace();
+    }
+    if (asked(quality::Metric::Flip)) {
+        any.flip.emplace();
+    }
+    if (asked(quality::Metric::Ssim)) {
+        any.ssim.emplace();
+    }
+    if (asked(quality::Metric::Psnr)) {
+        any.psnr_db.emplace();
+    }
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : quality::figures_of(any)) {
+        keys.push_back(key);
+    }
+    for (const Limit& limit : limits) {
+        if (std::ranges::find(keys, limit.key) == keys.end()) {
+            throw SetupError(
+                ErrorKind::Usage,
+                fmt::format("--limit: {}", settings::unknown_name("figure", limit.key, keys)));
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Limit> parse_limits(const std::vector<std::string>& texts,
+                                const quality::MetricChoice& metrics) {
+    std::vector<Limit> limits;
+    for (const std::string& text : texts) {
+        limits.push_back(parse_limit(text));
+    }
+    check_limits(limits, metrics);
+    return limits;
+}
+
+bool within(const std::vector<Limit>& limits, const std::vector<quality::QualityFigure>& figures) {
+    bool kept = true;
+    for (const Limit& limit : limits) {
+        const auto found = std::ranges::find(figures, limit.key, &quality::QualityFigure::key);
+        const bool worse =
+            found->lower_is_better ? found->mean > limit.value : found->mean < limit.value;
+        if (worse) {
+            spdlog::error("{} is {:.4f}, worse than the limit of {:g}", limit.key, found->mean,
+                          limit.value);
+            kept = false;
+        }
+    }
+    return kept;
+}
+
+}  // namespace gazeloop::compare
