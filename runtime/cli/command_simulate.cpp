@@ -1,73 +1,13 @@
-#include <fmt/core.h>
-
-#include <memory>
-
-#include "drivers/trace/native_trace.h"
 #include "runtime/cli/commands.h"
-#include "runtime/cli/run_options.h"
-#include "runtime/cli/simulate_steam_frame.h"
-#include "runtime/cli/simulate_tracker.h"
-#include "runtime/profiles/profiles_in_force.h"
-#include "sim/gaze_generator.h"
 
 namespace gazeloop::cli {
-namespace {
-
-struct SimulateGazeCommand {
-    RunOptions options;  // of which only the settings are used
-    std::string file;
-    double seconds = 60.0;
-};
-
-ExitCode simulate_gaze(const SimulateGazeCommand& command) {
-    run::ProgramSettings settings;
-    value_or_throw(command.options.apply_to(settings, true));
-    value_or_throw(profiles::simulate_tracker_in_force(settings.values().profile, settings));
-    if (command.options.print_config) {
-        fmt::print("{}", settings.describe());
-        return ExitCode::Ok;
-    }
-    if (command.file == "-") {
-        throw SetupError(ErrorKind::Usage,
-                         "simulate gaze -: a trace is a file with a second one beside it that "
-                         "describes it: name the file, or /dev/stdout for the trace alone");
-    }
-    const sim::GazeSimulation& simulation = settings.values().sim;
-    const gaze::GazeTrace trace = sim::generate_gaze(simulation, command.seconds);
-    if (trace.samples.empty()) {
-        throw SetupError(ErrorKind::Usage, "sim.dropout_percent: no sample is left to write");
-    }
-    value_or_throw(drivers::write_native_trace(trace, command.file));
-    if (!command.options.log.quiet) {
-        fmt::print("{}: {} samples, {} s at {} Hz, seed {}\n", command.file, trace.samples.size(),
-                   command.seconds, simulation.tracker.rate_hz, simulation.seed);
-    }
-    return ExitCode::Ok;
-}
-
-}  // namespace
 
 void add_simulate_command(Command program) {
     Command app = program.command("simulate", "make input without a device");
     app.require_command();
     add_simulate_tracker_command(app);
     add_simulate_steam_frame_command(app);
-    Command gaze = app.command("gaze", "write a trace of simulated gaze");
-    const auto command = std::make_shared<SimulateGazeCommand>();
-    gaze.option("file", command->file, "the trace to write (overwritten)").required().type("OUT");
-    gaze.option("--seconds", command->seconds, "length").number_between(1e-3, 1e5);
-    command->options.aliases = {
-        {"--rate", "sim.rate_hz", "samples per second, 1 to 10000", ""},
-        {"--seed", "sim.seed", "the same seed gives the same trace", ""},
-        {"--tracker", "profile.tracker", "tracker profile, by name or .toml file", ""},
-    };
-    command->options.switches.clear();
-    command->options.log.add_to(gaze);
-    command->options.add_settings_to(gaze);
-    gaze.does([=] {
-        command->options.log.apply();
-        return simulate_gaze(*command);
-    });
+    add_simulate_gaze_command(app);
 }
 
 }  // namespace gazeloop::cli

@@ -19,6 +19,10 @@ void add_calibrate_command(Command program, const std::string& command_line);
 void add_compare_command(Command program);
 void add_trade_command(Command program);
 void add_simulate_command(Command program);
+/// Those within it.
+void add_simulate_tracker_command(Command simulate);
+void add_simulate_steam_frame_command(Command simulate);
+void add_simulate_gaze_command(Command simulate);
 void add_devices_command(Command program);
 void add_doctor_command(Command program);
 /// Hidden: what --preview starts.

@@ -1,25 +1,19 @@
-#include "runtime/cli/simulate_tracker.h"
+#include "runtime/simulate/tracker.h"
 
-#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
 
-#include "runtime/cli/played_gaze.h"
 #include "runtime/gaze/sample_rate.h"
-#include "runtime/run/interrupt.h"
 #include "runtime/time/clock.h"
 #include "sim/uhid_device.h"
 #include "sim/virtual_tracker.h"
 
-namespace gazeloop::cli {
-namespace {
+namespace gazeloop::simulate {
 
-/// Plays the gaze again and again, each sample at its time, to whoever has started the tracker.
-ExitCode simulate_tracker(const PlayedGaze& command) {
-    const gaze::GazeTrace trace = command.samples();
+std::uint64_t play_as_tracker(const PlayedGaze& played, const Interrupted& interrupted) {
+    const gaze::GazeTrace trace = played.samples();
     const auto hz = static_cast<std::uint16_t>(
         std::clamp(gaze::sample_rate_hz(trace.samples) + 0.5, 0.0, 65535.0));
     std::uint8_t modes = 0;
@@ -38,12 +32,12 @@ ExitCode simulate_tracker(const PlayedGaze& command) {
 
     std::uint64_t sent = 0;
     const std::int64_t begin_ns = time::monotonic_ns();
-    command.play(
-        trace, begin_ns,
-        [&device](std::int64_t due_ns) {
+    played.play(
+        trace, begin_ns, interrupted,
+        [&](std::int64_t due_ns) {
             const std::int64_t wait_ns = due_ns - time::monotonic_ns();
             device.answer_for(std::chrono::nanoseconds(std::max<std::int64_t>(wait_ns, 1)),
-                              [] { return run::interrupted(); });
+                              interrupted);
         },
         [&](const gaze::GazeSample& sample, std::int64_t taken_ns) {
             if ((modes & (sim::kVirtualGaze | sim::kVirtualEyes)) != 0) {
@@ -52,23 +46,7 @@ ExitCode simulate_tracker(const PlayedGaze& command) {
                 ++sent;
             }
         });
-    if (!command.log.quiet) {
-        fmt::print("{} reports sent\n", sent);
-    }
-    return run::interrupted() ? ExitCode::Interrupted : ExitCode::Ok;
+    return sent;
 }
 
-}  // namespace
-
-void add_simulate_tracker_command(Command simulate) {
-    Command app =
-        simulate.command("tracker", "be a HID eye tracker (usage page 0x12), through /dev/uhid");
-    const auto command = std::make_shared<PlayedGaze>();
-    command->add_to(app);
-    app.does([=] {
-        command->log.apply();
-        return simulate_tracker(*command);
-    });
-}
-
-}  // namespace gazeloop::cli
+}  // namespace gazeloop::simulate
