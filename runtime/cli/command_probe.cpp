@@ -1,17 +1,13 @@
 #include <fmt/core.h>
-#include <spdlog/spdlog.h>
 
-#include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/gaze_run_options.h"
 #include "runtime/probe/instructions.h"
-#include "runtime/probe/live_probe.h"
-#include "runtime/probe/video_result.h"
-#include "runtime/report/output_file.h"
-#include "runtime/report/summary_json.h"
+#include "runtime/probe/tell_video.h"
+#include "runtime/run/probe_run.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -27,21 +23,12 @@ struct ProbeCommand {
     std::string patch;
 };
 
-constexpr std::int64_t kTrials = 20;
-
-/// With JSON on stdout, nothing else goes there.
-std::FILE* text_output(const std::string& json) { return json == "-" ? stderr : stdout; }
-
 ExitCode measure(const ProbeCommand& command) {
     if (command.video.empty() || command.lamp.empty() || command.patch.empty() ||
         command.camera_fps == 0.0) {
         throw SetupError(ErrorKind::Usage,
                          "probe --video: --camera-fps, --lamp and --patch belong to it; gazeloop "
                          "probe --help says how to measure");
-    }
-    const std::string& json = command.run.options.json;
-    if (!json.empty()) {
-        value_or_throw(report::check_output(json));
     }
     const probe::VideoQuestion question{
         .frames = command.video,
@@ -50,66 +37,19 @@ ExitCode measure(const ProbeCommand& command) {
         .readout_ms = command.readout_ms,
         .lamp = value_or_throw(probe::parse_region("lamp", command.lamp)),
         .patch = value_or_throw(probe::parse_region("patch", command.patch))};
-    const probe::VideoResult result =
-        value_or_throw(probe::measure_video(question, [](std::uint64_t read, std::uint64_t all) {
-            constexpr std::uint64_t kEvery = 1000;
-            if (read % kEvery == 0 || read == all) {
-                spdlog::info("{} of {} frames read", read, all);
-            }
-        }));
-    if (!command.run.options.log.quiet) {
-        fmt::print(text_output(json), "{}", probe::video_text(result));
-    }
-    if (!json.empty()) {
-        value_or_throw(report::write_text(json, report::json_text(probe::video_json(result))));
-    }
-    if (result.on.trials == 0) {
-        spdlog::error("the patch never went on after the lamp: nothing was measured");
-        return ExitCode::GateFailed;
-    }
-    return ExitCode::Ok;
+    return probe::tell_video(question, command.run.options.json, command.run.options.log.quiet)
+               ? ExitCode::Ok
+               : ExitCode::GateFailed;
 }
 
 ExitCode run_live(const ProbeCommand& command, const std::string& command_line) {
     run::ProgramSettings settings;
     auto request = command.run.prepare(settings, command_line);
-    if (!request) {
-        return ExitCode::Ok;
-    }
-    // Where the patch is, the scene's depth would be wrong.
-    value_or_throw(settings.set("render.depth", "false", "gazeloop probe"));
-    const std::string& json = command.run.options.json;
-    const bool quiet = command.run.options.log.quiet;
-    request->json.reset();  // the probe's own result goes there
-    request->quiet = quiet || json == "-";
-    if (!json.empty()) {
-        value_or_throw(report::check_output(json));
-    }
-    if (!quiet) {
-        fmt::print(text_output(json), "{}\n", probe::kInstructions);
-        std::fflush(text_output(json));
-    }
-    probe::FlipLog log;
-    request->make_overlay = [&](const vulkan::Context& context,
-                                const render::RendererConfig& config) {
-        return std::make_unique<probe::LiveProbe>(context, config.frames_in_flight,
-                                                  settings.values().gaze.minimum_confidence, log);
-    };
-    const auto trials = static_cast<std::uint64_t>(command.trials.value_or(kTrials));
-    // A length that was asked for holds, unless trials were too.
-    const bool until_trials = command.trials || request->loop.end_with_source;
-    request->loop.stop = [&log, trials, until_trials]() -> std::optional<LoopEnd> {
-        return until_trials && log.lamp_flashes() >= trials ? std::optional(LoopEnd::Limit)
-                                                            : std::nullopt;
-    };
-    const auto failure = run::frame_run(*request);
-    if (!quiet) {
-        fmt::print(text_output(json), "\n{}", probe::flips_text(log));
-    }
-    if (!json.empty()) {
-        value_or_throw(report::write_text(json, report::json_text(probe::flips_json(log))));
-    }
-    return exit_code(failure);
+    return request ? exit_code(run::probe_run({.trials = command.trials,
+                                               .json = command.run.options.json,
+                                               .quiet = command.run.options.log.quiet},
+                                              std::move(*request), settings))
+                   : ExitCode::Ok;
 }
 
 }  // namespace
