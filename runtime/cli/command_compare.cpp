@@ -17,11 +17,9 @@ struct CompareCommand {
 
 ExitCode compare(const CompareCommand& command) {
     run::ProgramSettings settings;
-    value_or_throw(command.options.apply_to(settings, true));
-    if (command.options.prints(settings)) {
+    if (!command.options.settle(settings)) {
         return ExitCode::Ok;
     }
-    value_or_throw(settings.check());
     compare::CompareQuestion question = command.question;
     question.display =
         value_or_throw(profiles::display_in_force(settings.values().profile, settings));
@@ -42,8 +40,8 @@ void add_compare_command(Command program) {
     const auto command = std::make_shared<CompareCommand>();
     RunOptions& options = command->options;
     options.aliases = {
-        {"--display", "profile.display", "display profile, by name or .toml file", ""},
-        {"--mar", "acuity.mar", "slope of the acuity line that weighs PSNR and SSIM", ""},
+        {"--display", "profile.display", "display profile, by name or .toml file"},
+        {"--mar", "acuity.mar", "slope of the acuity line that weighs PSNR and SSIM"},
     };
     options.switches.clear();
     options.log.add_to(app);
@@ -68,8 +66,7 @@ void add_compare_command(Command program) {
         .type("FILE|DIR");
     app.option("--json", command->question.json,
                "write the result as JSON; without a file, to stdout")
-        .value_optional("-")
-        .type("[FILE]");
+        .file_or_stdout();
     app.does([=] {
         command->options.log.apply();
         return compare(*command);

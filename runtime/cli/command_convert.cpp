@@ -35,8 +35,7 @@ void add_convert_command(Command program) {
     command->recorded.add_to(app);
     app.option("--json", command->conversion.json,
                "what was read and written; without a file, to stdout")
-        .value_optional("-")
-        .type("[FILE]");
+        .file_or_stdout();
     command->log.add_to(app);
     app.does([=] {
         command->log.apply();

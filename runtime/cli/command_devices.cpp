@@ -38,8 +38,7 @@ void add_devices_command(Command program) {
             .number_between(0.1, 1e9);
     const Option json =
         app.option("--json", command->wanted.json, "write it as JSON; without a file, to stdout")
-            .value_optional("-")
-            .type("[FILE]");
+            .file_or_stdout();
     app.flag("--watch", command->wanted.watch, "show live gaze").not_with(json);
     app.does([=] {
         command->log.apply();

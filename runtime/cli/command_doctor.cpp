@@ -30,8 +30,7 @@ void add_doctor_command(Command program) {
         "doctor", "check what the loop needs of this machine; exit code 4: it cannot run");
     const auto command = std::make_shared<DoctorCommand>();
     app.option("--json", command->wanted.json, "write it as JSON; without a file, to stdout")
-        .value_optional("-")
-        .type("[FILE]");
+        .file_or_stdout();
     command->options.log.add_to(app);
     command->options.add_settings_to(app);
     app.option("--folder", command->wanted.folder, "where recordings are to go").type("DIR");

@@ -28,8 +28,7 @@ void add_gaze_command(Command program) {
         .type("TRACE|SESSION");
     command->recorded.add_to(app);
     app.option("--json", command->question.json, "write it as JSON; without a file, to stdout")
-        .value_optional("-")
-        .type("[FILE]");
+        .file_or_stdout();
     command->log.add_to(app);
     app.does([=] {
         command->log.apply();

@@ -38,6 +38,8 @@ class Option {
     Option& required();
     /// It may stand without a value, which then is `value`.
     Option& value_optional(const std::string& value = "");
+    /// A file, or, without a value, "-" for stdout.
+    Option& file_or_stdout() { return value_optional("-").type("[FILE]"); }
     Option& only_with(const Option& other);
     Option& not_with(const Option& other);
     /// Not in the help.

@@ -44,11 +44,11 @@ void add_plan_command(Command program) {
     const auto command = std::make_shared<PlanCommand>();
     RunOptions& options = command->options;
     options.aliases = {
-        {"--display", "profile.display", "display profile, by name or .toml file", ""},
-        {"--tracker", "profile.tracker", "tracker profile, by name or .toml file", ""},
-        {"--sigma", "kfr.sigma", "picture width over LP-buffer width, .5 to 32", ""},
-        {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16", ""},
-        {"--mar", "acuity.mar", "slope of the acuity line, e.g. .022", ""},
+        {"--display", "profile.display", "display profile, by name or .toml file"},
+        {"--tracker", "profile.tracker", "tracker profile, by name or .toml file"},
+        {"--sigma", "kfr.sigma", "picture width over LP-buffer width, .5 to 32"},
+        {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16"},
+        {"--mar", "acuity.mar", "slope of the acuity line, e.g. .022"},
     };
     options.switches.clear();
     options.log.add_to(app);
@@ -64,8 +64,7 @@ void add_plan_command(Command program) {
                "(sim.*) say: what eyes then need")
         .type("DEG|tracker");
     app.option("--json", command->request.json, "write the plan as JSON; without a file, to stdout")
-        .value_optional("-")
-        .type("[FILE]");
+        .file_or_stdout();
     app.option("--png", command->request.chart,
                "draw densities over eccentricity, all methods; .png or .svg")
         .type("FILE");

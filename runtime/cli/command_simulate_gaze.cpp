@@ -2,11 +2,10 @@
 
 #include <memory>
 
-#include "drivers/trace/native_trace.h"
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/profiles/profiles_in_force.h"
-#include "sim/gaze_generator.h"
+#include "runtime/simulate/gaze_file.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -24,19 +23,11 @@ ExitCode simulate_gaze(const SimulateGazeCommand& command) {
     if (command.options.prints(settings)) {
         return ExitCode::Ok;
     }
-    if (command.file == "-") {
-        throw SetupError(ErrorKind::Usage,
-                         "simulate gaze -: a trace is a file with a second one beside it that "
-                         "describes it: name the file, or /dev/stdout for the trace alone");
-    }
     const sim::GazeSimulation& simulation = settings.values().sim;
-    const gaze::GazeTrace trace = sim::generate_gaze(simulation, command.seconds);
-    if (trace.samples.empty()) {
-        throw SetupError(ErrorKind::Usage, "sim.dropout_percent: no sample is left to write");
-    }
-    value_or_throw(drivers::write_native_trace(trace, command.file));
+    const std::size_t samples =
+        simulate::write_gaze_file(simulation, command.seconds, command.file);
     if (!command.options.log.quiet) {
-        fmt::print("{}: {} samples, {} s at {} Hz, seed {}\n", command.file, trace.samples.size(),
+        fmt::print("{}: {} samples, {} s at {} Hz, seed {}\n", command.file, samples,
                    command.seconds, simulation.tracker.rate_hz, simulation.seed);
     }
     return ExitCode::Ok;
@@ -50,9 +41,9 @@ void add_simulate_gaze_command(Command simulate) {
     gaze.option("file", command->file, "the trace to write (overwritten)").required().type("OUT");
     gaze.option("--seconds", command->seconds, "length").number_between(1e-3, 1e5);
     command->options.aliases = {
-        {"--rate", "sim.rate_hz", "samples per second, 1 to 10000", ""},
-        {"--seed", "sim.seed", "the same seed gives the same trace", ""},
-        {"--tracker", "profile.tracker", "tracker profile, by name or .toml file", ""},
+        {"--rate", "sim.rate_hz", "samples per second, 1 to 10000"},
+        {"--seed", "sim.seed", "the same seed gives the same trace"},
+        {"--tracker", "profile.tracker", "tracker profile, by name or .toml file"},
     };
     command->options.switches.clear();
     command->options.log.add_to(gaze);

@@ -20,11 +20,9 @@ struct TradeCommand {
 
 ExitCode trade_off(const TradeCommand& command) {
     run::ProgramSettings settings;
-    value_or_throw(command.options.apply_to(settings, true));
-    if (command.options.prints(settings)) {
+    if (!command.options.settle(settings)) {
         return ExitCode::Ok;
     }
-    value_or_throw(settings.check());
     trade::TradeRequest request = command.request;
     request.eye = command.quality.which_eye();
     request.gaze = command.quality.gaze;
@@ -52,10 +50,9 @@ void add_trade_command(Command program) {
     const auto command = std::make_shared<TradeCommand>();
     RunOptions& options = command->options;
     options.aliases = {
-        {"--display", "profile.display", "display profile, by name or .toml file", ""},
-        {"--scene", "render.scene", "scene to render: raymarch, gallery, or a .gltf or .glb file",
-         ""},
-        {"--spp", "render.spp", "samples per texel or pixel, 1 to 16", ""},
+        {"--display", "profile.display", "display profile, by name or .toml file"},
+        {"--scene", "render.scene", "scene to render: raymarch, gallery, or a .gltf or .glb file"},
+        {"--spp", "render.spp", "samples per texel or pixel, 1 to 16"},
     };
     options.switches.clear();
     options.log.add_to(app);
@@ -81,8 +78,7 @@ void add_trade_command(Command program) {
     app.option("--csv", command->request.csv, "write a line per point").type("FILE").not_empty();
     app.option("--json", command->request.json,
                "write the result as JSON; without a file, to stdout")
-        .value_optional("-")
-        .type("[FILE]");
+        .file_or_stdout();
     app.does([=] {
         command->options.log.apply();
         return trade_off(*command);

@@ -1,12 +1,5 @@
 #include "runtime/cli/quality_options.h"
 
-#include <fmt/core.h>
-
-#include <algorithm>
-
-#include "runtime/error.h"
-#include "runtime/settings/nearest_name.h"
-
 namespace gazeloop::cli {
 
 void QualityOptions::add_to(Command command) {
@@ -28,25 +21,6 @@ void QualityOptions::add_to(Command command) {
         .option("--threads", threads,
                 "metrics use at most so many; as many as the machine has without it")
         .whole_number(64);
-}
-
-quality::MetricChoice QualityOptions::metric_choice() const {
-    if (metrics.empty()) {
-        return quality::kEveryMetric;
-    }
-    const std::vector<std::string> known(quality::kMetricNames.begin(),
-                                         quality::kMetricNames.end());
-    quality::MetricChoice choice{};
-    for (const std::string& name : metrics) {
-        const auto found = std::ranges::find(known, name);
-        if (found == known.end()) {
-            throw SetupError(
-                ErrorKind::Usage,
-                fmt::format("--metric: {}", settings::unknown_name("metric", name, known)));
-        }
-        choice[static_cast<std::size_t>(found - known.begin())] = true;
-    }
-    return choice;
 }
 
 }  // namespace gazeloop::cli

@@ -20,7 +20,9 @@ struct QualityOptions {
     void add_to(Command command);
 
     /// Throws SetupError (Usage) for a metric that there is not.
-    [[nodiscard]] quality::MetricChoice metric_choice() const;
+    [[nodiscard]] quality::MetricChoice metric_choice() const {
+        return value_or_throw(quality::metrics_named(metrics));
+    }
     [[nodiscard]] quality::ContrastOptions contrast() const {
         return {.light = light, .threads = static_cast<unsigned>(threads)};
     }

@@ -13,21 +13,6 @@
 
 namespace gazeloop::cli {
 
-namespace {
-
-/// 0: there is no such eye.
-std::uint32_t eyes_named(std::string_view text) {
-    if (text.empty() || text == "both") {
-        return preview::kBothEyes;
-    }
-    if (text == "left") {
-        return preview::kLeftEye;
-    }
-    return text == "right" ? preview::kRightEye : 0;
-}
-
-}  // namespace
-
 void LogOptions::add_to(Command command) {
     command.option("--log-level", log_level, "what goes to stderr")
         .one_of({"trace", "debug", "info", "warn", "error", "off"});
@@ -66,8 +51,9 @@ void RunOptions::add_to(Command command) {
         .type("[left|right|both]")
         .value_optional()
         .check([](const std::string& text) {
-            return eyes_named(text) != 0 ? std::string()
-                                         : fmt::format("'{}' must be left, right or both", text);
+            return preview::eyes_named(text) != 0
+                       ? std::string()
+                       : fmt::format("'{}' must be left, right or both", text);
         });
     command.flag("--monitor", monitor,
                  "where the latency goes while it runs: a panel on stderr, or a line a second "
@@ -159,6 +145,15 @@ bool RunOptions::prints(const settings::Settings& settings) const {
     return print_config;
 }
 
+bool RunOptions::settle(run::ProgramSettings& settings) const {
+    value_or_throw(apply_to(settings, true));
+    if (prints(settings)) {
+        return false;
+    }
+    value_or_throw(settings.check());
+    return true;
+}
+
 void RunOptions::fill(run::FrameRunRequest& request) const {
     const auto path = [](const std::string& text) {
         return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text);
@@ -170,7 +165,7 @@ void RunOptions::fill(run::FrameRunRequest& request) const {
     request.record = path(record);
     request.snapshot = path(snapshot);
     request.json = path(json);
-    request.preview_eyes = preview ? eyes_named(*preview) : 0;
+    request.preview_eyes = preview ? preview::eyes_named(*preview) : 0;
     request.monitor = monitor;
     request.monitor_json =
         monitor_json ? std::optional(static_cast<int>(*monitor_json)) : std::nullopt;

@@ -32,35 +32,33 @@ struct RunOptions {
         const char* flag;
         const char* key;
         const char* meaning;
-        std::string text;
+        std::string text{};
     };
     std::vector<Alias> aliases{
-        {"--target", "target.name", "openxr or headless", ""},
-        {"--scene", "render.scene", "scene to render: raymarch, gallery, or a .gltf or .glb file",
-         ""},
+        {"--target", "target.name", "openxr or headless"},
+        {"--scene", "render.scene", "scene to render: raymarch, gallery, or a .gltf or .glb file"},
         {"--method", "render.method",
-         "which samples a picture takes: full, kfr, acuity, layers, rings, sparse, quad, fixed",
-         ""},
-        {"--display", "profile.display", "display profile: a name or a .toml file", ""},
-        {"--budget", "profile.budget", "latency budget: none, a name or a .toml file", ""},
-        {"--sigma", "kfr.sigma", "picture width / LP-buffer width, .5 to 32", ""},
-        {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16", ""},
-        {"--mar", "acuity.mar", "slope of the MAR line, e.g. .022", ""},
-        {"--seed", "sim.seed", "the same seed gives the same simulated gaze", ""},
-        {"--tracker", "profile.tracker", "tracker profile: a name or a .toml file", ""},
-        {"--spp", "render.spp", "samples per texel or pixel, 1 to 16", ""},
-        {"--axes", "trace.axes", "turn a trace's directions: none, -x, swap-eyes, -z, -x-z", ""},
+         "which samples a picture takes: full, kfr, acuity, layers, rings, sparse, quad, fixed"},
+        {"--display", "profile.display", "display profile: a name or a .toml file"},
+        {"--budget", "profile.budget", "latency budget: none, a name or a .toml file"},
+        {"--sigma", "kfr.sigma", "picture width / LP-buffer width, .5 to 32"},
+        {"--alpha", "kfr.alpha", "kernel K(x) = x^alpha, .25 to 16"},
+        {"--mar", "acuity.mar", "slope of the MAR line, e.g. .022"},
+        {"--seed", "sim.seed", "the same seed gives the same simulated gaze"},
+        {"--tracker", "profile.tracker", "tracker profile: a name or a .toml file"},
+        {"--spp", "render.spp", "samples per texel or pixel, 1 to 16"},
+        {"--axes", "trace.axes", "turn a trace's directions: none, -x, swap-eyes, -z, -x-z"},
     };
     /// Options that switch a setting on: the flag, its key, whether given.
     struct Switch {
         const char* flag;
         const char* key;
         const char* meaning;
-        bool given;
+        bool given = false;
     };
     std::vector<Switch> switches{
         {"--accept-repairs", "trace.accept_repairs",
-         "read a trace of which much was dropped or changed", false},
+         "read a trace of which much was dropped or changed"},
     };
     std::optional<std::int64_t> frames;
     std::optional<double> seconds;
@@ -86,6 +84,10 @@ struct RunOptions {
 
     /// Whether --print-config asked for the settings alone; they have then been printed.
     [[nodiscard]] bool prints(const settings::Settings& settings) const;
+
+    /// Applies them with the standard files and checks what comes of it. False: --print-config
+    /// asked for the settings alone. Throws SetupError for what is refused.
+    [[nodiscard]] bool settle(run::ProgramSettings& settings) const;
 
     /// What these options say of a run.
     void fill(run::FrameRunRequest& request) const;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "runtime/gaze/eye.h"
 #include "runtime/preview/stage_bars.h"
@@ -18,6 +19,17 @@ inline constexpr std::size_t kBytesPerPixel = 4;
 inline constexpr std::uint32_t kLeftEye = 1U << gaze::index(gaze::Eye::Left);
 inline constexpr std::uint32_t kRightEye = 1U << gaze::index(gaze::Eye::Right);
 inline constexpr std::uint32_t kBothEyes = kLeftEye | kRightEye;
+
+/// "left", "right", "both" or nothing, which is both; 0: there is no such eye.
+[[nodiscard]] constexpr std::uint32_t eyes_named(std::string_view text) {
+    if (text.empty() || text == "both") {
+        return kBothEyes;
+    }
+    if (text == "left") {
+        return kLeftEye;
+    }
+    return text == "right" ? kRightEye : 0;
+}
 
 /// One eye's picture in the preview: its own pixels, origin top-left.
 struct PreviewPicture {

@@ -1,5 +1,7 @@
 #include "runtime/quality/comparison.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "runtime/foveation/picture/gaze_field.h"
@@ -7,8 +9,27 @@
 #include "runtime/quality/compared_pictures.h"
 #include "runtime/quality/psnr.h"
 #include "runtime/quality/ssim.h"
+#include "runtime/settings/nearest_name.h"
 
 namespace gazeloop::quality {
+
+Expected<MetricChoice> metrics_named(const std::vector<std::string>& names) {
+    if (names.empty()) {
+        return kEveryMetric;
+    }
+    const std::vector<std::string> known(kMetricNames.begin(), kMetricNames.end());
+    MetricChoice choice{};
+    for (const std::string& name : names) {
+        const auto found = std::ranges::find(known, name);
+        if (found == known.end()) {
+            return std::unexpected(
+                Error{ErrorKind::Usage,
+                      fmt::format("--metric: {}", settings::unknown_name("metric", name, known))});
+        }
+        choice[static_cast<std::size_t>(found - known.begin())] = true;
+    }
+    return choice;
+}
 
 Expected<Comparison> Comparison::create(const ComparisonQuestion& question) {
     if (std::ranges::none_of(question.metrics, [](bool asked) { return asked; })) {

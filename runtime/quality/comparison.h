@@ -3,8 +3,10 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "runtime/error.h"
 #include "runtime/foveation/eye/mar_line.h"
@@ -22,6 +24,10 @@ inline constexpr std::array<std::string_view, kMetrics> kMetricNames{"contrast",
 /// Which metrics are asked for.
 using MetricChoice = std::array<bool, kMetrics>;
 inline constexpr MetricChoice kEveryMetric{true, true, true, true};
+
+/// Those of these names; every one where there is no name. Errors (Usage): a name that no metric
+/// has, with the nearest one.
+[[nodiscard]] Expected<MetricChoice> metrics_named(const std::vector<std::string>& names);
 
 /// By what pictures are compared.
 struct ComparisonQuestion {
