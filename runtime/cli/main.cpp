@@ -1,4 +1,4 @@
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -18,14 +18,6 @@ namespace {
 
 using gazeloop::cli::ExitCode;
 
-std::string joined(int count, char** arguments) {
-    std::string line;
-    for (int i = 0; i < count; ++i) {
-        line += fmt::format("{}{}", i > 0 ? " " : "", arguments[i]);
-    }
-    return line;
-}
-
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
 int gazeloop_main(int count, char** arguments) {
@@ -42,7 +34,8 @@ int gazeloop_main(int count, char** arguments) {
     std::setlocale(LC_ALL, "C");
 
     try {
-        const std::string command_line = joined(count, arguments);
+        const std::string command_line =
+            fmt::format("{}", fmt::join(arguments, arguments + count, " "));
         gazeloop::cli::CommandLine line(
             "gazeloop", "An eye-tracked HMD runtime with a gaze-contingent frame loop");
         line.set_version(fmt::format("gazeloop {}", gazeloop::kVersion));

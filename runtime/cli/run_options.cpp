@@ -3,13 +3,12 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
-#include <charconv>
-
 #include "runtime/calibration/calibration_settings.h"
 #include "runtime/preview/preview_memory.h"
 #include "runtime/preview/preview_window.h"
 #include "runtime/run/frame_run.h"
 #include "runtime/run/line_writer.h"
+#include "runtime/settings/layers.h"
 
 namespace gazeloop::cli {
 
@@ -62,14 +61,7 @@ void RunOptions::add_to(Command command) {
         .option("--monitor-json", monitor_json,
                 "the same as lines of JSON on a file descriptor that is open for writing")
         .type("FD")
-        .check([](const std::string& text) {
-            int fd = -1;
-            const char* const end = text.data() + text.size();
-            const auto [stopped, error] = std::from_chars(text.data(), end, fd);
-            return error != std::errc{} || stopped != end || fd < 0
-                       ? fmt::format("'{}' must be the number of a file descriptor", text)
-                       : run::LineWriter::refusal(fd);
-        });
+        .check([](const std::string& text) { return run::LineWriter::refusal(text); });
 }
 
 void RunOptions::add_settings_to(Command command) {
@@ -99,43 +91,18 @@ Expected<void> RunOptions::apply_to(run::ProgramSettings& settings, bool standar
 }
 
 Expected<void> RunOptions::set_in(settings::Settings& settings, bool standard_files) const {
-    if (standard_files) {
-        if (auto loaded = settings.load_standard_files(); !loaded) {
-            return loaded;
-        }
-    }
-    for (const std::string& file : config_files) {
-        if (auto loaded = settings.load(file); !loaded) {
-            return loaded;
-        }
-    }
-    for (const std::string& assignment : assignments) {
-        const std::size_t equals = assignment.find('=');
-        if (equals == std::string::npos) {
-            return std::unexpected(Error{
-                ErrorKind::Usage, fmt::format("--set {}: KEY=VALUE is expected", assignment)});
-        }
-        if (auto set =
-                settings.set(assignment.substr(0, equals), assignment.substr(equals + 1), "--set");
-            !set) {
-            return set;
-        }
-    }
+    std::vector<settings::NamedAssignment> named;
     for (const Alias& alias : aliases) {
         if (!alias.text.empty()) {
-            if (auto set = settings.set(alias.key, alias.text, alias.flag); !set) {
-                return set;
-            }
+            named.push_back({alias.key, alias.text, alias.flag});
         }
     }
     for (const Switch& one : switches) {
         if (one.given) {
-            if (auto set = settings.set(one.key, "true", one.flag); !set) {
-                return set;
-            }
+            named.push_back({one.key, "true", one.flag});
         }
     }
-    return {};
+    return settings::apply({standard_files, config_files, assignments, named}, settings);
 }
 
 bool RunOptions::prints(const settings::Settings& settings) const {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <climits>
 #include <system_error>
 
@@ -41,6 +42,15 @@ std::string LineWriter::refusal(int fd) {
         return fmt::format("file descriptor {} is not open for writing", fd);
     }
     return {};
+}
+
+std::string LineWriter::refusal(std::string_view text) {
+    int fd = -1;
+    const char* const end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, fd);
+    return error != std::errc{} || stopped != end || fd < 0
+               ? fmt::format("'{}' must be the number of a file descriptor", text)
+               : refusal(fd);
 }
 
 LineWriter::LineWriter(int fd) : fd_(fd) {

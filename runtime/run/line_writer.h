@@ -15,6 +15,8 @@ class LineWriter {
     /// Why nothing can be written there: not open, or for reading only. Empty: it can. To be asked
     /// before the program opens files of its own, which take free numbers.
     [[nodiscard]] static std::string refusal(int fd);
+    /// The same of a descriptor's number as text.
+    [[nodiscard]] static std::string refusal(std::string_view text);
 
     /// The descriptor is kept from programs that this one starts.
     explicit LineWriter(int fd);
