@@ -52,67 +52,73 @@ class Draws {
 /// The tracker that saccades are seen by.
 struct Seeing {
     double rate_hz = 0.0;
-    double resting_deg_per_s = 0.0;
     double noise_rad = 0.0;  ///< SD of a direction, on each of two axes
 };
 
-Seeing seeing(double rate_hz, const SaccadeDetector& detector) {
-    // Of white noise, the difference of two samples on two axes has a Rayleigh length, the median
-    // of which is sqrt(2 ln 2) times the SD on one axis.
-    const double deg_per_s = detector.resting_deg_per_s() / std::sqrt(2.0 * std::numbers::ln2);
-    return {.rate_hz = rate_hz,
-            .resting_deg_per_s = detector.resting_deg_per_s(),
-            .noise_rad = glm::radians(deg_per_s * detector.window_s()) / std::numbers::sqrt2};
-}
-
-/// One saccade on the main sequence as the tracker shows it; none where it is not found.
-/// `time_constant_s` > 0: through an exponential filter.
-std::optional<SeenSaccade> shown(const Seeing& tracker, double amplitude_deg,
-                                 double time_constant_s, Draws& draws) {
-    const SaccadeCourse course(amplitude_deg, 1.0);
-    const double interval_s = 1.0 / tracker.rate_hz;
-    const double before_s = 0.08;
-    const double after_s = 0.08 + 5.0 * time_constant_s;
-    const double phase_s = draws.uniform() * interval_s;
-    const double kept = time_constant_s > 0.0 ? std::exp(-interval_s / time_constant_s) : 0.0;
-    SaccadeDetector detector(tracker.rate_hz, tracker.resting_deg_per_s);
-    double filtered_rad = 0.0;
-    const auto samples = static_cast<int>((before_s + course.duration_s() + after_s) / interval_s);
-    std::optional<SeenSaccade> largest;
-    for (int i = 0; i < samples; ++i) {
-        const double elapsed_s = i * interval_s + phase_s - before_s;
-        const double done = elapsed_s > 0.0 ? course.progress(elapsed_s) : 0.0;
-        double right_rad = done * glm::radians(amplitude_deg);
-        double up_rad = 0.0;
-        filtered_rad = kept * filtered_rad + (1.0 - kept) * right_rad;
-        right_rad = filtered_rad;
-        if (tracker.noise_rad > 0.0) {
-            right_rad += tracker.noise_rad * draws.normal();
-            up_rad = tracker.noise_rad * draws.normal();
-        }
-        const glm::dvec3 direction{std::sin(right_rad) * std::cos(up_rad), std::sin(up_rad),
-                                   -std::cos(right_rad) * std::cos(up_rad)};
-        const auto seen = detector.add(std::llround(i * interval_s * 1e9), direction);
-        if (seen && (!largest || seen->amplitude_deg > largest->amplitude_deg)) {
-            largest = seen;
-        }
+glm::dvec3 direction_at(const Seeing& tracker, double right_rad, Draws& draws) {
+    double up_rad = 0.0;
+    if (tracker.noise_rad > 0.0) {
+        right_rad += tracker.noise_rad * draws.normal();
+        up_rad = tracker.noise_rad * draws.normal();
     }
-    return largest;
+    return {std::sin(right_rad) * std::cos(up_rad), std::sin(up_rad),
+            -std::cos(right_rad) * std::cos(up_rad)};
 }
 
-/// Medians over repeats of one true amplitude; none where most are not found.
+/// The tracker whose white noise lets the gaze rest at the same speed, which grows with the noise.
+Seeing seeing(double rate_hz, double resting_deg_per_s, Draws& draws) {
+    const Seeing tried{.rate_hz = rate_hz, .noise_rad = glm::radians(0.02)};
+    constexpr int kSamples = 4000;
+    EventDetector detector(SeenSaccades::kDetector);
+    double log_sum = 0.0;
+    for (int i = 0; i < kSamples; ++i) {
+        detector.add(std::llround(i * 1e9 / rate_hz), direction_at(tried, 0.0, draws));
+        log_sum += 2 * i >= kSamples ? std::log(detector.resting_deg_per_s()) : 0.0;
+    }
+    const double tried_deg_per_s = std::exp(2.0 * log_sum / kSamples);
+    return {.rate_hz = rate_hz, .noise_rad = tried.noise_rad * resting_deg_per_s / tried_deg_per_s};
+}
+
+/// Medians of what the tracker shows of saccades of one true amplitude on the main sequence, there
+/// and back; none where most are not found. `time_constant_s` > 0: through an exponential filter.
 std::optional<SeenSaccade> usually_shown(const Seeing& tracker, double amplitude_deg,
                                          double time_constant_s, Draws& draws) {
-    constexpr int kRepeats = 40;
+    constexpr int kSaccades = 40;
+    constexpr std::int64_t kFirstRest = 300;  // samples, in which the detector learns the noise
+    const SaccadeCourse course(amplitude_deg, 1.0);
+    const double interval_s = 1.0 / tracker.rate_hz;
+    const double rest_s = 0.16 + 5.0 * time_constant_s;
+    const double kept = time_constant_s > 0.0 ? std::exp(-interval_s / time_constant_s) : 0.0;
+    SeenSaccades seen;
+    double filtered_rad = 0.0;
+    std::int64_t sample = 0;
     std::vector<double> amplitudes;
     std::vector<double> peaks;
-    for (int i = 0; i < kRepeats; ++i) {
-        if (const auto seen = shown(tracker, amplitude_deg, time_constant_s, draws)) {
-            amplitudes.push_back(seen->amplitude_deg);
-            peaks.push_back(seen->peak_deg_per_s);
+    const auto now_s = [&] { return static_cast<double>(sample) * interval_s; };
+    const auto look = [&](double right_rad) {
+        filtered_rad = kept * filtered_rad + (1.0 - kept) * right_rad;
+        const auto told =
+            seen.add(std::llround(now_s() * 1e9), direction_at(tracker, filtered_rad, draws));
+        ++sample;
+        if (told && 2.0 * told->amplitude_deg > amplitude_deg) {  // else noise has made it
+            amplitudes.push_back(told->amplitude_deg);
+            peaks.push_back(told->peak_deg_per_s);
         }
+    };
+    while (sample < kFirstRest) {
+        look(0.0);
     }
-    if (2 * peaks.size() < static_cast<std::size_t>(kRepeats)) {
+    double begin_s = now_s();
+    for (int saccade = 0; saccade < kSaccades; ++saccade) {
+        begin_s += draws.uniform() * interval_s;
+        const double end_s = begin_s + course.duration_s() + rest_s;
+        while (now_s() < end_s) {
+            const double done = now_s() > begin_s ? course.progress(now_s() - begin_s) : 0.0;
+            look(glm::radians(amplitude_deg) * (saccade % 2 == 0 ? done : 1.0 - done));
+        }
+        begin_s = end_s;
+    }
+    if (2 * peaks.size() < static_cast<std::size_t>(kSaccades)) {
         return std::nullopt;
     }
     return SeenSaccade{.amplitude_deg = median_of(amplitudes), .peak_deg_per_s = median_of(peaks)};
@@ -198,38 +204,39 @@ GazeSmoothing::GazeSmoothing() {
     saccades_.reserve(kMostSaccades);
 }
 
-void GazeSmoothing::move_origin() {
-    if (detector_ && in_world_.value_or(false)) {
-        detector_->break_off();
-    }
+void GazeSmoothing::move_origin() { origin_moved_ = true; }
+
+void GazeSmoothing::lose(std::int64_t time_ns) {
+    cyclopean_.add({});
+    seen_.add(time_ns, std::nullopt);
 }
 
-/// Of all valid eyes together, in world where the head is known; none after what is no sequel to
-/// the sample before.
+/// Of both eyes together, in world where the head is known; none where no eye is seen, and where
+/// the direction is no sequel to the one before.
 std::optional<glm::dvec3> GazeSmoothing::direction_of(const GazeSample& sample) {
-    unsigned eyes = 0;
-    glm::dvec3 sum{0.0};
+    const bool in_world = sample.head.has_value();
+    const bool another_frame = in_world != in_world_.value_or(in_world) ||
+                               (in_world && std::exchange(origin_moved_, false));
+    const glm::dquat to_world =
+        in_world ? sample.head->orientation : glm::dquat{1.0, 0.0, 0.0, 0.0};
+    PerEye<glm::dvec3> in_head{};
+    PerEye<std::optional<glm::dvec3>> eyes;
+    bool seen = false;
     for (const Eye eye : kEyes) {
         const EyeRay& ray = sample.eyes[index(eye)];
         if (ray.valid) {
-            eyes |= 1U << index(eye);
-            sum += ray.direction;
+            in_head[index(eye)] = ray.direction;
+            eyes[index(eye)] = unit(to_world * ray.direction);
+            seen = seen || eyes[index(eye)].has_value();
         }
     }
-    const auto in_head = unit(sum);
-    const bool in_world = sample.head.has_value();
-    if (eyes != eyes_ || in_world != in_world_.value_or(in_world)) {
-        detector_->break_off();
-    }
-    eyes_ = eyes;
-    if (eyes == 0 || !in_head) {
+    if (!seen) {
         return std::nullopt;
     }
     in_world_ = in_world;
-    repeated_ += *in_head == in_head_ ? 1U : 0U;
-    in_head_ = *in_head;
-    const glm::dvec3 gaze = in_world ? sample.head->orientation * *in_head : *in_head;
-    return is_finite(gaze) ? std::optional(gaze) : std::nullopt;
+    repeated_ += in_head == in_head_ ? 1U : 0U;
+    in_head_ = in_head;
+    return another_frame ? std::nullopt : cyclopean_.add(eyes);
 }
 
 void GazeSmoothing::learn_rate(std::int64_t interval_ns) {
@@ -238,10 +245,6 @@ void GazeSmoothing::learn_rate(std::int64_t interval_ns) {
         const auto middle = intervals_ns_.begin() + kFirstIntervals / 2;
         std::nth_element(intervals_ns_.begin(), middle, intervals_ns_.end());
         usual_ns_ = *middle;
-        const double rate_hz = 1e9 / static_cast<double>(usual_ns_);
-        if (rate_hz >= kLeastRate_hz) {
-            detector_.emplace(rate_hz);
-        }
     }
 }
 
@@ -268,18 +271,12 @@ void GazeSmoothing::add(const GazeSample& sample) {
         learn_rate(interval_ns);
         return;
     }
-    if (!detector_) {
+    const std::optional<glm::dvec3> direction = direction_of(sample);
+    if (!direction || static_cast<double>(interval_ns) > kLoss * static_cast<double>(usual_ns_)) {
+        lose(now_ns);
         return;
     }
-    if (static_cast<double>(interval_ns) > kLoss * static_cast<double>(usual_ns_)) {
-        detector_->break_off();
-    }
-    const auto direction = direction_of(sample);
-    if (!direction) {
-        detector_->break_off();
-        return;
-    }
-    const auto saccade = detector_->add(now_ns, *direction);
+    const auto saccade = seen_.add(now_ns, *direction);
     if (saccade && saccade->amplitude_deg >= kSmallest_deg &&
         saccade->amplitude_deg <= kLargest_deg) {
         saccades_.push_back(*saccade);
@@ -302,7 +299,7 @@ SmoothingFinding GazeSmoothing::finding() const {
         return finding;
     }
     finding.rate_hz = 1e9 / static_cast<double>(usual_ns_);
-    if (!detector_) {
+    if (finding.rate_hz < kLeastRate_hz) {
         finding.verdict = SmoothingVerdict::TooSlow;
         return finding;
     }
@@ -315,13 +312,14 @@ SmoothingFinding GazeSmoothing::finding() const {
         return finding;
     }
     Draws draws;
-    const Seeing tracker = seeing(finding.rate_hz, *detector_);
+    const EventDetector& detector = seen_.detector();
+    const Seeing tracker = seeing(finding.rate_hz, detector.resting_deg_per_s(), draws);
     const ExpectedPeaks unfiltered(tracker, 0.0, draws);
     std::vector<double> speeds;
     std::vector<double> amplitudes;
     for (const SeenSaccade& saccade : saccades_) {
         const auto expected = unfiltered.at(saccade.amplitude_deg);
-        if (expected && *expected >= kAboveThreshold * detector_->threshold_deg_per_s()) {
+        if (expected && *expected >= kAboveThreshold * detector.begin_deg_per_s()) {
             speeds.push_back(saccade.peak_deg_per_s / *expected);
             amplitudes.push_back(saccade.amplitude_deg);
         }

@@ -7,8 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/gaze/events/cyclopean_gaze.h"
+#include "runtime/gaze/events/seen_saccades.h"
 #include "runtime/gaze/gaze_sample.h"
-#include "runtime/gaze/saccade_detector.h"
 
 namespace gazeloop::gaze {
 
@@ -46,8 +47,9 @@ struct SmoothingFinding {
     bool stopped = false;      ///< kMostSaccades were found, or stop() was called: there was more
 };
 
-/// Gathers saccades from the samples of a run, in fixed memory and without allocation after
-/// construction, and holds their peak velocities against the main sequence (main_sequence.h).
+/// Gathers the event detector's saccades from the samples of a run, in fixed memory and without
+/// allocation after construction, and holds their peak velocities against the main sequence
+/// (main_sequence.h).
 ///
 /// Low rates and noise change a peak that is computed from samples, so the published curve is not
 /// what samples show. Expected peaks are therefore those of simulated saccades on the main
@@ -84,6 +86,7 @@ class GazeSmoothing {
     static constexpr std::size_t kFirstIntervals = 64;
 
     [[nodiscard]] std::optional<glm::dvec3> direction_of(const GazeSample& sample);
+    void lose(std::int64_t time_ns);
     void learn_rate(std::int64_t interval_ns);
 
     std::optional<std::int64_t> first_ns_;
@@ -92,10 +95,11 @@ class GazeSmoothing {
     std::uint64_t repeated_ = 0;
     std::vector<std::int64_t> intervals_ns_;  ///< the first ones
     std::int64_t usual_ns_ = 0;               ///< their median; 0: not known yet
-    std::optional<SaccadeDetector> detector_;
-    unsigned eyes_ = 0;  ///< of the last sample: a bit for each that was valid
+    CyclopeanGaze cyclopean_;
+    SeenSaccades seen_;
     std::optional<bool> in_world_;
-    glm::dvec3 in_head_{0.0};
+    bool origin_moved_ = false;  ///< since the last sample
+    PerEye<glm::dvec3> in_head_{};
     std::vector<SeenSaccade> saccades_;
     bool stopped_ = false;
 };

@@ -1,10 +1,11 @@
 #include "tests/bench/headset_prediction.h"
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 #include <optional>
 
+#include "runtime/gaze/direction.h"
 #include "runtime/gaze/gaze_motion.h"
-#include "runtime/gaze/saccade_detector.h"
 #include "runtime/gaze/usable_direction.h"
 #include "runtime/gaze/usable_pose.h"
 
@@ -79,10 +80,12 @@ std::array<HeadsetErrors, gaze::kEyeEventNames.size()> headset_errors(const gaze
         }
         const glm::dvec3 truth = then->head * then->in_head;
         HeadsetErrors& kind = errors[static_cast<std::size_t>(then->event) - 1];
-        kind.held_in_head.push_back(gaze::angle_between_deg(then->head * from->in_head, truth));
-        kind.held_in_world.push_back(gaze::angle_between_deg(from->head * from->in_head, truth));
+        kind.held_in_head.push_back(
+            glm::degrees(gaze::angle_between(then->head * from->in_head, truth)));
+        kind.held_in_world.push_back(
+            glm::degrees(gaze::angle_between(from->head * from->in_head, truth)));
         kind.predicted.push_back(
-            gaze::angle_between_deg(from->head * from->predicted_in_head, truth));
+            glm::degrees(gaze::angle_between(from->head * from->predicted_in_head, truth)));
     }
     return errors;
 }

@@ -13,8 +13,7 @@ constexpr std::int64_t ms(double milliseconds) {
     return static_cast<std::int64_t>(milliseconds * kNsPerMs);
 }
 
-constexpr std::size_t kFewest = 3;           // samples that a speed is taken of
-constexpr std::int64_t kSpeed_ns = ms(4.6);  // or as many as lie within this
+constexpr std::size_t kFewest = 3;  // samples that a speed is taken of
 constexpr std::int64_t kGap_ns = ms(50.0);
 
 // A saccade begins at the greater of the two, deg/s and multiples of the resting speed. Slow
@@ -30,7 +29,6 @@ constexpr double kEndOverPeak = 0.23;
 constexpr double kStill_deg_per_s = 5.0;  // and at once below these
 constexpr double kStillOverRest = 0.8;
 constexpr std::int64_t kShortest_ns = ms(5.2);
-constexpr std::int64_t kLongest_ns = ms(90.0);
 constexpr double kFastest_deg_per_s = 1100.0;
 
 constexpr double kSwingingPeak_deg_per_s = 40.0;  // slower saccades have no oscillation
@@ -132,13 +130,14 @@ void EventDetector::add(std::int64_t time_ns, const std::optional<glm::dvec3>& d
         }
         return;
     }
-    window_samples_ = std::max(history_.oldest_within(0, kSpeed_ns), kFewest - 1);
+    window_samples_ = std::max(history_.oldest_within(0, parameters_.speed_window_ns), kFewest - 1);
     velocity_ = history_.velocity_deg_per_s(window_samples_);
     window_s_ = history_.elapsed_s(window_samples_, 0);
     const double speed = glm::length(velocity_);
     const double departure = glm::length(velocity_ - slow_);
     const double floor = std::min(kBegin_deg_per_s, kLeastAmplitude_deg / window_s_);
     const double threshold = std::max(floor, kBeginOverRest * resting_deg_per_s_);
+    begin_deg_per_s_ = threshold;
     const std::int64_t middle_ns = history_.back(1).time_ns;
     switch (event_) {
         case EyeEvent::Lost:
@@ -235,7 +234,8 @@ void EventDetector::follow_saccade(std::int64_t time_ns, double speed, double de
         peak_velocity_ = velocity_;
     }
     const std::int64_t since_ns = time_ns - movement_.begin_ns;
-    if (movement_.peak_deg_per_s > kFastest_deg_per_s || since_ns > kLongest_ns) {
+    if (movement_.peak_deg_per_s > kFastest_deg_per_s ||
+        since_ns > parameters_.longest_saccade_ns) {
         lose(time_ns);
         return;
     }

@@ -27,6 +27,16 @@ namespace gazeloop::gaze {
 /// Methods 49:616), at 500, 250 and 100 Hz; `./dev bench events` reports the other half.
 class EventDetector {
   public:
+    struct Parameters {
+        /// What takes longer is no saccade, and the gaze counts as lost. An eye takes less.
+        std::int64_t longest_saccade_ns = 90'000'000;
+        /// A speed is taken over so much of the time, and over three samples at least.
+        std::int64_t speed_window_ns = 4'600'000;
+    };
+
+    EventDetector() = default;
+    explicit EventDetector(const Parameters& parameters) : parameters_(parameters) {}
+
     /// How the movement began that is going on.
     struct Movement {
         std::int64_t begin_ns = 0;
@@ -58,6 +68,9 @@ class EventDetector {
     [[nodiscard]] const glm::dvec3& slow_velocity_deg_per_s() const { return slow_; }
     /// Median of the speeds at which the gaze rests: above all the tracker's noise, deg/s.
     [[nodiscard]] double resting_deg_per_s() const { return resting_deg_per_s_; }
+    /// A saccade begins where the gaze departs faster than this from its slow movement, deg/s; 0
+    /// before the first speed.
+    [[nodiscard]] double begin_deg_per_s() const { return begin_deg_per_s_; }
 
   private:
     void lose(std::int64_t time_ns);
@@ -69,6 +82,7 @@ class EventDetector {
     void follow_loss(std::int64_t time_ns, double speed);
     void weigh_pursuit(std::int64_t time_ns);
 
+    Parameters parameters_;
     DirectionHistory history_;
     std::optional<std::int64_t> last_ns_;
     std::optional<EyeEvent> event_before_;
@@ -87,6 +101,7 @@ class EventDetector {
     std::int64_t weighed_ns_ = std::numeric_limits<std::int64_t>::min();
     std::uint64_t rested_ = 0;
     double resting_deg_per_s_ = 2.0;
+    double begin_deg_per_s_ = 0.0;
 };
 
 }  // namespace gazeloop::gaze

@@ -1,7 +1,9 @@
 #include "tests/support/coded/event_agreement.h"
 
+#include <glm/trigonometric.hpp>
+
+#include "runtime/gaze/direction.h"
 #include "runtime/gaze/events/event_detector.h"
-#include "runtime/gaze/saccade_detector.h"
 
 namespace gazeloop::tests {
 
@@ -46,7 +48,7 @@ Labels velocity_threshold_labels(const CodedRecording& recording, double thresho
         const CodedSample& before = samples[i - 1];
         const CodedSample& after = samples[i + 1];
         if (before.direction && after.direction &&
-            gaze::angle_between_deg(*before.direction, *after.direction) >
+            glm::degrees(gaze::angle_between(*before.direction, *after.direction)) >
                 threshold_deg_per_s * static_cast<double>(after.time_ns - before.time_ns) * 1e-9) {
             labels[i] = static_cast<int>(gaze::EyeEvent::Saccade);
         }

@@ -6,9 +6,9 @@
 #include <glm/trigonometric.hpp>
 #include <optional>
 
+#include "runtime/gaze/direction.h"
 #include "runtime/gaze/events/gaze_predictor.h"
 #include "runtime/gaze/filter/one_euro_filter.h"
-#include "runtime/gaze/saccade_detector.h"
 
 namespace gazeloop::tests {
 namespace {
@@ -94,7 +94,8 @@ void add_errors(const CodedRecording& recording, PersonErrors& errors) {
                 predictor.predict(truth.time_ns).turn * held};
             Errors& cell = errors[static_cast<std::size_t>(*target)][h];
             for (std::size_t p = 0; p < predicted.size(); ++p) {
-                cell[p].push_back(gaze::angle_between_deg(predicted[p], *truth.direction));
+                cell[p].push_back(
+                    glm::degrees(gaze::angle_between(predicted[p], *truth.direction)));
             }
         }
     }

