@@ -52,6 +52,7 @@ void GazeUse::add(const frame::FrameRecord& frame) {
         const gaze::FoveaPoint& worse = eyes[0].state >= eyes[1].state ? eyes[0] : eyes[1];
         ++counts_.lost;
         ++counts_.lost_by_reason[static_cast<std::size_t>(worse.reason)];
+        ++counts_.lost_by_cause[static_cast<std::size_t>(worse.cause)];
         sequence_before_.reset();
         reuse_ = {};
         if (had_gaze_) {

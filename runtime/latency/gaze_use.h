@@ -31,6 +31,7 @@ struct GazeUseCounts {
     std::uint64_t lost = 0;
     std::uint64_t before_first = 0;  ///< of them, before the first gaze
     std::array<std::uint64_t, gaze::kLossReasonNames.size()> lost_by_reason{};
+    std::array<std::uint64_t, gaze::kLossCauseNames.size()> lost_by_cause{};
     FrameStretch longest_loss{};  ///< after there had been gaze
 
     /// Frames that use a sample again, of those that can; absent if there are none.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/report/lag_loss.h"
 #include "runtime/report/lag_reasons.h"
 #include "runtime/report/prediction_text.h"
 #include "runtime/report/smoothing_text.h"
@@ -103,20 +104,6 @@ LagAnswer reused(const LagFacts& facts) {
     return answer;
 }
 
-/// "1.2 % because neither eye was valid, .3 % because the newest sample was stale".
-std::string reasons_text(const latency::GazeUseCounts& use) {
-    constexpr std::array<std::string_view, gaze::kLossReasonNames.size()> kWords{
-        "", "neither eye was valid", "the newest sample was too old", "none had come yet"};
-    std::string text;
-    for (std::size_t reason = 1; reason < kWords.size(); ++reason) {
-        if (const std::uint64_t frames = use.lost_by_reason[reason]; frames > 0) {
-            text +=
-                fmt::format("{}{} because {}", text.empty() ? "" : ", ", frames, kWords[reason]);
-        }
-    }
-    return text;
-}
-
 /// The samples, which tell more than frames where the tracker is faster.
 std::string samples_text(const latency::GazeCounts& gaze) {
     if (gaze.invalid + gaze.lost == 0) {
@@ -156,7 +143,7 @@ LagAnswer lost(const LagFacts& facts) {
     }
     answer.why =
         fmt::format("{:.1f} % of the frames ({}) have no fresh gaze: {}{}{}", *percent, use.lost,
-                    reasons_text(use), longest, samples_text(facts.report->gaze));
+                    losses_by_cause(use), longest, samples_text(facts.report->gaze));
     return answer;
 }
 

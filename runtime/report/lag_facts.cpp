@@ -12,21 +12,31 @@
 namespace gazeloop::report {
 
 GazeOrigin origin_of(std::string_view description) {
-    constexpr std::array<std::pair<std::string_view, GazeOrigin>, 6> kBegins{
+    constexpr std::array<std::pair<std::string_view, GazeOrigin>, 7> kBegins{
         std::pair{"simulated tracker", GazeOrigin::Simulated},
         {"trace ", GazeOrigin::Trace},
         {"fixed gaze", GazeOrigin::Fixed},
         {"OpenXR eye gaze", GazeOrigin::Runtime},
         {"HID eye tracker", GazeOrigin::Tracker},
-        {"PlayStation VR2", GazeOrigin::Tracker}};
+        {"PlayStation VR2", GazeOrigin::Tracker},
+        {"Steam Frame", GazeOrigin::Tracker}};
     const auto* const known = std::ranges::find_if(
         kBegins, [description](const auto& begin) { return description.starts_with(begin.first); });
     return known != kBegins.end() ? known->second : GazeOrigin::Unknown;
 }
 
-std::string_view LagFacts::setting(std::string_view name) const {
-    const auto found = std::ranges::find(settings, name, &NamedValue::name);
-    return found != settings.end() ? std::string_view(found->value) : std::string_view();
+namespace {
+
+std::string_view value_of(std::span<const NamedValue> values, std::string_view name) {
+    const auto found = std::ranges::find(values, name, &NamedValue::name);
+    return found != values.end() ? std::string_view(found->value) : std::string_view();
+}
+
+}  // namespace
+
+std::string_view LagFacts::setting(std::string_view name) const { return value_of(settings, name); }
+std::string_view LagFacts::device_value(std::string_view name) const {
+    return value_of(device, name);
 }
 
 std::optional<DearestStage> dearest_stage(const latency::SummaryReport& report) {

@@ -31,9 +31,11 @@ struct LagFacts {
     latency::GazeUseCounts use{};
     gaze::SmoothingFinding smoothing{};
     std::span<const NamedValue> settings{};  ///< of the run, as far as they are known
+    std::span<const NamedValue> device{};    ///< likewise, as a session's table of that name
 
     /// Of the run; empty where it is not known.
     [[nodiscard]] std::string_view setting(std::string_view name) const;
+    [[nodiscard]] std::string_view device_value(std::string_view name) const;
 };
 
 /// The stage that costs most, on average.

@@ -24,12 +24,13 @@ struct LagRule {
 /// holds speaks; of Unknown all do.
 enum class LagSubject : std::uint8_t {
     Standing,  ///< how late the gaze is, or why that cannot be said
+    Loss,      ///< that it is lost so often that this matters more
     Cost,      ///< the stage that costs most
     Budget,    ///< whether the budget is kept
     Remedy,    ///< the one thing to try
     Unknown,   ///< what is unknown, why, and what would make it known
 };
-inline constexpr std::size_t kLagSubjectCount = 5;
+inline constexpr std::size_t kLagSubjectCount = 6;
 
 [[nodiscard]] std::span<const LagRule> lag_rules(LagSubject subject);
 

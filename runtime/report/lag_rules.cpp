@@ -4,6 +4,7 @@
 #include <array>
 
 #include "runtime/gaze/gaze_motion.h"
+#include "runtime/report/lag_loss.h"
 #include "runtime/report/lag_reasons.h"
 #include "runtime/time/milliseconds.h"
 
@@ -157,6 +158,10 @@ constexpr std::array kStanding{
     LagRule{"timed", [](const LagFacts&) { return true; },
             [](const LagFacts& f) { return "On average " + age_text(f) + "."; }},
 };
+
+// Loss.
+
+constexpr std::array kLoss{LagRule{"often-lost", often_lost, loss_sentence}};
 
 // Cost.
 
@@ -326,9 +331,22 @@ constexpr std::array kRemedy{
                     f.report->gaze.invalid, f.report->gaze.received,
                     now(f, "gaze.minimum_confidence"));
             }},
+    LagRule{"try-finding-the-eye", often_lost, loss_remedy},
     LagRule{"try-nothing", [](const LagFacts& f) { return !has_age(f); },
             [](const LagFacts&) {
                 return std::string("Where the time goes can be told once that is mended.");
+            }},
+    LagRule{"try-a-gpu",
+            [](const LagFacts& f) {
+                return f.report->verdict == Verdict::NotRealTime &&
+                       !f.device_value("processor").empty();
+            },
+            [](const LagFacts& f) {
+                return fmt::format(
+                    "No GPU drew these pictures but the processor ({}): use a machine with a GPU "
+                    "(gazeloop doctor lists what it finds), or try the rest with a small picture: "
+                    "a lower render.scale{}.",
+                    f.device_value("vulkan device"), now(f, "render.scale"));
             }},
     LagRule{"try-keeping-up",
             [](const LagFacts& f) { return f.report->verdict == Verdict::NotRealTime; },
@@ -509,6 +527,8 @@ std::span<const LagRule> lag_rules(LagSubject subject) {
     switch (subject) {
         case LagSubject::Standing:
             return kStanding;
+        case LagSubject::Loss:
+            return kLoss;
         case LagSubject::Cost:
             return kCost;
         case LagSubject::Budget:

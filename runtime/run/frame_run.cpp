@@ -478,6 +478,7 @@ class FrameRun {
                              : ": the run ended before any had arrived, or all of it was lost");
         }
         const std::vector<NamedValue> settings = request_.settings->list();
+        const std::vector<NamedValue> device = picture_device(*context_);
         const auto& budget = monitor_.budget();
         const report::LagFacts facts{.report = &report,
                                      .budget = budget ? &*budget : nullptr,
@@ -486,7 +487,8 @@ class FrameRun {
                                          tracker_figures(settings, lag_.origin()), report),
                                      .use = lag_.use(),
                                      .smoothing = lag_.smoothing(),
-                                     .settings = settings};
+                                     .settings = settings,
+                                     .device = device};
         const RunSummary said{.report = report,
                               .reasons = report::lag_reasons(facts),
                               .prediction = facts.prediction,

@@ -98,7 +98,8 @@ void fill(const ReportRequest& request, const session::OpenSession& session, Ses
                                         .prediction = made.prediction,
                                         .use = summary.use,
                                         .smoothing = summary.smoothing,
-                                        .settings = made.info.header.config});
+                                        .settings = made.info.header.config,
+                                        .device = made.info.header.device});
     if (made.budget) {
         made.gate = report::budget_gate(summary.report, *made.budget);
     }

@@ -39,6 +39,8 @@ DurationRow row(double mean_ms, std::uint64_t frames = kFrames) {
     return made;
 }
 
+const std::vector<NamedValue> kSoftware{{"vulkan device", "llvmpipe"}, {"processor", "some CPU"}};
+
 /// A run that keeps up, with everything known and 36 ms in 8 stages; the tracker costs most.
 struct Made {
     SummaryReport report;
@@ -103,6 +105,13 @@ struct Made {
         }
         report.unaccounted = report.gaze_age_at_display = report.gaze_age_at_latch = {};
         facts.use = {.rendered = kFrames, .lost = kFrames, .before_first = kFrames};
+    }
+    /// So many of the frames, for a cause that is known, or for None.
+    void lose(std::uint64_t frames, gaze::LossCause cause) {
+        facts.use.lost = frames;
+        facts.use.with_gaze -= frames;
+        facts.use.lost_by_reason[static_cast<std::size_t>(gaze::LossReason::Invalid)] = frames;
+        facts.use.lost_by_cause[static_cast<std::size_t>(cause)] = frames;
     }
     void forget_frames(std::uint64_t total) {
         forget_gaze(0);
@@ -225,6 +234,41 @@ const std::vector<RuleCase>& cases() {
         {"try-calibrating", [](Made& m) { m.forget_gaze(400); },
          "neither eye in 400 of its 400 samples"},
         {"try-nothing", [](Made& m) { m.report.gaze_age_at_display = {}; }, "once that is mended"},
+        {"often-lost", [](Made& m) { m.lose(60, gaze::LossCause::NotSeen); },
+         "In 30.0 % of the frames the fovea has no fresh gaze at all, most often because the "
+         "tracker vouched for neither eye."},
+        {"often-lost", [](Made& m) { m.lose(60, gaze::LossCause::None); },
+         "most often because neither eye was valid."},
+        {"try-finding-the-eye", [](Made& m) { m.lose(60, gaze::LossCause::NotSeen); },
+         "seat the headset"},
+        {"try-finding-the-eye", [](Made& m) { m.lose(60, gaze::LossCause::Blink); },
+         "a lower gaze.closed_below"},
+        {"try-finding-the-eye", [](Made& m) { m.lose(60, gaze::LossCause::LowConfidence); },
+         "gaze.minimum_confidence (now 0.6)"},
+        {"try-finding-the-eye", [](Made& m) { m.lose(60, gaze::LossCause::OutsideField); },
+         "a wider gaze.field_deg"},
+        {"try-finding-the-eye", [](Made& m) { m.lose(60, gaze::LossCause::Unplugged); },
+         "cable and port"},
+        {"try-finding-the-eye", [](Made& m) { m.lose(60, gaze::LossCause::Stopped); },
+         "gazeloop devices --watch"},
+        {"try-finding-the-eye",
+         [](Made& m) {
+             m.lose(60, gaze::LossCause::NotSeen);
+             m.facts.origin = GazeOrigin::Simulated;
+         },
+         "simulated: sim.dropout_percent"},
+        {"try-finding-the-eye",
+         [](Made& m) {
+             m.lose(60, gaze::LossCause::NotSeen);
+             m.facts.origin = GazeOrigin::Trace;
+         },
+         "The trace lacks the gaze there"},
+        {"try-a-gpu",
+         [](Made& m) {
+             m.report.verdict = Verdict::NotRealTime;
+             m.facts.device = kSoftware;
+         },
+         "the processor (llvmpipe): use a machine with a GPU"},
         {"try-keeping-up", [](Made& m) { m.report.verdict = Verdict::NotRealTime; },
          "a higher kfr.sigma (now 1.8), or a lower render.scale (now 0.5)"},
         {"try-wall-clock", [](Made& m) { m.report.verdict = Verdict::VirtualTime; },
@@ -371,6 +415,18 @@ TEST(LagReasons, SpeakOncePerSubjectInOrder) {
     EXPECT_THAT(nothing.rules(), ElementsAre("no-frames", "try-more-frames"));
 }
 
+TEST(LagReasons, SpeakOfLossFirstWhereItIsNoBlinks) {
+    Made blinks;
+    blinks.lose(20, gaze::LossCause::Blink);  // 10 %
+    EXPECT_THAT(blinks.rules(), ElementsAre("timed", "cost-tracker", "try-another-tracker"));
+    Made lost;
+    lost.lose(21, gaze::LossCause::NotSeen);
+    lost.report.verdict = Verdict::NotRealTime;
+    lost.facts.device = kSoftware;
+    EXPECT_THAT(lost.rules(),
+                ElementsAre("not-in-time", "often-lost", "cost-tracker", "try-finding-the-eye"));
+}
+
 TEST(LagReasons, AreSilentOnABudgetWithoutATotal) {
     Made made;
     made.budget.total_ns.reset();
@@ -506,6 +562,10 @@ TEST(LagAnswers, SayWhetherGazeIsLost) {
                   "15.0 % of the frames (30) have no fresh gaze: 20 because neither eye was valid, "
                   "10 because the newest sample was too old; the longest loss takes 12 frames from "
                   "frame 40 on (133 ms, no longer than a blink)");
+    made.facts.use.lost_by_cause[static_cast<std::size_t>(gaze::LossCause::Blink)] = 20;
+    made.facts.use.lost_by_cause[static_cast<std::size_t>(gaze::LossCause::Stopped)] = 10;
+    expect_answer(made, "lost", LagAnswerKind::Yes,
+                  "20 because the lids were closed, 10 because samples stopped coming; the");
     made.facts.use.longest_loss.lasted.ns = 500'000'000;
     expect_answer(made, "lost", LagAnswerKind::Yes, "(500 ms, longer than a blink)");
 }
@@ -548,6 +608,9 @@ TEST(GazeOrigin, IsReadFromWhatASourceSaysOfItself) {
     EXPECT_EQ(origin_of("OpenXR eye gaze of X"), GazeOrigin::Runtime);
     EXPECT_EQ(origin_of("HID eye tracker (usage page 0x12)"), GazeOrigin::Tracker);
     EXPECT_EQ(origin_of("PlayStation VR2 over USB"), GazeOrigin::Tracker);
+    EXPECT_EQ(origin_of("Steam Frame through its eye service's file"), GazeOrigin::Tracker);
+    EXPECT_EQ(origin_of("simulated tracker, of who looks at the points, calibrated"),
+              GazeOrigin::Simulated);
     EXPECT_EQ(origin_of("session a.gaze (3 samples)"), GazeOrigin::Unknown);
     EXPECT_EQ(origin_of(""), GazeOrigin::Unknown);
 }
