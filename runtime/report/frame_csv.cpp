@@ -56,7 +56,7 @@ void append_time(std::string& text, const std::optional<std::int64_t>& ns) {
 
 Expected<void> write_frame_csv(const FrameLog& frames,
                                const std::function<Expected<void>(std::string_view)>& write) {
-    std::string text = "frame,wake_up_ns,shown_ns,gaze_state";
+    std::string text = "frame,wake_up_ns,shown_ns,gaze_state,eye_event";
     for (const DurationColumn& column : frames.columns()) {
         text += ',' + column.key();
         text += unit_suffix(column.unit());
@@ -69,6 +69,10 @@ Expected<void> write_frame_csv(const FrameLog& frames,
         text += ',';
         if (const auto state = frames.state(row)) {
             text += gaze::kFoveaStateNames[static_cast<std::size_t>(*state)];
+        }
+        text += ',';
+        if (const auto event = frames.eye_event(row)) {
+            text += gaze::name(*event);
         }
         for (const DurationColumn& column : frames.columns()) {
             append_cell(text, column, row);

@@ -251,6 +251,22 @@ void FrameLog::gather_columns() {
     of_unknown_ = {};
 }
 
+void FrameLog::set_eye_events(const EyeEvents& events) {
+    eye_event_source_ = events.source();
+    eye_events_.assign(eye_event_source_ == EyeEventSource::None ? 0 : rows(), 0);
+    for (std::size_t row = 0; row < eye_events_.size(); ++row) {
+        const std::optional<std::int64_t> ns = shown_ns(row);
+        const auto event = ns ? events.at(*ns) : std::nullopt;
+        eye_events_[row] = event ? static_cast<std::uint8_t>(*event) : 0;
+    }
+}
+
+std::optional<gaze::EyeEvent> FrameLog::eye_event(std::size_t row) const {
+    return eye_events_.empty() || eye_events_[row] == 0
+               ? std::nullopt
+               : std::optional(static_cast<gaze::EyeEvent>(eye_events_[row]));
+}
+
 std::uint64_t FrameLog::number(std::size_t row) const {
     return std::bit_cast<std::uint64_t>(*numbers_.at(row));
 }

@@ -14,12 +14,13 @@
 #include "runtime/latency/gaze_errors.h"
 #include "runtime/latency/latency_summary.h"
 #include "runtime/report/duration_column.h"
+#include "runtime/report/eye_events.h"
 
 namespace gazeloop::report {
 
 /// Every frame of a session with everything that a report says of it: one row for each, in the
 /// order of their numbers, and one column for each quantity. Fed by session::play, which tells a
-/// frame's GPU part right after the frame; complete after finish(). About 110 bytes a frame.
+/// frame's GPU part right after the frame; complete after finish(). About 111 bytes a frame.
 ///
 /// Columns cover what the rows of latency::SummaryReport of the same key cover: gaze age and its
 /// stages those frames whose foveae both rest on a fresh sample, held_gaze_age_at_display those
@@ -36,6 +37,8 @@ class FrameLog final : public frame::FrameObserver {
     void on_gaze(const frame::FrameGaze& gaze) override;
     /// Once, after the last frame. Only then may anything below be asked.
     void finish();
+    /// Once, after finish(): what the eyes did when each frame was shown.
+    void set_eye_events(const EyeEvents& events);
 
     /// Of frames: rendered or not.
     [[nodiscard]] std::size_t rows() const { return numbers_.size(); }
@@ -50,6 +53,9 @@ class FrameLog final : public frame::FrameObserver {
     }
     /// Of the worse eye's fovea; none: the frame was not rendered.
     [[nodiscard]] std::optional<gaze::FoveaState> state(std::size_t row) const;
+    /// What the eyes did when the frame was shown; none: unknown.
+    [[nodiscard]] std::optional<gaze::EyeEvent> eye_event(std::size_t row) const;
+    [[nodiscard]] EyeEventSource eye_event_source() const { return eye_event_source_; }
 
     /// In the order in which a report shows them:
     ///
@@ -114,6 +120,8 @@ class FrameLog final : public frame::FrameObserver {
     NumberColumn wake_up_;
     NumberColumn shown_;
     std::vector<std::uint8_t> states_;
+    std::vector<std::uint8_t> eye_events_;  ///< 0: unknown; empty: of all frames
+    EyeEventSource eye_event_source_ = EyeEventSource::None;
 
     DurationColumn at_latch_;
     DurationColumn uncertainty_;

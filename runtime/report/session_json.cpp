@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/latency/weakest_kind.h"
+#include "runtime/report/eye_event_rows.h"
 #include "runtime/report/session_rows.h"
 #include "runtime/report/summary_json.h"
 
@@ -37,16 +38,34 @@ Json row_json(const SessionRow& row, const Percentiles& percentiles) {
     return json;
 }
 
+Json by_eye_event_json(const FrameLog& frames, const Percentiles& percentiles) {
+    const EyeEventRows rows = rows_by_eye_event(frames, percentiles.percents());
+    const auto by_event = [&percentiles](const std::vector<SessionRow>& all) {
+        Json json = Json::object();
+        for (const SessionRow& row : all) {
+            json[row.name.key] = row_json(row, percentiles);
+        }
+        return json;
+    };
+    return {{"source", kEyeEventSourceNames[static_cast<std::size_t>(rows.source)]},
+            {"frames", rows.with_gaze},
+            {"frames_unknown", rows.unknown},
+            {kGazeAgeAtDisplay.key, by_event(rows.ages)},
+            {kGazeError.key, by_event(rows.errors)}};
+}
+
 Json worst_json(const FrameLog& frames) {
     Json worst = Json::array();
     for (const std::size_t row : frames.worst(kWorstFrames)) {
         const auto state = frames.state(row);
+        const auto event = frames.eye_event(row);
         Json one{
             {"frame", frames.number(row)},
             {"wake_up_ns", or_null(frames.wake_up_ns(row))},
             {"shown_ns", or_null(frames.shown_ns(row))},
             {"gaze_state", state ? Json(gaze::kFoveaStateNames[static_cast<std::size_t>(*state)])
-                                 : Json(nullptr)}};
+                                 : Json(nullptr)},
+            {"eye_event", event ? Json(gaze::name(*event)) : Json(nullptr)}};
         for (const DurationColumn& column : frames.columns()) {
             const std::optional<std::int64_t> number = column.at(row);
             const std::string key = fmt::format("{}{}", column.key(), unit_suffix(column.unit()));
@@ -86,6 +105,7 @@ Json session_json(const SessionSummary& session, const session::SessionInfo& inf
     json["percentiles"] = percentiles.percents();
     json["durations"] = std::move(durations);
     json["gaze_error"] = std::move(errors);
+    json["by_eye_event"] = by_eye_event_json(frames, percentiles);
     json["worst_frames"] = worst_json(frames);
     json["recording"] = {{"schema_version", info.schema_version},
                          {"closed", info.closed_cleanly},

@@ -28,6 +28,20 @@ std::optional<double> shown(const std::optional<std::int64_t>& number, Unit unit
     return number ? std::optional(shown(static_cast<double>(*number), unit)) : std::nullopt;
 }
 
+}  // namespace
+
+double shown(double number, Unit unit) {
+    switch (unit) {
+        case Unit::Nanoseconds:
+            return number / time::kNsPerMs;
+        case Unit::Microdegrees:
+            return number / kMicrodegreesPerDegree;
+        case Unit::Count:
+            break;
+    }
+    return number;
+}
+
 SessionRow row_of(const DurationColumn& column, std::span<const double> percents) {
     const Unit unit = column.unit();
     SessionRow row{.name = {column.key(), column.label()},
@@ -45,20 +59,6 @@ SessionRow row_of(const DurationColumn& column, std::span<const double> percents
     std::ranges::transform(column.percentiles(percents), std::back_inserter(row.percentiles),
                            [unit](const auto& number) { return shown(number, unit); });
     return row;
-}
-
-}  // namespace
-
-double shown(double number, Unit unit) {
-    switch (unit) {
-        case Unit::Nanoseconds:
-            return number / time::kNsPerMs;
-        case Unit::Microdegrees:
-            return number / kMicrodegreesPerDegree;
-        case Unit::Count:
-            break;
-    }
-    return number;
 }
 
 std::vector<SessionRow> rows_of(const FrameLog& frames, std::span<const double> percents) {

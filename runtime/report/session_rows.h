@@ -28,6 +28,8 @@ struct SessionRow {
 /// A column's number as it is shown.
 [[nodiscard]] double shown(double number, Unit unit);
 
+[[nodiscard]] SessionRow row_of(const DurationColumn& column, std::span<const double> percents);
+
 /// The rows that a report shows, in the log's order: all but those of parts that the session does
 /// not have (a stage that is left out where it is unknown, held gaze, a pass that never ran).
 [[nodiscard]] std::vector<SessionRow> rows_of(const FrameLog& frames,

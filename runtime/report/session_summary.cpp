@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/latency/summary_observer.h"
+#include "runtime/report/eye_events.h"
 #include "runtime/session/cursor.h"
 
 namespace gazeloop::report {
@@ -25,8 +26,9 @@ namespace {
 /// this alone.
 constexpr std::uint64_t kMostSamples = 300'000;
 
-/// Tells `lag` the session's first samples, where a session was played without them.
-Expected<void> tell_first_samples(const session::OpenSession& session, LagObserver& lag) {
+/// Tells both the session's first samples, where a session was played without them.
+Expected<void> tell_first_samples(const session::OpenSession& session, LagObserver& lag,
+                                  EyeEvents& eyes) {
     session::SampleCursor samples(session);
     session::OriginCursor origins(session);
     if (auto moved = origins.next(); !moved) {
@@ -47,11 +49,13 @@ Expected<void> tell_first_samples(const session::OpenSession& session, LagObserv
         const session::RecordedSample& row = *samples.row();
         while (origins.row() != nullptr && origins.row()->frame <= row.frame) {
             lag.on_origin(*origins.row());
+            eyes.on_origin(*origins.row());
             if (auto next = origins.next(); !next) {
                 return std::unexpected(std::move(next.error()));
             }
         }
         lag.on_sample(row.sample, row.frame);
+        eyes.on_sample(row.sample, row.frame);
     }
 }
 
@@ -68,8 +72,9 @@ Expected<SessionSummary> summarize(const session::OpenSession& session, const Ru
     TraceAccount trace;
     TraceObserver tracing(trace);
     LagObserver lag;
+    EyeEvents eyes;
     auto frames = std::make_unique<FrameLog>(config);
-    std::vector<frame::FrameObserver*> observers{&observer, &tracing, frames.get(), &lag};
+    std::vector<frame::FrameObserver*> observers{&observer, &tracing, frames.get(), &lag, &eyes};
     observers.insert(observers.end(), also.observers.begin(), also.observers.end());
     auto runtime = RuntimeAccount::open(files, header.meta.runtime_metrics);
     if (!runtime) {
@@ -87,11 +92,12 @@ Expected<SessionSummary> summarize(const session::OpenSession& session, const Ru
         return std::unexpected(std::move(end.error()));
     }
     if (by_counts) {
-        if (auto told = tell_first_samples(session, lag); !told) {
+        if (auto told = tell_first_samples(session, lag, eyes); !told) {
             return std::unexpected(std::move(told.error()));
         }
     }
     frames->finish();
+    frames->set_eye_events(eyes);
     return SessionSummary{.report = summary.report(),
                           .frames = std::move(frames),
                           .trace = std::move(trace),

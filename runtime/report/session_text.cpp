@@ -7,10 +7,12 @@
 #include <span>
 #include <vector>
 
+#include "runtime/report/eye_event_rows.h"
 #include "runtime/report/figures.h"
 #include "runtime/report/row_names.h"
 #include "runtime/report/session_rows.h"
 #include "runtime/report/summary_text.h"
+#include "runtime/report/wrapped_row.h"
 
 namespace gazeloop::report {
 namespace {
@@ -67,6 +69,23 @@ std::string table(std::span<const SessionRow> rows, const Percentiles& percentil
         text += "+: the least certain kind of several\n";
     }
     return text;
+}
+
+/// Nothing where all frames are of one event: the table above has its figures.
+std::string eye_event_table(const FrameLog& frames, const Percentiles& percentiles) {
+    const EyeEventRows rows = rows_by_eye_event(frames, percentiles.percents());
+    if (rows.ages.size() < 2) {
+        return {};
+    }
+    std::string text = head_line("age by eye event, ms", percentiles);
+    for (const SessionRow& row : rows.ages) {
+        text += line_of(row);
+    }
+    text += head_line("error by eye event", percentiles);
+    for (const SessionRow& row : rows.errors) {
+        text += line_of(row);
+    }
+    return text + wrapped_row("", source_text(rows), 2);
 }
 
 std::string below_zero_lines(const FrameLog& frames) {
@@ -145,8 +164,9 @@ std::string session_text(const SessionSummary& session, const Percentiles& perce
     const std::vector<SessionRow> rows = rows_of(frames, percentiles.percents());
     const std::string why = lag.empty() ? std::string{} : fmt::format("\n{}", lag);
     return summary_head(session.report) + why + "\n" + table(rows, percentiles) +
-           below_zero_lines(frames) + error_lines(frames) + summary_notes(session.report) + "\n" +
-           worst_frames(frames) + summary_counts(session.report);
+           eye_event_table(frames, percentiles) + below_zero_lines(frames) + error_lines(frames) +
+           summary_notes(session.report) + "\n" + worst_frames(frames) +
+           summary_counts(session.report);
 }
 
 }  // namespace gazeloop::report

@@ -133,12 +133,30 @@ std::optional<double> axis_s(const FrameLog& frames, std::size_t row) {
     return seconds_since(first_wake_up_ns(frames), frames.wake_up_ns(row));
 }
 
-Table stage_table(const FrameLog& frames, const Percentiles& percentiles) {
-    Table table{.heads = {{"quantity"}, {"kind"}, {"frames"}, {"min"}, {"mean"}}, .rows = {}};
+std::vector<TableHead> quantity_heads(const Percentiles& percentiles) {
+    std::vector<TableHead> heads{{"quantity"}, {"kind"}, {"frames"}, {"min"}, {"mean"}};
     for (const std::string& name : percentiles.names()) {
-        table.heads.push_back({name});
+        heads.push_back({name});
     }
-    table.heads.push_back({"max"});
+    heads.push_back({"max"});
+    return heads;
+}
+
+TableRow quantity_line(const SessionRow& row) {
+    TableRow line{.label = trimmed(row.name.label),
+                  .cells = {kind_text(row.frames_by_kind), fmt::format("{}", row.known),
+                            cell(row.least), cell(row.mean)},
+                  .key = row.name.key,
+                  .indented = indented(row.name.label),
+                  .show_s = {}};
+    std::ranges::transform(row.percentiles, std::back_inserter(line.cells),
+                           [](const auto& value) { return cell(value); });
+    line.cells.push_back(cell(row.greatest));
+    return line;
+}
+
+Table stage_table(const FrameLog& frames, const Percentiles& percentiles) {
+    Table table{.heads = quantity_heads(percentiles), .rows = {}};
     const std::vector<SessionRow> rows = rows_of(frames, percentiles.percents());
     for (const Unit unit : {Unit::Nanoseconds, Unit::Microdegrees}) {
         table.rows.push_back({.label = unit == Unit::Nanoseconds ? "milliseconds" : "degrees",
@@ -148,16 +166,7 @@ Table stage_table(const FrameLog& frames, const Percentiles& percentiles) {
             if (row.unit != unit) {
                 continue;
             }
-            TableRow line{.label = trimmed(row.name.label),
-                          .cells = {kind_text(row.frames_by_kind), fmt::format("{}", row.known),
-                                    cell(row.least), cell(row.mean)},
-                          .key = row.name.key,
-                          .indented = indented(row.name.label),
-                          .show_s = {}};
-            std::ranges::transform(row.percentiles, std::back_inserter(line.cells),
-                                   [](const auto& value) { return cell(value); });
-            line.cells.push_back(cell(row.greatest));
-            table.rows.push_back(std::move(line));
+            table.rows.push_back(quantity_line(row));
         }
     }
     return table;

@@ -43,6 +43,10 @@ inline constexpr std::size_t kWorstFrames = 10;
 /// On the plots' axis, seconds: since the first wake-up of a frame; none: unknown.
 [[nodiscard]] std::optional<double> axis_s(const FrameLog& frames, std::size_t row);
 
+/// A table of quantities: its heads, and the line of one of them.
+[[nodiscard]] std::vector<TableHead> quantity_heads(const Percentiles& percentiles);
+[[nodiscard]] TableRow quantity_line(const SessionRow& row);
+
 [[nodiscard]] Table stage_table(const FrameLog& frames, const Percentiles& percentiles);
 /// The frames with the oldest gaze, one column for each.
 [[nodiscard]] Table worst_table(const FrameLog& frames);

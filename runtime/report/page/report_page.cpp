@@ -12,6 +12,7 @@
 
 #include "runtime/report/figures.h"
 #include "runtime/report/page/distribution.h"
+#include "runtime/report/page/eye_event_table.h"
 #include "runtime/report/page/frame_plots.h"
 #include "runtime/report/page/page_files.h"
 #include "runtime/report/page/page_tables.h"
@@ -350,6 +351,9 @@ std::string report_page(const PageContents& contents) {
     page.set("why", texts(contents.why));
     page.set("why_known", !contents.why.empty());
     page.set("stage_table", table_data(stage_table(frames, contents.percentiles)));
+    const EyeEventRows by_event = rows_by_eye_event(frames, contents.percentiles.percents());
+    page.set("eye_event_table", table_data(eye_event_table(by_event, contents.percentiles)));
+    page.set("eye_event_source", source_text(by_event));
     page.set("negative", texts(below_zero(frames)));
     page.set("notes", texts(lines_of(summary_notes(report))));
     data sections = list();

@@ -185,15 +185,15 @@ TEST(FrameCsv, LeavesUnknownCellsEmptyAndIsExact) {
     std::getline(lines, second);
     std::getline(lines, third);
     EXPECT_TRUE(
-        head.starts_with("frame,wake_up_ns,shown_ns,gaze_state,gaze_age_at_latch_ms,"
-                         "gaze_age_at_display_ms,gaze_age_uncertainty_ms,"
+        head.starts_with("frame,wake_up_ns,shown_ns,gaze_state,eye_event,"
+                         "gaze_age_at_latch_ms,gaze_age_at_display_ms,gaze_age_uncertainty_ms,"
                          "stage_tracker_ms,"))
         << head;
     EXPECT_THAT(head, HasSubstr(",gaze_error_at_display_degrees,"));
-    EXPECT_TRUE(first.starts_with("3,30000000,43000000,tracking,5.000001,18.000001,,3.000001,"))
+    EXPECT_TRUE(first.starts_with("3,30000000,43000000,tracking,,5.000001,18.000001,,3.000001,"))
         << first;
-    EXPECT_TRUE(second.starts_with("4,40000000,,,,,,,")) << second;
-    EXPECT_TRUE(third.starts_with("6,,,tracking,,,,3.000000,,")) << third;
+    EXPECT_TRUE(second.starts_with("4,40000000,,,,,,,,")) << second;
+    EXPECT_TRUE(third.starts_with("6,,,tracking,,,,,3.000000,,")) << third;
     const auto commas = std::ranges::count(head, ',');
     EXPECT_EQ(std::ranges::count(first, ','), commas);
     EXPECT_EQ(std::ranges::count(third, ','), commas);
