@@ -54,7 +54,8 @@ std::vector<Figure> maps(const Options& options);
 std::vector<Figure> devices(const Options& options);
 
 /// `gazeloop report` on a session of an hour (1 kHz, 90 Hz, made once in virtual time and kept in
-/// the cache, 1.1 GB): its time and peak memory, and both over those of another build, in turns.
+/// the cache, 1.1 GB): its time and peak memory, and both over those of another build, in turns. On
+/// four such hours (made of that one, 4.4 GB) in all formats: time, memory and sizes.
 std::vector<Figure> report(const Options& options);
 
 /// A glTF scene of a million triangles and 22 textures (made once and kept in the cache, 70 MB):

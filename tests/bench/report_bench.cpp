@@ -1,76 +1,19 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
 #include "tests/bench/bench.h"
+#include "tests/bench/long_session.h"
 #include "tests/bench/measured_program.h"
-#include "tests/support/cache_folder.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::bench {
 namespace {
 
 constexpr const char* kBench = "report";
-constexpr const char* kCase = "1h";
-
-constexpr const char* kDisplay = R"toml(
-description = "tiny, 90 Hz"
-assumed = []
-width_px = 8
-height_px = 8
-refresh_hz = 90.0
-[fov_deg]
-left = [-54.0, 40.0, 42.0, -54.0]
-right = [-40.0, 54.0, 42.0, -54.0]
-[optics]
-ipd_mm = 63.0
-)toml";
-constexpr const char* kSamples = "4";
-constexpr const char* kFramesOfAnHour = "324000";
-
-std::vector<std::string> report_of(const std::string& program, const std::string& session) {
-    return {program, "report", session};
-}
-
-bool is_read_by(const std::string& session, const std::vector<std::string>& programs) {
-    return std::ranges::all_of(programs, [&](const std::string& program) {
-        return tests::run_program(report_of(program, session)).exit_code == 0;
-    });
-}
-
-/// An hour of simulated gaze at 1 kHz, in virtual time.
-void record_hour(const std::string& program, const std::filesystem::path& session) {
-    const tests::ScratchFolder folder;
-    const std::string display = folder.write("tiny.toml", kDisplay);
-    const tests::ProgramResult result = tests::run_program(
-        {program,    "run",      "--gaze",    "sim",     "--set",    "sim.rate_hz=1000",
-         "--target", "headless", "--clock",   "virtual", "--method", "full",
-         "--spp",    kSamples,   "--display", display,   "--frames", kFramesOfAnHour,
-         "--record", session,    "--quiet"},
-        {.timeout = std::chrono::seconds(600)});
-    if (result.exit_code != 0) {
-        throw std::runtime_error(result.err);
-    }
-}
-
-/// The session that all of them read: the one that was kept, or a new one by the last of them.
-std::string hour_for(const std::vector<std::string>& programs) {
-    const auto folder = std::filesystem::path(tests::cache_folder()) / "bench";
-    const auto session = folder / "report-1h.gaze";
-    if (!std::filesystem::exists(session) || !is_read_by(session, programs)) {
-        std::filesystem::create_directories(folder);
-        const auto unfinished = folder / "report-1h.new.gaze";
-        for (const char* left : {"", "-wal", "-shm"}) {
-            std::filesystem::remove(unfinished.string() + left);
-        }
-        record_hour(programs.back(), unfinished);
-        std::filesystem::rename(unfinished, session);
-    }
-    return session;
-}
+constexpr const char* kSummary = "1h";
+constexpr const char* kAllFormats = "4h";
+constexpr double kMiB = 1024.0 * 1024.0;
 
 struct Medians {
     double seconds;
@@ -87,35 +30,78 @@ Medians medians(const std::vector<MeasuredProgram>& runs) {
     return {median(seconds), median(bytes)};
 }
 
+/// The summary of an hour alone, by each program in turns.
+void add_summary(const std::vector<std::string>& programs, const Options& options,
+                 std::vector<Figure>& figures) {
+    const std::string session = session_of_an_hour(programs);
+    std::vector<std::vector<MeasuredProgram>> runs(programs.size());
+    for (unsigned round = 0; round < options.rounds; ++round) {
+        for (std::size_t i = 0; i < programs.size(); ++i) {
+            runs[i].push_back(measure_program({programs[i], "report", session}));
+        }
+    }
+    const Medians now = medians(runs.front());
+    figures.push_back({kBench, kSummary, "peak memory", now.bytes / kMiB, "MiB", "lower"});
+    figures.push_back({kBench, kSummary, "time", now.seconds, "s", "lower"});
+    if (programs.size() == 1) {
+        fmt::print(stderr, "report: for ratios name a build before: --against FILE\n");
+        return;
+    }
+    const Medians before = medians(runs.back());
+    constexpr double kLessMemory = 10.0;
+    constexpr double kLessTime = 3.0;
+    figures.push_back({kBench, kSummary, "memory_ratio", now.bytes / before.bytes, "x", "lower",
+                       std::nullopt, 1.0 / kLessMemory});
+    figures.push_back({kBench, kSummary, "time_ratio", now.seconds / before.seconds, "x", "lower",
+                       std::nullopt, 1.0 / kLessTime});
+}
+
+/// Four hours in all formats, by this program alone: another one may not have them.
+void add_all_formats(const std::vector<std::string>& programs, const Options& options,
+                     std::vector<Figure>& figures) {
+    const std::string session = session_of_four_hours(session_of_an_hour(programs));
+    const tests::ScratchFolder folder;
+    const auto bytes_of = [](const std::string& file) {
+        return static_cast<double>(std::filesystem::file_size(file));
+    };
+    std::vector<MeasuredProgram> runs;
+    for (unsigned round = 0; round < options.rounds; ++round) {
+        runs.push_back(
+            measure_program({programs.front(), "report", session, "--html", folder.file("r.html"),
+                             "--json", folder.file("r.json"), "--csv", folder.file("r.csv")}));
+    }
+    const Medians now = medians(runs);
+    const MeasuredProgram perfetto = measure_program(
+        {programs.front(), "report", session, "--perfetto", folder.file("r.pftrace")});
+    const auto add = [&](const char* metric, double value, const char* unit,
+                         std::optional<double> target = std::nullopt) {
+        figures.push_back(
+            {kBench, kAllFormats, metric, value, unit, "lower", std::nullopt, target});
+    };
+    add("time, text HTML JSON CSV", now.seconds, "s", 10.0);
+    add("peak memory", now.bytes / kMiB, "MiB", 300.0);
+    add("HTML", bytes_of(folder.file("r.html")) * 1e-6, "MB", 5.0);
+    add("JSON", bytes_of(folder.file("r.json")) * 1e-6, "MB");
+    add("CSV", bytes_of(folder.file("r.csv")) * 1e-6, "MB");
+    add("session", bytes_of(session) * 1e-6, "MB");
+    add("time, Perfetto", perfetto.seconds, "s");
+    add("peak memory, Perfetto", static_cast<double>(perfetto.peak_bytes) / kMiB, "MiB", 300.0);
+    add("Perfetto", bytes_of(folder.file("r.pftrace")) * 1e-6, "MB");
+}
+
 }  // namespace
 
 std::vector<Figure> report(const Options& options) {
-    if (!options.wants(kCase)) {
-        return {};
-    }
     std::vector<std::string> programs{GAZELOOP_BINARY_DIR "/gazeloop"};
     if (options.against) {
         programs.push_back(std::filesystem::absolute(*options.against));
     }
-    const std::string session = hour_for(programs);
-    std::vector<std::vector<MeasuredProgram>> runs(programs.size());
-    for (unsigned round = 0; round < options.rounds; ++round) {
-        for (std::size_t i = 0; i < programs.size(); ++i) {
-            runs[i].push_back(measure_program(report_of(programs[i], session)));
-        }
+    std::vector<Figure> figures;
+    if (options.wants(kSummary)) {
+        add_summary(programs, options, figures);
     }
-    const Medians now = medians(runs.front());
-    std::vector<Figure> figures{
-        {kBench, kCase, "peak memory", now.bytes / (1024.0 * 1024.0), "MiB", "lower"},
-        {kBench, kCase, "time", now.seconds, "s", "lower"}};
-    if (options.against) {
-        const Medians before = medians(runs.back());
-        figures.push_back({kBench, kCase, "memory_ratio", now.bytes / before.bytes, "x", "lower",
-                           std::nullopt, 0.1});
-        figures.push_back({kBench, kCase, "time_ratio", now.seconds / before.seconds, "x", "lower",
-                           std::nullopt, 0.5});
-    } else {
-        fmt::print(stderr, "report: for ratios name a build before: --against FILE\n");
+    if (options.wants(kAllFormats)) {
+        add_all_formats(programs, options, figures);
     }
     return figures;
 }
