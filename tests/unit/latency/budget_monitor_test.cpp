@@ -342,22 +342,31 @@ TEST(BudgetMonitor, IsExactOverItsWindow) {
 }
 
 TEST(BudgetMonitor, AllocatesNothingLater) {
-    BudgetMonitor monitor(budget_of(10), kSecond / 2);
-    std::uint64_t told = 0;
-    std::size_t length = 0;
-    const std::size_t before = tests::allocations_of_this_thread();
-    for (std::uint64_t index = 0; index < 500; ++index) {
-        const FrameAccount account =
-            account_of({example_frame(index), example_gpu(index)}, 0, {.switching_ns = kMs});
-        monitor.add(account, index, kExamplePeriodNs, [&](const BudgetEvent& event) {
-            ++told;
-            length += text_of(event, "test").view().size();
-        });
-        length += monitor.snapshot().window_frames;
+    // The longest window that may be set, at 120 Hz, holds fewer frames than there is room for.
+    static_assert(30 * 120 < BudgetMonitor::kMost);
+    for (const std::int64_t window_ns : {kSecond / 2, 30 * kSecond}) {
+        BudgetMonitor monitor(budget_of(10), window_ns);
+        std::uint64_t told = 0;
+        std::size_t length = 0;
+        const std::size_t before = tests::allocations_of_this_thread();
+        // Frames are 10 ms apart: the window moves on.
+        const auto frames = static_cast<std::uint64_t>(window_ns / kExamplePeriodNs) + 500;
+        for (std::uint64_t index = 0; index < frames; ++index) {
+            const FrameAccount account =
+                account_of({example_frame(index), example_gpu(index)}, 0, {.switching_ns = kMs});
+            monitor.add(account, index, kExamplePeriodNs, [&](const BudgetEvent& event) {
+                ++told;
+                length += text_of(event, "test").view().size();
+            });
+            length += monitor.snapshot().window_frames;
+        }
+        EXPECT_EQ(tests::allocations_of_this_thread(), before);
+        EXPECT_EQ(told, 1U);
+        EXPECT_GT(length, 0U);
+        EXPECT_FALSE(monitor.snapshot().window_cut);
+        EXPECT_EQ(monitor.snapshot().window_frames,
+                  static_cast<std::uint64_t>(window_ns / kExamplePeriodNs) + 1);
     }
-    EXPECT_EQ(tests::allocations_of_this_thread(), before);
-    EXPECT_EQ(told, 1U);
-    EXPECT_GT(length, 0U);
 }
 
 TEST(BudgetEvents, SayWhatIsAboveWhich) {
