@@ -24,13 +24,13 @@ std::string text_of(const SessionReport& made) {
                     summary.trace.text(), summary.runtime.text(),
                     report::prediction_text(made.prediction, summary.report));
     for (const std::string& line : report::recording_lines(made.info, summary.end)) {
-        text += line + "\n";
+        text += fmt::format("{}\n", line);
     }
     if (made.measured) {
         text += probe::comparison_text(*made.measured);
     }
     if (made.gate) {
-        text += "\n" + report::gate_text(*made.gate);
+        text += fmt::format("\n{}", report::gate_text(*made.gate));
     }
     if (made.against) {
         text += report::comparison_text(made.against->comparison, made.percentiles,
