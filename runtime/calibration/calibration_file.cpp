@@ -1,17 +1,14 @@
 #include "runtime/calibration/calibration_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <span>
 #include <vector>
 
+#include "runtime/files/output_file.h"
 #include "runtime/open_for_reading.h"
 
 namespace gazeloop::calibration {
@@ -95,36 +92,7 @@ bool read_coefficients(const toml::table& table, std::string_view key,
 
 Expected<void> write_calibration(const CalibrationFile& calibration,
                                  const std::filesystem::path& file) {
-    const std::string text = text_of(calibration);
-    const std::string partial = file.string() + ".partial";
-    const auto failed = [&file] {
-        return bad(file, fmt::format("cannot be written: {}", std::strerror(errno)));
-    };
-    unlink(partial.c_str());
-    const int fd = open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    if (fd < 0) {
-        return failed();
-    }
-    std::string_view rest = text;
-    while (!rest.empty()) {
-        const ssize_t written = write(fd, rest.data(), rest.size());
-        if (written < 0 && errno == EINTR) {
-            continue;
-        }
-        if (written < 0) {
-            const auto error = failed();
-            close(fd);
-            unlink(partial.c_str());
-            return error;
-        }
-        rest.remove_prefix(static_cast<std::size_t>(written));
-    }
-    if (fsync(fd) != 0 || close(fd) != 0 || rename(partial.c_str(), file.c_str()) != 0) {
-        const auto error = failed();
-        unlink(partial.c_str());
-        return error;
-    }
-    return {};
+    return files::write_text(file, text_of(calibration), files::kOwnerOnly);
 }
 
 Expected<CalibrationFile> read_calibration(const std::filesystem::path& file) {

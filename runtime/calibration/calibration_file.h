@@ -17,7 +17,7 @@ struct CalibrationFile {
 };
 
 /// TOML, read back to the same bits. Readable by its owner only (0600), for it is of a person.
-/// Takes the place of a file of that name in one step. Errors (BadInput): it cannot be written.
+/// Written as files::OutputFile writes. Errors (BadInput): it cannot be written.
 [[nodiscard]] Expected<void> write_calibration(const CalibrationFile& calibration,
                                                const std::filesystem::path& file);
 

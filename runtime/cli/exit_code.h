@@ -11,7 +11,7 @@ enum class ExitCode : int {
     Ok = 0,
     GateFailed = 1,
     Usage = 2,
-    BadInput = 3,
+    BadInput = 3,  ///< or a place where results cannot be written, stdout among them
     NoDevice = 4,
     SessionLost = 5,
     RecordingIncomplete = 6,

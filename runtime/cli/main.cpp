@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "runtime/cli/commands.h"
@@ -19,6 +20,12 @@ namespace {
 using gazeloop::cli::ExitCode;
 
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
+
+/// What happens to a file that cannot be written.
+int stdout_lost() {
+    spdlog::error("stdout: cannot be written: the results are lost; free space, or name a file");
+    return code(ExitCode::BadInput);
+}
 
 int gazeloop_main(int count, char** arguments) {
     const auto log = spdlog::stderr_color_mt("gazeloop");
@@ -58,18 +65,16 @@ int gazeloop_main(int count, char** arguments) {
         gazeloop::cli::add_preview_window_command(program);
         const auto action =
             line.parse(std::vector<std::string>(arguments + std::min(count, 1), arguments + count));
-        if (!action) {
-            return code(gazeloop::cli::say(action.error()));
-        }
-        const ExitCode result = (*action)();
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-            spdlog::error("stdout cannot be written: the results are lost");
-            return code(ExitCode::BadInput);
-        }
-        return code(result);
+        const ExitCode result = action ? (*action)() : gazeloop::cli::say(action.error());
+        return std::fflush(stdout) != 0 || std::ferror(stdout) != 0 ? stdout_lost() : code(result);
     } catch (const gazeloop::SetupError& error) {
         spdlog::error("{}", error.what());
         return code(gazeloop::cli::exit_code(error.kind()));
+    } catch (const std::system_error&) {
+        if (std::ferror(stdout) == 0) {
+            throw;
+        }
+        return stdout_lost();
     } catch (const std::bad_alloc&) {
         spdlog::error("out of memory: use a smaller picture (--set render.scale=0.5) or trace");
         return code(ExitCode::NoDevice);

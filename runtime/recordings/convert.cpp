@@ -79,6 +79,10 @@ Written write(const Conversion& conversion, const gaze::GazeTrace& trace) {
 }  // namespace
 
 void convert(const Conversion& conversion) {
+    if (conversion.out == "-") {
+        throw SetupError(ErrorKind::Usage,
+                         "convert: '-' is no file: name one, or /dev/stdout for the table alone");
+    }
     if (!conversion.json.empty()) {
         value_or_throw(report::check_output(conversion.json));
     }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "runtime/files/output_file.h"
 #include "runtime/render/srgb.h"
 
 namespace gazeloop::render {
@@ -97,13 +98,17 @@ Expected<void> write_png(const Picture& picture, const std::filesystem::path& fi
     image.width = picture.width;
     image.height = picture.height;
     image.format = PNG_FORMAT_RGB;
-    if (png_image_write_to_file(&image, file.c_str(), 0, picture.pixels.data(), 0, nullptr) == 0) {
-        return std::unexpected(
-            Error{ErrorKind::BadInput, fmt::format("{}: the picture could not be written ({}); "
-                                                   "is the folder there and writable?",
-                                                   file.string(), image.message)});
+    // Not to the file: libpng removes what it could not write, even a device.
+    std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
+    png_alloc_size_t size = bytes.size();
+    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.pixels.data(), 0,
+                                  nullptr) == 0) {
+        return std::unexpected(Error{
+            ErrorKind::BadInput,
+            fmt::format("{}: the picture cannot be a PNG ({})", file.string(), image.message)});
     }
-    return {};
+    bytes.resize(size);
+    return files::write_text(file, bytes);
 }
 
 }  // namespace gazeloop::render

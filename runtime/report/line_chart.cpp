@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
+
+#include "runtime/files/output_file.h"
 
 namespace gazeloop::report {
 namespace {
@@ -222,7 +225,13 @@ Expected<void> write_chart(const LineChart& chart, const std::filesystem::path& 
         return std::unexpected(Error{
             ErrorKind::Usage, fmt::format("{}: a chart is a .png or .svg file", file.string())});
     }
-    const Surface surface(svg ? cairo_svg_surface_create(file.c_str(), kWidth, kHeight)
+    // Cairo would replace what is no file, and leaves half a file where it fails.
+    std::string bytes;
+    const cairo_write_func_t append = [](void* all, const unsigned char* some, unsigned size) {
+        static_cast<std::string*>(all)->append(reinterpret_cast<const char*>(some), size);
+        return CAIRO_STATUS_SUCCESS;
+    };
+    const Surface surface(svg ? cairo_svg_surface_create_for_stream(append, &bytes, kWidth, kHeight)
                               : cairo_image_surface_create(CAIRO_FORMAT_RGB24,
                                                            static_cast<int>(kWidth),
                                                            static_cast<int>(kHeight)));
@@ -234,12 +243,14 @@ Expected<void> write_chart(const LineChart& chart, const std::filesystem::path& 
         }
     }
     if (!svg) {
-        const cairo_status_t status = cairo_surface_write_to_png(surface.get(), file.c_str());
-        return status == CAIRO_STATUS_SUCCESS ? Expected<void>{} : refuse(file, status);
+        const cairo_status_t status =
+            cairo_surface_write_to_png_stream(surface.get(), append, &bytes);
+        return status == CAIRO_STATUS_SUCCESS ? files::write_text(file, bytes)
+                                              : refuse(file, status);
     }
     cairo_surface_finish(surface.get());
     const cairo_status_t status = cairo_surface_status(surface.get());
-    return status == CAIRO_STATUS_SUCCESS ? Expected<void>{} : refuse(file, status);
+    return status == CAIRO_STATUS_SUCCESS ? files::write_text(file, bytes) : refuse(file, status);
 }
 
 }  // namespace gazeloop::report

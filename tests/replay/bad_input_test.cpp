@@ -273,6 +273,20 @@ TEST(BadInput, RecordingThatExists) {
     EXPECT_NE(result.err.find(file), std::string::npos) << result.err;
 }
 
+TEST(BadInput, StdoutThatTakesNothing) {
+    // Long enough to overflow what stdio holds back, and short enough not to.
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"run", "--print-config"},
+          {"run", "--help"},
+          {"plan", "--json"},
+          {"--version"}}) {
+        const ProgramResult result =
+            run_gazeloop(arguments, {.wrapper = {"sh", "-c", R"(exec "$0" "$@" >/dev/full)"}});
+        EXPECT_EQ(result.exit_code, 3) << arguments.front() << ": " << result.err;
+        EXPECT_NE(result.err.find("stdout: cannot be written"), std::string::npos) << result.err;
+    }
+}
+
 TEST(BadInput, PrintConfigSaysWhereValuesComeFrom) {
     const ScratchFolder folder;
     const std::string file = folder.write("a.toml", "kfr.sigma = 2.5\n");

@@ -1,38 +1,51 @@
 #include "drivers/trace/text/text_output.h"
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <filesystem>
-#include <system_error>
+#include <optional>
+#include <string_view>
 #include <utility>
+
+#include "runtime/files/output_file.h"
 
 namespace gazeloop::drivers {
 
-class TextOutput::Gzip : public std::streambuf {
+/// Gathers text, compresses it if that is asked for, and writes it. The first error is kept.
+class TextOutput::Pieces : public std::streambuf {
   public:
-    explicit Gzip(const std::string& file) : file_(gzopen(file.c_str(), "wb6")) {
+    explicit Pieces(const std::string& file) {
+        if (auto output = files::OutputFile::open(file)) {
+            output_.emplace(std::move(*output));
+        } else {
+            result_ = std::unexpected(std::move(output.error()));
+        }
+        constexpr int kGzip = 16;
+        if (file.ends_with(".gz") && deflateInit2(&deflate_, 6, Z_DEFLATED, MAX_WBITS + kGzip,
+                                                  MAX_MEM_LEVEL - 1, Z_DEFAULT_STRATEGY) == Z_OK) {
+            compressed_.emplace();
+        }
         setp(buffer_.data(), buffer_.data() + buffer_.size());
     }
-    Gzip(const Gzip&) = delete;
-    Gzip& operator=(const Gzip&) = delete;
-    ~Gzip() override { (void)close(); }
-
-    /// Whether all was written.
-    bool close() {
-        if (file_ == nullptr) {
-            return false;
+    Pieces(const Pieces&) = delete;
+    Pieces& operator=(const Pieces&) = delete;
+    ~Pieces() override {
+        if (compressed_) {
+            deflateEnd(&deflate_);
         }
-        const bool flushed = flush();
-        return gzclose(std::exchange(file_, nullptr)) == Z_OK && flushed;
+    }
+
+    Expected<void> close() {
+        flush(true);
+        if (result_) {
+            result_ = output_->close();
+        }
+        return std::move(result_);
     }
 
   protected:
     int_type overflow(int_type c) override {
-        if (file_ == nullptr || !flush()) {
+        if (!flush(false)) {
             return traits_type::eof();
         }
         if (!traits_type::eq_int_type(c, traits_type::eof())) {
@@ -43,63 +56,45 @@ class TextOutput::Gzip : public std::streambuf {
     }
 
   private:
-    bool flush() {
-        const auto size = static_cast<unsigned>(pptr() - pbase());
-        const bool written = size == 0 || gzwrite(file_, pbase(), size) == static_cast<int>(size);
+    static constexpr std::size_t kPiece = 65'536;
+
+    /// Whether all was written until now.
+    bool flush(bool end) {
+        const std::string_view text(pbase(), static_cast<std::size_t>(pptr() - pbase()));
         setp(buffer_.data(), buffer_.data() + buffer_.size());
-        return written;
+        if (!compressed_) {
+            write(text);
+            return result_.has_value();
+        }
+        deflate_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+        deflate_.avail_in = static_cast<uInt>(text.size());
+        do {
+            deflate_.next_out = reinterpret_cast<Bytef*>(compressed_->data());
+            deflate_.avail_out = static_cast<uInt>(kPiece);
+            ::deflate(&deflate_, end ? Z_FINISH : Z_NO_FLUSH);
+            write({compressed_->data(), kPiece - deflate_.avail_out});
+        } while (deflate_.avail_out == 0);
+        return result_.has_value();
     }
 
-    gzFile file_;
-    std::array<char, 65'536> buffer_{};
+    void write(std::string_view bytes) {
+        if (result_ && !bytes.empty()) {
+            result_ = output_->write(bytes);
+        }
+    }
+
+    std::optional<files::OutputFile> output_;  ///< none: it could not be opened
+    Expected<void> result_;
+    z_stream deflate_{};
+    std::array<char, kPiece> buffer_{};
+    std::optional<std::array<char, kPiece>> compressed_;  ///< none: plain
 };
 
-TextOutput::TextOutput(std::string file) : file_(std::move(file)) {
-    std::error_code ignored;
-    const std::filesystem::path real = std::filesystem::weakly_canonical(file_, ignored);
-    real_ = ignored ? file_ : real.string();
-    const bool in_place = std::filesystem::exists(real_, ignored) &&
-                          !std::filesystem::is_regular_file(real_, ignored);
-    written_ = in_place ? "" : real_ + ".unfinished";
-    const std::string& to = in_place ? real_ : written_;
-    errno = 0;
-    if (file_.ends_with(".gz")) {
-        gzip_ = std::make_unique<Gzip>(to);
-    } else {
-        plain_.open(to, std::ios::binary | std::ios::trunc);
-    }
-    opened_errno_ = errno;
-    stream_ = std::make_unique<std::ostream>(gzip_ ? static_cast<std::streambuf*>(gzip_.get())
-                                                   : plain_.rdbuf());
-}
+TextOutput::TextOutput(const std::string& file)
+    : pieces_(std::make_unique<Pieces>(file)), stream_(pieces_.get()) {}
 
-TextOutput::~TextOutput() {
-    if (!written_.empty()) {
-        std::error_code ignored;
-        std::filesystem::remove(written_, ignored);
-    }
-}
+TextOutput::~TextOutput() = default;
 
-Expected<void> TextOutput::close() {
-    errno = opened_errno_;
-    bool written = stream_->good();
-    if (gzip_) {
-        written = gzip_->close() && written;
-    } else {
-        plain_.close();
-        written = !plain_.fail() && written;
-    }
-    if (written && !written_.empty()) {
-        written = std::rename(written_.c_str(), real_.c_str()) == 0;
-    }
-    if (written) {
-        written_.clear();
-        return {};
-    }
-    return std::unexpected(
-        Error{ErrorKind::BadInput,
-              fmt::format("{}: cannot be written ({})", file_,
-                          errno != 0 ? std::generic_category().message(errno) : "unknown why")});
-}
+Expected<void> TextOutput::close() { return pieces_->close(); }
 
 }  // namespace gazeloop::drivers
