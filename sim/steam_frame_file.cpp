@@ -2,11 +2,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <bit>
 #include <cerrno>
 #include <glm/geometric.hpp>
@@ -113,65 +113,82 @@ Expected<SteamFrameFile> SteamFrameFile::create(const std::filesystem::path& pat
                             "was killed: name another file, or remove it"
                           : "cannot be made");
     }
-    void* memory = MAP_FAILED;
-    // Not ftruncate(), which reserves nothing: a write to a full disk would then be a signal.
-    int error = posix_fallocate(fd, 0, kFileBytes);
-    if (error == 0) {
-        memory = mmap(nullptr, kFileBytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
-        error = errno;
-    }
-    close(fd);
-    if (memory == MAP_FAILED) {
-        unlink(path.c_str());
+    // Not ftruncate(), which reserves nothing: a later write to a full disk would then fail.
+    SteamFrameFile file(path, fd, version);
+    if (const int error = posix_fallocate(fd, 0, kFileBytes); error != 0) {
         errno = error;
-        return failed("cannot be made and mapped: free space there, or name another file");
+        return failed("cannot be made: free space there, or name another file");
     }
-    SteamFrameFile file(path, static_cast<std::uint8_t*>(memory), version);
-    file.set_initialised(initialised);
+    std::array<std::uint8_t, sizeof version> bytes{};
+    Bytes(bytes, 0).add(version);
+    if (auto stored = file.store(0, bytes); !stored) {
+        return std::unexpected(std::move(stored.error()));
+    }
+    if (auto stored = file.set_initialised(initialised); !stored) {
+        return std::unexpected(std::move(stored.error()));
+    }
     return file;
 }
 
-SteamFrameFile::SteamFrameFile(std::filesystem::path path, std::uint8_t* memory,
-                               std::uint32_t version)
-    : path_(std::move(path)),
-      memory_(memory),
-      record_at_(version == 4 ? kRecordOfVersion4At : kRecordAt) {
-    Bytes({memory_, kFileBytes}, 0).add(version);
-}
+SteamFrameFile::SteamFrameFile(std::filesystem::path path, int fd, std::uint32_t version)
+    : path_(std::move(path)), fd_(fd), record_at_(version == 4 ? kRecordOfVersion4At : kRecordAt) {}
 
 SteamFrameFile::SteamFrameFile(SteamFrameFile&& other) noexcept
     : path_(std::move(other.path_)),
-      memory_(std::exchange(other.memory_, nullptr)),
+      fd_(std::exchange(other.fd_, -1)),
       record_at_(other.record_at_),
       counter_(other.counter_) {}
 
 SteamFrameFile::~SteamFrameFile() {
-    if (memory_ != nullptr) {
-        munmap(memory_, kFileBytes);
+    if (fd_ < 0) {
+        return;
+    }
+    struct stat ours{};
+    struct stat there{};
+    // What somebody else has put in its place stays.
+    if (fstat(fd_, &ours) == 0 && lstat(path_.c_str(), &there) == 0 &&
+        ours.st_dev == there.st_dev && ours.st_ino == there.st_ino) {
         unlink(path_.c_str());
     }
+    close(fd_);
 }
 
-void SteamFrameFile::publish(const SteamFrameRecord& record, StoreOrder order,
-                             std::uint32_t skipped) {
+Expected<void> SteamFrameFile::publish(const SteamFrameRecord& record, StoreOrder order,
+                                       std::uint32_t skipped) {
     counter_ += 1 + skipped;
-    if (order == StoreOrder::CounterFirst) {
-        store_counter();
+    std::array<std::uint8_t, sizeof counter_> counter{};
+    Bytes(counter, 0).add(counter_);
+    const bool counter_first = order == StoreOrder::CounterFirst;
+    const auto first = counter_first ? store(kCounterAt, counter) : store(record_at_, record);
+    if (!first) {
+        return first;
     }
-    std::ranges::copy(record, memory_ + record_at_);
-    std::atomic_signal_fence(std::memory_order_seq_cst);  // in this order, for other processes too
-    if (order == StoreOrder::CounterLast) {
-        store_counter();
-    }
+    return counter_first ? store(record_at_, record) : store(kCounterAt, counter);
 }
 
-void SteamFrameFile::store_counter() {
-    std::atomic_ref(*reinterpret_cast<std::uint32_t*>(memory_ + kCounterAt))
-        .store(counter_, std::memory_order_seq_cst);
+Expected<void> SteamFrameFile::set_initialised(bool initialised) {
+    std::array<std::uint8_t, sizeof(std::uint32_t)> bytes{};
+    Bytes(bytes, 0).add(std::uint32_t{initialised ? 1U : 0U});
+    return store(kInitialisedAt, bytes);
 }
 
-void SteamFrameFile::set_initialised(bool initialised) {
-    Bytes({memory_, kFileBytes}, kInitialisedAt).add(std::uint32_t{initialised ? 1U : 0U});
+Expected<void> SteamFrameFile::store(std::size_t at, std::span<const std::uint8_t> bytes) {
+    // Not through mapped memory: a file that somebody cuts short would then be a signal.
+    struct stat status{};
+    if (fstat(fd_, &status) == 0 && status.st_size < static_cast<off_t>(kFileBytes)) {
+        return std::unexpected(
+            Error{ErrorKind::BadInput,
+                  fmt::format("{}: another program has cut it to {} bytes: nothing more can be "
+                              "published; start again",
+                              path_.string(), status.st_size)});
+    }
+    if (pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(at)) !=
+        static_cast<ssize_t>(bytes.size())) {
+        return std::unexpected(
+            Error{ErrorKind::BadInput, fmt::format("{}: cannot be written ({})", path_.string(),
+                                                   std::generic_category().message(errno))});
+    }
+    return {};
 }
 
 }  // namespace gazeloop::sim

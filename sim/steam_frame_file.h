@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_sample.h"
@@ -40,7 +41,9 @@ struct SteamFrameGaze {
 /// In which order a service stores a sample, which nobody has said of the real one.
 enum class StoreOrder : std::uint8_t { CounterLast, CounterFirst };
 
-/// A file as the service writes it, in memory that other processes read. The destructor removes it.
+/// A file as the service writes it, which other processes read meanwhile. The destructor removes
+/// it. Errors (BadInput) of all that stores: somebody has cut the file short, or it cannot be
+/// written.
 class SteamFrameFile {
   public:
     /// Versions 4 and 5 are as the tools know them; another one is laid out as 5. Errors
@@ -55,20 +58,20 @@ class SteamFrameFile {
     ~SteamFrameFile();
 
     /// Counts up by 1 + `skipped` and stores the sample.
-    void publish(const SteamFrameRecord& record, StoreOrder order = StoreOrder::CounterLast,
-                 std::uint32_t skipped = 0);
+    Expected<void> publish(const SteamFrameRecord& record,
+                           StoreOrder order = StoreOrder::CounterLast, std::uint32_t skipped = 0);
 
     /// Whether readers may take it for ready.
-    void set_initialised(bool initialised);
+    Expected<void> set_initialised(bool initialised);
 
     [[nodiscard]] std::uint32_t counter() const { return counter_; }
 
   private:
-    SteamFrameFile(std::filesystem::path path, std::uint8_t* memory, std::uint32_t version);
-    void store_counter();
+    SteamFrameFile(std::filesystem::path path, int fd, std::uint32_t version);
+    Expected<void> store(std::size_t at, std::span<const std::uint8_t> bytes);
 
     std::filesystem::path path_;
-    std::uint8_t* memory_;
+    int fd_;
     std::size_t record_at_;
     std::uint32_t counter_ = 0;
 };

@@ -66,8 +66,10 @@ Expected<void> SharedFile::read(Image& image) const {
         return no_device(fmt::format("{} cannot be read: {}", path_, why(errno)));
     }
     if (static_cast<std::size_t>(count) < image.size()) {
-        return no_device(fmt::format("{} has {} bytes, which is too short for the eye service's {}",
-                                     path_, count, image.size()));
+        return no_device(
+            fmt::format("{} has {} bytes, which is too short for the eye service's {}: another "
+                        "program has cut it; restart the headset's eye service",
+                        path_, count, image.size()));
     }
     return {};
 }

@@ -25,7 +25,8 @@ std::uint64_t publish_as_steam_frame(const PlayedGaze& gaze, const SimulatedStea
         [&file](const gaze::GazeSample& sample, std::int64_t taken_ns) {
             const ClockPair pair = drivers::steam_frame::read_clocks();
             const std::int64_t raw_ns = pair.raw_ns + (taken_ns - pair.monotonic_ns);
-            file.publish(sim::steam_frame_record(sim::steam_frame_gaze(sample, raw_ns)));
+            value_or_throw(
+                file.publish(sim::steam_frame_record(sim::steam_frame_gaze(sample, raw_ns))));
         });
     return file.counter();
 }
