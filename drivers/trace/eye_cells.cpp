@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <string_view>
 
+#include "drivers/trace/directions.h"
 #include "runtime/gaze/direction.h"
 
 namespace gazeloop::drivers {
@@ -136,13 +137,25 @@ void EyeCells::read_direction(CsvTable& table, bool vouched, gaze::EyeRay& ray,
     }
     if (std::abs(glm::length(written) - 1.0) <= kUnitTolerance) {
         ray.valid = true;
-    } else if (const std::optional<glm::dvec3> direction = gaze::unit(written)) {
+    } else if (form_.direction != nullptr ? gaze::unit(written).has_value()
+                                          : is_direction(written)) {
         ray.valid = true;
-        ray.direction = *direction;
+        ray.direction = *gaze::unit(written);
     } else {
-        bad.add(direction_of(eye_), table.line(),
-                [] { return std::string{"a direction without length (0, 0, 0)"}; });
+        bad.add(direction_of(eye_), table.line(), [&] {
+            return written == glm::dvec3{0.0} ? std::string{"a direction without length (0, 0, 0)"}
+                   : form_.direction != nullptr
+                       ? fmt::format("{} is an angle beyond a full turn", described(table))
+                       : fmt::format("{} is beyond any direction", described(table));
+        });
     }
+}
+
+std::string EyeCells::described(CsvTable& table) const {
+    const std::size_t farthest = *std::ranges::max_element(direction_, {}, [&](std::size_t column) {
+        return std::abs(table.real(column).value_or(0.0));
+    });
+    return table.described(farthest);
 }
 
 glm::dvec3 EyeCells::read_origin(CsvTable& table, bool counts, BadCells& bad) const {

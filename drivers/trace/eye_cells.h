@@ -66,6 +66,8 @@ class EyeCells {
     [[nodiscard]] std::optional<EyeTrust> trust(CsvTable& table, BadCells& bad) const;
     void count_refusals(const EyeTrust& trust, std::uint64_t line);
     void read_direction(CsvTable& table, bool vouched, gaze::EyeRay& ray, BadCells& bad) const;
+    /// The direction's cell that is farthest from zero, in words.
+    [[nodiscard]] std::string described(CsvTable& table) const;
     [[nodiscard]] glm::dvec3 read_origin(CsvTable& table, bool counts, BadCells& bad) const;
     [[nodiscard]] double read_fraction(CsvTable& table, std::size_t column, bool counts,
                                        BadCells& bad) const;

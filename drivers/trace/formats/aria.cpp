@@ -71,7 +71,8 @@ EyeCells eye_cells(CsvTable& table, gaze::Eye eye, Angles angles) {
         return of_azimuth_elevation(-yaw_pitch_rad.x, yaw_pitch_rad.y);
     };
     const auto by_tangents = [](const glm::dvec3& yaw_pitch_rad) {
-        return glm::dvec3{-std::tan(yaw_pitch_rad.x), std::tan(yaw_pitch_rad.y), -1.0};
+        return glm::dvec3{-std::tan(within_a_turn(yaw_pitch_rad.x)),
+                          std::tan(within_a_turn(yaw_pitch_rad.y)), -1.0};
     };
     EyeForm form{.to_our_axes = {-1.0, 1.0, -1.0}, .bits = {}};
     form.direction = angles == Angles::PerEye ? +by_sines : +by_tangents;

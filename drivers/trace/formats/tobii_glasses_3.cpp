@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "drivers/trace/bad_cells.h"
+#include "drivers/trace/directions.h"
 #include "drivers/trace/json_file.h"
 #include "drivers/trace/text/line_cells.h"
 #include "drivers/trace/trace_builder.h"
@@ -69,7 +70,8 @@ gaze::EyeRay eye_of(const Json* written, gaze::Eye eye, std::uint64_t line, BadC
     }
     if (const Json* const direction = member(*written, "gazedirection")) {
         const std::optional<glm::dvec3> vector = vector_of(direction);
-        const std::optional<glm::dvec3> unit = vector ? gaze::unit(*vector) : std::nullopt;
+        const std::optional<glm::dvec3> unit =
+            vector && is_direction(*vector) ? gaze::unit(*vector) : std::nullopt;
         if (unit) {
             ray.direction = *unit;
             ray.valid = true;

@@ -114,6 +114,35 @@ TEST(AngleTable, IsReadAgain) {
     expect_same(read, trace, Keeps::NoPlaces);
 }
 
+TEST(AngleTable, CountsAnglesThatNoDirectionHas) {
+    RecordingFolder folder;
+    std::string text = "time_s,left_azimuth_deg,left_elevation_deg\n";
+    for (int i = 0; i < 100; ++i) {
+        text += fmt::format("{},{},1\n", 0.01 * i, i == 50 ? "1e300" : i == 51 ? "-360.5" : "359");
+    }
+    const gaze::GazeTrace read = value_or_throw(read_trace(folder.write("t.csv", text)));
+    EXPECT_FALSE(read.samples[50].eyes[0].valid);
+    EXPECT_FALSE(read.samples[51].eyes[0].valid);
+    EXPECT_TRUE(read.samples[52].eyes[0].valid) << "eyes of a head that turned round";
+    const auto& findings = read.report.findings();
+    const auto bad =
+        std::ranges::find(findings, gaze::TraceFindingKind::BadCells, &gaze::TraceFinding::kind);
+    ASSERT_NE(bad, findings.end());
+    EXPECT_EQ(bad->rows, 2U);
+    EXPECT_THAT(bad->text, HasSubstr("'1e300' is an angle beyond a full turn"));
+}
+
+TEST(NativeTrace, CountsVectorsThatNoDirectionHas) {
+    RecordingFolder folder;
+    std::string text = "t_device_ns,left_valid,left_x,left_y,left_z\n";
+    for (int i = 0; i < 100; ++i) {
+        text += fmt::format("{},1,0,0,{}\n", i * 10'000'000LL, i == 50 ? "-1e300" : "-2");
+    }
+    const gaze::GazeTrace read = value_or_throw(read_trace(folder.write("t.csv", text)));
+    EXPECT_FALSE(read.samples[50].eyes[0].valid);
+    EXPECT_TRUE(read.samples[51].eyes[0].valid) << "made a unit vector";
+}
+
 TEST(WriteBids, WritesEachEyeByItsRules) {
     RecordingFolder folder;
     const gaze::GazeTrace trace = two_eyes();
