@@ -5,11 +5,13 @@
 #include <fstream>
 #include <string>
 
+#include "runtime/json_nesting.h"
+
 namespace gazeloop::drivers {
 
 Expected<std::optional<nlohmann::json>> read_json_object(const std::filesystem::path& file) {
     constexpr std::size_t kLargest = 1 << 20;
-    constexpr int kDeepest = 32;  // copies of values follow their nesting on the stack
+    constexpr std::size_t kDeepest = 32;  // copies of values follow their nesting on the stack
     std::ifstream in(file, std::ios::binary);
     if (!in) {
         return std::optional<nlohmann::json>{};
@@ -17,12 +19,9 @@ Expected<std::optional<nlohmann::json>> read_json_object(const std::filesystem::
     std::string text(kLargest, '\0');
     in.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(in.gcount()));
-    bool too_deep = false;
-    const auto within_depth = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
-        too_deep = too_deep || depth > kDeepest;
-        return depth <= kDeepest;
-    };
-    nlohmann::json object = nlohmann::json::parse(text, within_depth, false);
+    const bool too_deep = nested_deeper_at(text, kDeepest).has_value();
+    nlohmann::json object =
+        too_deep ? nlohmann::json() : nlohmann::json::parse(text, nullptr, false);
     if (too_deep || !object.is_object()) {
         return std::unexpected(
             Error{ErrorKind::BadInput,

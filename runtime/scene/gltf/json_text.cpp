@@ -6,6 +6,8 @@
 #include <set>
 #include <vector>
 
+#include "runtime/json_nesting.h"
+
 namespace gazeloop::scene::gltf {
 namespace {
 
@@ -14,26 +16,11 @@ using nlohmann::json;
 constexpr std::size_t kMostNesting = 64;
 constexpr std::size_t kMostText = std::size_t{1} << 30U;
 
-/// Brackets are counted outside strings, so that what reads the text may recurse.
 void check_nesting(std::string_view text) {
-    std::size_t depth = 0;
-    bool is_text = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (is_text) {
-            i += c == '\\' ? 1 : 0;
-            is_text = c != '"';
-        } else if (c == '"') {
-            is_text = true;
-        } else if (c == '{' || c == '[') {
-            if (++depth > kMostNesting) {
-                refuse("", fmt::format("its JSON is nested deeper than {} at byte {}: this is no "
-                                       "scene that a program writes",
-                                       kMostNesting, i));
-            }
-        } else if (c == '}' || c == ']') {
-            depth -= depth > 0 ? 1 : 0;
-        }
+    if (const auto at = nested_deeper_at(text, kMostNesting)) {
+        refuse("", fmt::format("its JSON is nested deeper than {} at byte {}: this is no scene that "
+                               "a program writes",
+                               kMostNesting, *at));
     }
 }
 
