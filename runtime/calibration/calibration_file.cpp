@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -48,12 +49,19 @@ std::string reals(std::span<const double> values) {
 }
 
 std::string text_of(const CalibrationFile& file) {
+    std::string eyes;
+    for (const gaze::Eye eye : gaze::kEyes) {
+        if (file.calibration[gaze::index(eye)]) {
+            eyes += fmt::format("{}\"{}\"", eyes.empty() ? "" : ", ",
+                                gaze::kEyeNames[gaze::index(eye)]);
+        }
+    }
     std::string text = fmt::format(
         "# Made by gazeloop calibrate; --set gaze.calibration=FILE applies it.\n"
         "# What is added to azimuth (right) and elevation (up), radians: coefficients of\n"
         "# 1, x, y, x^2, xy, y^2 of azimuth x and elevation y. Held constant beyond the reach.\n"
-        "format = \"{}\"\nversion = {}\nuser = {}\ndevice = {}\n",
-        kFormat, kVersion, toml_text(file.user), toml_text(file.device));
+        "format = \"{}\"\nversion = {}\nuser = {}\ndevice = {}\neyes = [{}]\n",
+        kFormat, kVersion, toml_text(file.user), toml_text(file.device), eyes);
     for (const gaze::Eye eye : gaze::kEyes) {
         if (const auto& of_eye = file.calibration[gaze::index(eye)]) {
             text += fmt::format(
@@ -106,6 +114,12 @@ Expected<CalibrationFile> read_calibration(const std::filesystem::path& file) {
     if (text.size() > kLargestFile) {
         return bad(file, "is larger than any calibration (64 KiB)");
     }
+    // Every line is ended as it is written: a file that was cut inside a number would still be
+    // read.
+    if (!text.ends_with('\n')) {
+        return bad(file,
+                   "is cut short: its last line has no end; copy it again, or calibrate anew");
+    }
     toml::table table;
     try {
         table = toml::parse(text, file.string());
@@ -138,7 +152,26 @@ Expected<CalibrationFile> read_calibration(const std::filesystem::path& file) {
                                          name, kTerms));
         }
         stored.reach_rad = *reach;
-        result.expected_error_deg[gaze::index(eye)] = (*of_eye)["expected_error_deg"].value_or(0.0);
+        const auto error = (*of_eye)["expected_error_deg"].value<double>();
+        if (!error) {
+            return bad(file,
+                       fmt::format("[{}] lacks expected_error_deg, its last line: the file is "
+                                   "cut short; copy it again, or calibrate anew",
+                                   name));
+        }
+        result.expected_error_deg[gaze::index(eye)] = *error;
+    }
+    if (const toml::array* const eyes = table["eyes"].as_array()) {
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const bool promised = std::ranges::any_of(*eyes, [&](const toml::node& one) {
+                return one.value<std::string>() == gaze::kEyeNames[gaze::index(eye)];
+            });
+            if (promised && !result.calibration[gaze::index(eye)]) {
+                return bad(file, fmt::format("lacks [{}], which its line 'eyes' names: it is cut "
+                                             "short; copy it again, or calibrate anew",
+                                             gaze::kEyeNames[gaze::index(eye)]));
+            }
+        }
     }
     if (!result.calibration[0] && !result.calibration[1]) {
         return bad(file, "calibrates no eye: it has neither [left] nor [right]");

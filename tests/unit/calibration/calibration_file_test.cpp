@@ -89,6 +89,21 @@ TEST_F(CalibrationFiles, AreRefusedByNameWhereTheyAreNone) {
     EXPECT_EQ(read_calibration(folder_ / "none").error().kind, ErrorKind::BadInput);
 }
 
+TEST_F(CalibrationFiles, CutShortAnywhereAreRefused) {
+    CalibrationFile both = example();
+    both.calibration[1] = both.calibration[0];
+    value_or_throw(write_calibration(both, path_));
+    std::stringstream text;
+    text << std::ifstream(path_).rdbuf();
+    const std::string whole = text.str();
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        EXPECT_NE(refusal(whole.substr(0, size)), "") << size;
+    }
+    EXPECT_NE(refusal(whole.substr(0, whole.size() - 3)).find("is cut short"), std::string::npos);
+    EXPECT_NE(refusal(whole.substr(0, whole.find("[right]"))).find("lacks [right]"),
+              std::string::npos);
+}
+
 TEST_F(CalibrationFiles, ThatCannotBeWrittenSayWhy) {
     const auto failed = write_calibration(example(), folder_ / "no" / "folder.toml");
     ASSERT_FALSE(failed.has_value());
