@@ -30,8 +30,10 @@ void add_convert_command(Command program) {
     app.option("--to", command->conversion.to,
                "gazeloop: all that is known; angles: CSV of degrees; bids: BIDS 1.11 eye tracking")
         .one_of({"gazeloop", "angles", "bids"});
-    app.option("--subject", command->conversion.labels.subject, "bids: the subject's label");
-    app.option("--task", command->conversion.labels.task, "bids: the task's label");
+    const Option subject =
+        app.option("--subject", command->conversion.labels.subject, "bids: the subject's label");
+    const Option task =
+        app.option("--task", command->conversion.labels.task, "bids: the task's label");
     command->recorded.add_to(app);
     app.option("--json", command->conversion.json,
                "what was read and written; without a file, to stdout")
@@ -39,6 +41,7 @@ void add_convert_command(Command program) {
     command->log.add_to(app);
     app.does([=] {
         command->log.apply();
+        command->conversion.labelled = subject.given() || task.given();
         command->conversion.read = command->recorded.read_options();
         recordings::convert(command->conversion);
         return ExitCode::Ok;

@@ -79,6 +79,12 @@ Written write(const Conversion& conversion, const gaze::GazeTrace& trace) {
 }  // namespace
 
 void convert(const Conversion& conversion) {
+    if (conversion.labelled && conversion.to != "bids") {
+        throw SetupError(ErrorKind::Usage,
+                         fmt::format("convert: --subject and --task label what is written as BIDS, "
+                                     "not {}: add --to bids, or leave them out",
+                                     conversion.to));
+    }
     if (conversion.out == "-") {
         throw SetupError(ErrorKind::Usage,
                          "convert: '-' is no file: name one, or /dev/stdout for the table alone");

@@ -14,7 +14,8 @@ struct Conversion {
     std::string to = "gazeloop";  ///< "gazeloop", "angles" or "bids"
     drivers::ReadOptions read{};
     drivers::BidsLabels labels{};
-    std::string json;  ///< what was read and written; "-": stdout; empty: not asked for
+    bool labelled = false;  ///< the labels were asked for, which only BIDS has
+    std::string json;       ///< what was read and written; "-": stdout; empty: not asked for
 };
 
 /// Reads and writes, and says on stdout what was read, written and left out, unless JSON goes

@@ -324,8 +324,9 @@ Expected<WrittenBids> write_bids(const gaze::GazeTrace& trace, const fs::path& f
                                  const BidsLabels& labels) {
     for (const std::string& label : {labels.subject, labels.task}) {
         if (!is_label(label)) {
-            return bad_input(
-                fmt::format("'{}' is no label of BIDS: letters and digits alone", label));
+            return std::unexpected(
+                Error{ErrorKind::Usage,
+                      fmt::format("'{}' is no label of BIDS: letters and digits alone", label)});
         }
     }
     const double rate_hz = gaze::sample_rate_hz(trace.samples);

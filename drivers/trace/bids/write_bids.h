@@ -28,7 +28,7 @@ struct WrittenBids {
 /// lost, *_physioevents.tsv.gz has an event "loss".
 ///
 /// Files of this recording are replaced, and those of eyes that it no longer has removed, which is
-/// said. Errors (BadInput): a label with anything else in it, a
+/// said. Errors: Usage for a label with anything else in it; BadInput for a
 /// trace of fewer than two samples with known times, a file that cannot be written.
 [[nodiscard]] Expected<WrittenBids> write_bids(const gaze::GazeTrace& trace,
                                                const std::filesystem::path& folder,
