@@ -6,6 +6,12 @@
 #include "runtime/time/clock.h"
 
 namespace gazeloop::drivers {
+namespace {
+
+/// Samples whose directions are held against anatomy: ten seconds of a fast tracker.
+constexpr std::size_t kJudged = 10'000;
+
+}  // namespace
 
 TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& device,
                            const OpenTracker& open, std::chrono::milliseconds listen,
@@ -22,6 +28,7 @@ TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& dev
 
     DeviceFeed feed;
     std::vector<gaze::GazeSample> samples;
+    gaze::AnatomyCheck anatomy(kJudged);
     std::optional<std::int64_t> first_ns;
     std::int64_t last_ns = 0;
     const std::int64_t begin_ns = time::monotonic_ns();
@@ -37,6 +44,7 @@ TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& dev
         for (const gaze::GazeSample& sample : samples) {
             first_ns = first_ns.value_or(sample.arrived.ns);
             last_ns = sample.arrived.ns;
+            anatomy.add(sample);
             probe.with_gaze += sample.eyes[0].valid || sample.eyes[1].valid ? 1 : 0;
         }
         for (SourceEvent& event : feed.take_events()) {
@@ -55,6 +63,9 @@ TrackerProbe probe_tracker(const TrackerSupport& support, const FoundDevice& dev
     if (probe.counts.samples > 1 && last_ns > *first_ns) {
         probe.rate_hz = static_cast<double>(probe.counts.samples - 1) * 1e9 /
                         static_cast<double>(last_ns - *first_ns);
+    }
+    if (probe.with_gaze > 0) {
+        probe.anatomy = anatomy.judge();
     }
     if (const time::ClockFit* const clock = (*tracker)->clock()) {
         probe.clock = *clock;

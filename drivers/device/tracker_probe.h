@@ -8,6 +8,7 @@
 
 #include "drivers/device/found_device.h"
 #include "drivers/device/tracker_device.h"
+#include "runtime/gaze/anatomy.h"
 
 namespace gazeloop::drivers {
 
@@ -31,6 +32,8 @@ struct TrackerProbe {
     std::optional<double> rate_hz;        ///< samples per second, from the first to the last
     PupilsMm pupils_mm;                   ///< as they were last seen
     std::optional<time::ClockFit> clock;  ///< of its timestamps, where it sends any
+    /// What its directions say of the eyes; none: no gaze came.
+    std::optional<gaze::Anatomy> anatomy;
 };
 
 /// Opens a tracker, listens for this long or until `stop` says so, and stops it again. Listens for

@@ -45,6 +45,10 @@ std::vector<std::string> diagnosis(const TrackerProbe& probe) {
     } else if (!probe.problem && probe.with_gaze == 0) {
         lines.emplace_back("it sends reports, but none with valid gaze");
     }
+    if (probe.anatomy && probe.anatomy->doubtful()) {
+        lines.push_back(gaze::anatomy_text(*probe.anatomy) +
+                        "; calibrate the tracker anew, or correct its driver's axes");
+    }
     return lines;
 }
 
@@ -140,6 +144,9 @@ std::string devices_text(const std::vector<TrackerProbe>& probes) {
             text += "\n";
         }
         append_pupils(text, probe.pupils_mm);
+        if (probe.anatomy && !probe.anatomy->doubtful()) {
+            fmt::format_to(out, "  directions {}\n", gaze::anatomy_text(*probe.anatomy));
+        }
         if (probe.clock) {
             fmt::format_to(out, "  {}\n", drivers::describe(*probe.clock));
         } else if (probe.counts.samples > 0) {
@@ -189,6 +196,8 @@ std::string devices_json(const std::vector<TrackerProbe>& probes, const Findings
                         {"measured_hz", or_null(probe.rate_hz)},
                         {"pupils_mm", {or_null(probe.pupils_mm[0]), or_null(probe.pupils_mm[1])}},
                         {"clock", probe.clock ? clock_json(*probe.clock) : Json(nullptr)},
+                        {"directions",
+                         probe.anatomy ? Json(gaze::anatomy_text(*probe.anatomy)) : Json(nullptr)},
                         {"remarks", probe.remarks},
                         {"problems", diagnosis(probe)}});
     }
