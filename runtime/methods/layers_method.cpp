@@ -13,6 +13,9 @@ std::vector<settings::SettingRow> rows(MethodSettings& values) { return rows_of(
 
 Expected<PlannedMethod> plan(const PlanSubject& subject) {
     const LayersSettings& set = subject.values.layers;
+    if (auto checked = check(set); !checked) {
+        return std::unexpected(checked.error());
+    }
     auto plan = foveation::plan_layers(subject.field, subject.line, parameters(set));
     if (!plan) {
         return std::unexpected(plan.error());
@@ -40,6 +43,9 @@ Expected<PlannedMethod> plan(const PlanSubject& subject) {
 Expected<render::MakePasses> passes(const MethodSettings& values,
                                     const settings::Settings& /*settings*/) {
     const LayersSettings& set = values.layers;
+    if (auto checked = check(set); !checked) {
+        return std::unexpected(checked.error());
+    }
     const render::LayersConfig config{.layers = static_cast<std::size_t>(set.n),
                                       .half_rate = set.half_rate,
                                       .over_frames = set.temporal};

@@ -298,6 +298,7 @@ void MeshContent::make_sky(const mesh::MeshData& data) {
 void MeshContent::make_lights(const mesh::MeshData& data) {
     std::vector<mesh::Light> lights = data.lights;
     if (lights.empty()) {
+        spdlog::info("the scene has no light: a sun is added, high up behind the right shoulder");
         lights.push_back(default_sun());
     }
     const auto casts = [&](const mesh::Light& light) {

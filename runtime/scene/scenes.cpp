@@ -41,8 +41,10 @@ std::unique_ptr<Scene> make_scene(const vulkan::Context& context, std::string_vi
     }
     const auto names = scene_names();
     if (std::ranges::find(names, name) == names.end()) {
-        throw SetupError(ErrorKind::Usage, fmt::format("there is no scene '{}': there are {}", name,
-                                                       fmt::join(names, ", ")));
+        throw SetupError(ErrorKind::Usage,
+                         fmt::format("there is no scene '{}': there are {}, and any "
+                                     ".gltf or .glb file by its name",
+                                     name, fmt::join(names, ", ")));
     }
     if (name == kGallery) {
         return make_mesh_scene(context, gallery::gallery_scene(), options);
