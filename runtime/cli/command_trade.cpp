@@ -29,7 +29,7 @@ ExitCode trade_off(const TradeCommand& command) {
     request.metrics = command.quality.metric_choice();
     request.contrast = command.quality.contrast();
     request.quiet = command.options.log.quiet;
-    const run::ProgramValues& values = settings.values();
+    const run::ProgramValues& values = settings.type("LIST").not_empty();
     const bool rendered = trade::trade_off(
         request,
         {.display = value_or_throw(profiles::display_in_force(values.profile, settings)),
@@ -58,11 +58,13 @@ void add_trade_command(Command program) {
     options.log.add_to(app);
     options.add_settings_to(app);
     app.option("--methods", command->request.methods, "which, with commas between (kfr,acuity)")
-        .type("LIST");
+        .type("LIST")
+        .not_empty();
     app.option("--sigma", command->request.sigmas, "values of kfr.sigma, with commas between")
-        .type("LIST");
-    app.option("--alpha", command->request.alphas, "values of kfr.alpha").type("LIST");
-    app.option("--mar", command->request.slopes, "values of acuity.mar").type("LIST");
+        .type("LIST")
+        .not_empty();
+    app.option("--alpha", command->request.alphas, "values of kfr.alpha").type("LIST").not_empty();
+    app.option("--mar", command->request.slopes, "values of acuity.mar").type("LIST").not_empty();
     app.option("--vary", command->request.varied,
                "values of any setting of a method; may be repeated: all combinations are rendered")
         .type("KEY=V1,V2,...");

@@ -64,6 +64,23 @@ std::vector<Varied> chosen_variation(const TradeRequest& request,
     return varied;
 }
 
+/// Refuses values that their settings cannot have before anything is rendered.
+void check_values(const std::vector<Varied>& varied, settings::Settings& settings) {
+    for (const Varied& one : varied) {
+        for (const settings::SettingRow& row : settings.rows()) {
+            if (row.key != one.key) {
+                continue;
+            }
+            const std::string text = settings::text_of(row);
+            const std::string origin = settings.origin(one.key);
+            for (const std::string& value : one.values) {
+                value_or_throw(settings.set(one.key, value, "trade"));
+            }
+            value_or_throw(settings.set(one.key, text, origin));
+        }
+    }
+}
+
 SweepQuestion question_of(const TradeRequest& request, const TradeScene& scene) {
     const display::DisplayProfile& display = scene.display;
     const gaze::Eye eye = request.eye;
@@ -115,8 +132,9 @@ bool trade_off(const TradeRequest& request, const TradeScene& scene, settings::S
     const std::array<report::NamedFile, 2> outputs{{{"--csv", request.csv}, {"--json", json}}};
     value_or_throw(report::check_apart(outputs, {}));
     const std::vector<std::string> methods = chosen_methods(request.methods);
-    const std::vector<SweepPoint> points =
-        value_or_throw(sweep_points(methods, chosen_variation(request, methods)));
+    const std::vector<Varied> varied = chosen_variation(request, methods);
+    const std::vector<SweepPoint> points = value_or_throw(sweep_points(methods, varied));
+    check_values(varied, settings);
     const SweepQuestion question = question_of(request, scene);
     const vulkan::Context context({.validation = scene.vulkan.validation,
                                    .device = scene.vulkan.device,
