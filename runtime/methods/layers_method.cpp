@@ -11,6 +11,19 @@ namespace {
 
 std::vector<settings::SettingRow> rows(MethodSettings& values) { return rows_of(values.layers); }
 
+/// Errors (Usage): settings that do not fit together, both named.
+Expected<void> check(const LayersSettings& layers) {
+    if (layers.s2_fixed && layers.n < 3) {
+        return std::unexpected(
+            Error{ErrorKind::Usage,
+                  fmt::format("layers.s2_fixed fixes the middle one of three or four layers, and "
+                              "layers.n = {} leaves none: set layers.n to 3 or 4, or "
+                              "layers.s2_fixed to false",
+                              layers.n)});
+    }
+    return {};
+}
+
 Expected<PlannedMethod> plan(const PlanSubject& subject) {
     const LayersSettings& set = subject.values.layers;
     if (auto checked = check(set); !checked) {

@@ -1,7 +1,5 @@
 #include "runtime/methods/layers_settings.h"
 
-#include <fmt/core.h>
-
 #include "runtime/methods/only_under.h"
 
 namespace gazeloop::methods {
@@ -24,18 +22,6 @@ std::vector<settings::SettingRow> rows_of(LayersSettings& layers) {
          "antialiasing over frames: samples move in their cells, last frames are reprojected",
          &layers.temporal, Concerns::Picture, only},
     };
-}
-
-Expected<void> check(const LayersSettings& layers) {
-    if (layers.s2_fixed && layers.n < 3) {
-        return std::unexpected(
-            Error{ErrorKind::Usage,
-                  fmt::format("layers.s2_fixed fixes the middle one of three or four layers, and "
-                              "layers.n = {} leaves none: set layers.n to 3 or 4, or "
-                              "layers.s2_fixed to false",
-                              layers.n)});
-    }
-    return {};
 }
 
 foveation::LayerOptions parameters(const LayersSettings& layers) {

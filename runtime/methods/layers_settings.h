@@ -19,10 +19,6 @@ struct LayersSettings {
 
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(LayersSettings& layers);
 
-/// Errors (Usage): settings that do not fit together, both named.
-[[nodiscard]] Expected<void> check(const LayersSettings& layers);
-
-/// Precondition: check().
 [[nodiscard]] foveation::LayerOptions parameters(const LayersSettings& layers);
 
 }  // namespace gazeloop::methods
