@@ -229,7 +229,7 @@ void expect_truth(const report::SessionRow& row, const std::vector<double>& sort
         sum += value;
     }
     EXPECT_NEAR(*row.mean - constant_ms, sum / static_cast<double>(sorted.size()), kWithin_ms);
-    const std::vector<double>& percents = report::Percentiles().percents();
+    const std::vector<double> percents = report::Percentiles().percents();
     ASSERT_EQ(row.percentiles.size(), percents.size());
     for (std::size_t place = 0; place < percents.size(); ++place) {
         ASSERT_TRUE(row.percentiles[place].has_value()) << percents[place];

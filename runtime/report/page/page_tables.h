@@ -10,6 +10,7 @@
 #include "runtime/report/page/distribution.h"
 #include "runtime/report/page/report_page.h"
 #include "runtime/report/page/violations.h"
+#include "runtime/report/session_rows.h"
 
 namespace gazeloop::report::page {
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "runtime/report/eye_event_rows.h"
 #include "runtime/report/row_names.h"
@@ -64,6 +66,7 @@ TEST(EyeEvents, DoNotGoOnWhereNobodyLooked) {
 TEST(EyeEvents, AreFoundInTheSamplesOfARunThatToldNone) {
     sim::GazeSimulation simulation{.seed = 5};
     simulation.tracker.rate_hz = 200.0;
+    simulation.tracker.noise_deg = 0.14;  // without any, drift looks like pursuit
     const gaze::GazeTrace trace = sim::generate_gaze(simulation, 30.0);
     EyeEvents events;
     for (const gaze::GazeSample& sample : trace.samples) {
@@ -131,10 +134,11 @@ TEST(EyeEvents, BearAnyTimes) {
     EXPECT_EQ(events.at(1), EyeEvent::Pursuit);
 }
 
-FrameLog log_of(std::uint64_t frames, const auto& event_of) {
-    FrameLog log({.period_ns = latency::kExamplePeriodNs,
-                  .passes = latency::kExamplePasses,
-                  .grids = latency::kExampleGrids});
+std::unique_ptr<const FrameLog> log_of(std::uint64_t frames, const auto& event_of) {
+    auto log =
+        std::make_unique<FrameLog>(latency::SummaryConfig{.period_ns = latency::kExamplePeriodNs,
+                                                          .passes = latency::kExamplePasses,
+                                                          .grids = latency::kExampleGrids});
     EyeEvents events;
     for (std::uint64_t index = 0; index < frames; ++index) {
         frame::FrameRecord frame = frame_of(index, event_of(index));
@@ -144,20 +148,21 @@ FrameLog log_of(std::uint64_t frames, const auto& event_of) {
                 eye.state = gaze::FoveaState::Held;
             }
         }
-        log.on_frame(frame);
-        log.on_gpu(latency::example_gpu(index));
+        log->on_frame(frame);
+        log->on_gpu(latency::example_gpu(index));
         events.on_frame(frame);
     }
-    log.finish();
-    log.set_eye_events(events);
+    log->finish();
+    log->set_eye_events(events);
     return log;
 }
 
 TEST(EyeEventRows, ShareOutTheFramesWithFreshGaze) {
     constexpr std::uint64_t kFrames = 200;
-    const FrameLog log = log_of(kFrames, [](std::uint64_t index) {
+    const auto made = log_of(kFrames, [](std::uint64_t index) {
         return std::optional(index % 20 < 15 ? EyeEvent::Fixation : EyeEvent::Saccade);
     });
+    const FrameLog& log = *made;
     const std::array percents{50.0, 95.0, 99.9};
     const EyeEventRows rows = rows_by_eye_event(log, percents);
     EXPECT_EQ(rows.source, EyeEventSource::Recorded);
@@ -176,12 +181,15 @@ TEST(EyeEventRows, ShareOutTheFramesWithFreshGaze) {
         }
     }
     ASSERT_EQ(in_saccades.size(), rows.ages[1].known);
-    EXPECT_EQ(rows.ages[1].least, 1e-6 * static_cast<double>(std::ranges::min(in_saccades)));
-    EXPECT_EQ(rows.ages[1].greatest, 1e-6 * static_cast<double>(std::ranges::max(in_saccades)));
+    EXPECT_EQ(rows.ages[1].least,
+              shown(static_cast<double>(std::ranges::min(in_saccades)), Unit::Nanoseconds));
+    EXPECT_EQ(rows.ages[1].greatest,
+              shown(static_cast<double>(std::ranges::max(in_saccades)), Unit::Nanoseconds));
 }
 
 TEST(EyeEventRows, AreNoneWhereNobodyKnows) {
-    const FrameLog log = log_of(50, [](std::uint64_t) { return std::optional<EyeEvent>{}; });
+    const auto made = log_of(50, [](std::uint64_t) { return std::optional<EyeEvent>{}; });
+    const FrameLog& log = *made;
     const EyeEventRows rows = rows_by_eye_event(log, std::array{50.0});
     EXPECT_FALSE(rows.any());
     EXPECT_EQ(rows.unknown, rows.with_gaze);
