@@ -211,10 +211,11 @@ Ages ages_of(const Injected& injected) {
     return ages;
 }
 
-/// The nearest rank.
+/// The nearest rank; what 99.9 is off as a double must not make it the next one.
 double percentile(const std::vector<double>& sorted, double percent) {
-    const auto rank =
-        static_cast<std::size_t>(std::ceil(percent / 100.0 * static_cast<double>(sorted.size())));
+    constexpr double kRounding = 1e-9;
+    const auto rank = static_cast<std::size_t>(
+        std::ceil(percent * static_cast<double>(sorted.size()) / 100.0 - kRounding));
     return sorted[std::max<std::size_t>(rank, 1) - 1];
 }
 
