@@ -16,23 +16,22 @@ std::string_view without_plus(std::string_view cell) {
     return plus ? cell.substr(1) : cell;
 }
 
-/// The whole cell as a number, none where it is not one.
-std::optional<double> parsed(std::string_view cell) {
-    double value{};
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// The whole cell as a number, NaN where it is not one.
+double parsed(std::string_view cell) {
+    double value = kNone;
     const char* const end = cell.data() + cell.size();
     const auto [stop, error] = std::from_chars(cell.data(), end, value);
-    if (error != std::errc{} || stop != end) {
-        return std::nullopt;
-    }
-    return value;
+    return error == std::errc{} && stop == end ? value : kNone;
 }
 
 /// A number with a comma for its point.
-std::optional<double> parsed_with_comma(std::string_view cell) {
+double parsed_with_comma(std::string_view cell) {
     std::array<char, 64> copy{};
     const auto comma = std::find(cell.begin(), cell.end(), ',');
     if (comma == cell.end() || cell.size() > copy.size()) {
-        return std::nullopt;
+        return kNone;
     }
     std::copy(cell.begin(), cell.end(), copy.begin());
     copy.at(static_cast<std::size_t>(comma - cell.begin())) = '.';
@@ -63,14 +62,22 @@ std::optional<Whole> parsed_whole(std::string_view cell, NumberSpelling& seen) {
 
 }  // namespace
 
-std::optional<double> real_number(std::string_view cell, NumberSpelling& seen) {
-    cell = without_plus(cell);
-    std::optional<double> value = parsed(cell);
-    if (!value) {
-        value = parsed_with_comma(cell);
-        seen.decimal_comma = seen.decimal_comma || value;
+double real_or_nan(std::string_view cell, NumberSpelling& seen) {
+    if (cell.empty()) {
+        return kNone;
     }
-    return value && std::isfinite(*value) ? value : std::nullopt;
+    cell = without_plus(cell);
+    double value = parsed(cell);
+    if (std::isnan(value)) {
+        value = parsed_with_comma(cell);
+        seen.decimal_comma = seen.decimal_comma || !std::isnan(value);
+    }
+    return std::isfinite(value) ? value : kNone;
+}
+
+std::optional<double> real_number(std::string_view cell, NumberSpelling& seen) {
+    const double value = real_or_nan(cell, seen);
+    return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
 std::optional<std::int64_t> whole_number(std::string_view cell, NumberSpelling& seen) {

@@ -315,13 +315,6 @@ Expected<bool> CsvTable::next() {
     }
 }
 
-std::optional<double> CsvTable::real(std::size_t column) {
-    NumberSpelling seen;
-    const std::optional<double> value = real_number(cells_[column], seen);
-    note(seen);
-    return value;
-}
-
 std::optional<std::int64_t> CsvTable::whole(std::size_t column) {
     NumberSpelling seen;
     const std::optional<std::int64_t> value = whole_number(cells_[column], seen);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -71,7 +72,14 @@ class CsvTable {
     [[nodiscard]] Expected<bool> next();
 
     /// A finite number; none where the cell holds none.
-    [[nodiscard]] std::optional<double> real(std::size_t column);
+    [[nodiscard]] std::optional<double> real(std::size_t column) {
+        NumberSpelling seen;
+        const double value = real_or_nan(cells_[column], seen);
+        if (seen.decimal_comma) {
+            note(seen);
+        }
+        return std::isnan(value) ? std::nullopt : std::optional(value);
+    }
     [[nodiscard]] std::optional<std::int64_t> whole(std::size_t column);
     [[nodiscard]] std::optional<std::uint64_t> count(std::size_t column);
     /// In units of the `digits`th decimal: seconds as nanoseconds (9).
