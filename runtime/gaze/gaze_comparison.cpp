@@ -289,6 +289,9 @@ Expected<GazeComparison> compare_gaze(std::span<const GazeSample> one,
                   "same eyes at the same time?"});
     }
     const Sums& at_best = all[static_cast<std::size_t>(std::llround(*lag) + most)];
+    for (const Sums& sums : all) {
+        comparison.correlation_at.push_back(sums.count >= fewest ? sums.correlation() : kUnknown);
+    }
     comparison.lag_ms = *lag * step_ms;
     comparison.correlation = at_best.correlation();
     comparison.overlap_s = static_cast<double>(at_best.count) * step_ms * 1e-3;

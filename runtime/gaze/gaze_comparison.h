@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_sample.h"
@@ -36,6 +37,13 @@ struct GazeComparison {
     AxisAgreement elevation{};  ///< positive up
     double overlap_s = 0.0;     ///< with gaze in both, after the lag
     double step_ms = 0.0;       ///< of the grid on which both were compared
+    /// Correlation of the velocities at each lag from -kComparedMostLag_s on, a step apart; NaN
+    /// where they have less than kComparedLeast_s in common.
+    std::vector<double> correlation_at{};
+    [[nodiscard]] double lag_at_ms(std::size_t i) const {
+        const auto middle = static_cast<double>(correlation_at.size() / 2);
+        return (static_cast<double>(i) - middle) * step_ms;
+    }
 
     /// Whether they may be of other eyes, or of another time.
     [[nodiscard]] bool doubtful() const { return !(correlation > kLeastCorrelation); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <numbers>
 #include <vector>
 
 #include "runtime/gaze/direction.h"
@@ -56,8 +57,6 @@ Intervals intervals_of(const std::vector<const GazeSample*>& samples, double rat
 }
 
 Losses losses_of(const std::vector<const GazeSample*>& samples) {
-    constexpr double kShortestBlink_ms = 100.0;
-    constexpr double kLongestBlink_ms = 400.0;
     Losses losses;
     std::vector<double> lengths_ms;
     double all_ms = 0.0;
@@ -91,7 +90,29 @@ Losses losses_of(const std::vector<const GazeSample*>& samples) {
 struct Window {
     double step_rad;
     double deviation_rad;
+    double bcea_rad2;
 };
+
+/// Of n directions about their mean: 2 pi k sqrt(det covariance), where a share of 1 - exp(-k) of a
+/// normal distribution lies within.
+double bcea_rad2(std::span<const glm::dvec3> directions, const glm::dvec3& mean) {
+    constexpr double kShare = 0.682;
+    const glm::dvec3 across = perpendicular(mean);
+    const glm::dvec3 up = glm::cross(across, mean);
+    double xx = 0.0;
+    double xy = 0.0;
+    double yy = 0.0;
+    for (const glm::dvec3& direction : directions) {
+        const double x = glm::dot(direction - mean, across);
+        const double y = glm::dot(direction - mean, up);
+        xx += x * x;
+        xy += x * y;
+        yy += y * y;
+    }
+    const auto count = static_cast<double>(directions.size());
+    const double determinant = std::max(xx * yy - xy * xy, 0.0) / (count * count);
+    return -2.0 * std::numbers::pi * std::log(1.0 - kShare) * std::sqrt(determinant);
+}
 
 Window window_of(std::span<const glm::dvec3> directions) {
     glm::dvec3 sum{0.0};
@@ -110,7 +131,8 @@ Window window_of(std::span<const glm::dvec3> directions) {
         }
     }
     const auto count = static_cast<double>(directions.size());
-    return {std::sqrt(steps / (count - 1.0)), std::sqrt(distances / count)};
+    return {std::sqrt(steps / (count - 1.0)), std::sqrt(distances / count),
+            bcea_rad2(directions, mean)};
 }
 
 std::optional<EyePrecision> precision_of(const std::vector<const GazeSample*>& samples,
@@ -150,14 +172,17 @@ std::optional<EyePrecision> precision_of(const std::vector<const GazeSample*>& s
     windows.resize((windows.size() + 1) / 2);
     std::vector<double> steps;
     std::vector<double> deviations;
+    std::vector<double> areas;
     std::vector<double> ratios;
     for (const Window& window : windows) {
         steps.push_back(window.step_rad);
         deviations.push_back(window.deviation_rad);
+        areas.push_back(window.bcea_rad2);
         ratios.push_back(window.deviation_rad > 0.0 ? window.step_rad / window.deviation_rad : 0.0);
     }
     precision.sample_to_sample_deg = glm::degrees(at_share(steps, 0.5));
     precision.deviation_deg = glm::degrees(at_share(deviations, 0.5));
+    precision.bcea_deg2 = glm::degrees(glm::degrees(at_share(areas, 0.5)));
     precision.step_per_deviation = at_share(ratios, 0.5);
     return precision;
 }

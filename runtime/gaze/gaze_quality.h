@@ -16,9 +16,12 @@ struct EyePrecision {
     std::size_t windows = 0;            ///< that were looked at, moving ones too
     double sample_to_sample_deg = 0.0;  ///< root mean square of the steps from sample to sample
     double deviation_deg = 0.0;         ///< root mean square of the distances from the mean
-    /// Of the two, in each window: 1.41 for noise of which each sample is new; less where samples
-    /// follow each other, as filters and drifts make them (Niehorster et al. 2020, Behavior
-    /// Research Methods 52:2515).
+    /// The ellipse that holds 68.2 % of the directions where they are spread normally (bivariate
+    /// contour ellipse area), deg^2.
+    double bcea_deg2 = 0.0;
+    /// Of sample to sample and deviation, in each window: 1.41 for noise of which each sample is
+    /// new; less where samples follow each other, as filters and drifts make them (Niehorster et
+    /// al. 2020, Behavior Research Methods 52:2515).
     double step_per_deviation = 0.0;
 };
 
@@ -48,6 +51,8 @@ struct GazeQuality {
 };
 
 inline constexpr double kQualityWindow_ms = 200.0;
+inline constexpr double kShortestBlink_ms = 100.0;
+inline constexpr double kLongestBlink_ms = 400.0;
 
 /// Of samples in the order of their times; those whose time is unknown or goes back are left out.
 /// An eye rests where its gaze rests in the world, where the head is known: while the head turns,
