@@ -20,6 +20,11 @@ constexpr double kSlowedDown = 0.6;  // of its peak: it may end at any time
 constexpr double kHeldBack = 0.1;
 constexpr double kHeldBackSlowing = 0.28;
 constexpr double kHeldBackShort = 1.5;
+// Up to twice as far as the eye goes is no worse than to hold: no further than twice what is
+// travelled but for so many deviations, at kNear_s and less, and at twice that and more.
+constexpr double kUnsure = 0.5;
+constexpr double kUnsureFar = 1.0;
+constexpr double kNear_s = 0.020;
 constexpr double kShort_s = 0.010;
 // A person's vigour, from saccades of at least so much.
 constexpr double kLearnedFrom_deg = 2.0;
@@ -45,6 +50,15 @@ void GazePredictor::add(std::int64_t time_ns, const std::optional<glm::dvec3>& d
     const EventDetector::Movement saccade = detector_.movement();
     detector_.add(time_ns, direction);
     const EyeEvent now = detector_.event();
+    check_.follow(detector_);
+    if (now != EyeEvent::Lost && detector_.history().size() > 0 && check_.asks(time_ns)) {
+        std::array<PredictionCheck::Forecast, PredictionCheck::kHorizons_ns.size()> forecasts;
+        for (std::size_t i = 0; i < forecasts.size(); ++i) {
+            forecasts[i] =
+                forecast_at(static_cast<double>(PredictionCheck::kHorizons_ns[i]) * 1e-9);
+        }
+        check_.remember(time_ns, forecasts);
+    }
     if (before != EyeEvent::Saccade || now == before || now == EyeEvent::Lost) {
         return;
     }
@@ -59,6 +73,30 @@ void GazePredictor::add(std::int64_t time_ns, const std::optional<glm::dvec3>& d
                          kMostVigour);
 }
 
+PredictionCheck::Forecast GazePredictor::forecast_at(double ahead_s) const {
+    const glm::dvec3 now = detector_.history().back(0).direction;
+    const double resting_deg = kRestingError_deg + kDrift_deg_per_s * ahead_s;
+    PredictionCheck::Forecast forecast{.event = detector_.event(),
+                                       .from = now,
+                                       .to = now,
+                                       .uncertainty_rad = glm::radians(resting_deg)};
+    switch (forecast.event) {
+        case EyeEvent::Oscillation:
+            forecast.uncertainty_rad = glm::radians(resting_deg + kSwing_deg);
+            break;
+        case EyeEvent::Pursuit:
+            forecast_pursuit(ahead_s, forecast);
+            break;
+        case EyeEvent::Saccade:
+            forecast_saccade(ahead_s, forecast);
+            break;
+        case EyeEvent::Fixation:
+        case EyeEvent::Lost:
+            break;
+    }
+    return forecast;
+}
+
 GazePrediction GazePredictor::predict(std::int64_t time_ns) const {
     GazePrediction prediction;
     prediction.event = detector_.event();
@@ -69,50 +107,39 @@ GazePrediction GazePredictor::predict(std::int64_t time_ns) const {
     const __int128 ahead_ns = static_cast<__int128>(time_ns) - history.back(0).time_ns;
     prediction.horizon_ns = static_cast<std::int64_t>(
         std::clamp<__int128>(ahead_ns, 0, std::max<std::int64_t>(longest_ns_, 0)));
-    const double ahead_s = static_cast<double>(prediction.horizon_ns) * 1e-9;
-    const double resting_deg = kRestingError_deg + kDrift_deg_per_s * ahead_s;
-    switch (prediction.event) {
-        case EyeEvent::Fixation:
-            prediction.verdict = PredictionVerdict::Hold;
-            prediction.uncertainty_rad = glm::radians(resting_deg);
-            break;
-        case EyeEvent::Oscillation:
-            prediction.verdict = PredictionVerdict::Hold;
-            prediction.uncertainty_rad = glm::radians(resting_deg + kSwing_deg);
-            break;
-        case EyeEvent::Pursuit:
-            predict_pursuit(ahead_s, prediction);
-            break;
-        case EyeEvent::Saccade:
-            predict_saccade(ahead_s, prediction);
-            break;
-        case EyeEvent::Lost:
-            break;
+    if (prediction.event == EyeEvent::Lost) {
+        return prediction;
+    }
+    const PredictionCheck::Forecast forecast =
+        forecast_at(static_cast<double>(prediction.horizon_ns) * 1e-9);
+    prediction.uncertainty_rad =
+        forecast.uncertainty_rad * check_.widening(forecast.event, prediction.horizon_ns);
+    const double share = check_.share(forecast.event, prediction.horizon_ns);
+    if (forecast.to != forecast.from && share > 0.0) {
+        if (const auto to = unit(forecast.from + share * (forecast.to - forecast.from))) {
+            prediction.verdict = PredictionVerdict::Extrapolated;
+            prediction.turn = glm::dquat(forecast.from, *to);
+        }
+    } else if (prediction.event != EyeEvent::Saccade) {
+        prediction.verdict = PredictionVerdict::Hold;
     }
     return prediction;
 }
 
-void GazePredictor::predict_pursuit(double ahead_s, GazePrediction& prediction) const {
+void GazePredictor::forecast_pursuit(double ahead_s, PredictionCheck::Forecast& forecast) const {
     const glm::dvec3 slow = detector_.slow_velocity_deg_per_s();
     const double speed = glm::length(slow);
-    prediction.uncertainty_rad = glm::radians(kRestingError_deg + kDrift_deg_per_s * ahead_s +
-                                              kPursuitError * speed * ahead_s);
-    if (!(speed > kLeastPursuit_deg_per_s)) {
-        prediction.verdict = PredictionVerdict::Hold;
-        return;
-    }
-    const glm::dvec3 now = detector_.history().back(0).direction;
-    const auto then = unit(now + glm::radians(kPursuitShare * ahead_s) * slow);
-    if (then) {
-        prediction.verdict = PredictionVerdict::Extrapolated;
-        prediction.turn = glm::dquat(now, *then);
+    forecast.uncertainty_rad += glm::radians(kPursuitError * speed * ahead_s);
+    if (speed > kLeastPursuit_deg_per_s) {
+        forecast.to = unit(forecast.from + glm::radians(kPursuitShare * ahead_s) * slow)
+                          .value_or(forecast.from);
     }
 }
 
-void GazePredictor::predict_saccade(double ahead_s, GazePrediction& prediction) const {
+void GazePredictor::forecast_saccade(double ahead_s, PredictionCheck::Forecast& forecast) const {
     const DirectionHistory& history = detector_.history();
     const EventDetector::Movement& movement = detector_.movement();
-    const glm::dvec3 now = history.back(0).direction;
+    const glm::dvec3 now = forecast.from;
     const glm::dvec3 way = now - movement.from;
     const double speed = glm::length(detector_.velocity_deg_per_s());
     const SaccadeInFlight seen{
@@ -122,25 +149,26 @@ void GazePredictor::predict_saccade(double ahead_s, GazePrediction& prediction) 
         .peak_deg_per_s = movement.peak_deg_per_s,
         .speed_age_s = 0.5 * detector_.velocity_window_s(),
         .vigour = vigour_};
-    const SaccadeTravel travel = forecast(seen, ahead_s);
+    const SaccadeTravel travel = gaze::forecast(seen, ahead_s);
     const double vigour = speed / movement.peak_deg_per_s;
-    prediction.uncertainty_rad =
+    forecast.uncertainty_rad =
         glm::radians(kRestingError_deg + kSaccadeDeviations * travel.sd_deg +
                      std::min(kSaccadeError * speed * ahead_s, travel.further_deg));
     if (movement.peak_deg_per_s < kLeastPeak_deg_per_s || seen.travelled_deg < kLeastTravel_deg ||
         vigour < kSlowedDown) {
-        prediction.uncertainty_rad = *prediction.uncertainty_rad + glm::radians(travel.further_deg);
+        forecast.uncertainty_rad += glm::radians(travel.further_deg);
         return;
     }
     const double held_back = kHeldBack + kHeldBackSlowing * (1.0 - vigour) +
                              kHeldBackShort * std::exp(-ahead_s / kShort_s);
-    const double further_deg = std::max(travel.further_deg - held_back * travel.sd_deg, 0.0);
-    const auto then =
-        unit(now + way / glm::length(way) * glm::radians(further_deg));  // travelled: not zero
-    if (then) {
-        prediction.verdict = PredictionVerdict::Extrapolated;
-        prediction.turn = glm::dquat(now, *then);
-    }
+    const double unsure =
+        std::lerp(kUnsure, kUnsureFar, std::clamp((ahead_s - kNear_s) / kNear_s, 0.0, 1.0));
+    const double further_deg =
+        std::max(std::min(travel.further_deg - held_back * travel.sd_deg,
+                          2.0 * (travel.further_deg - unsure * travel.sd_deg)),
+                 0.0);
+    forecast.to = unit(now + way / glm::length(way) * glm::radians(further_deg))
+                      .value_or(now);  // travelled: not zero
 }
 
 }  // namespace gazeloop::gaze
