@@ -27,7 +27,14 @@ void add_gaze_command(Command program) {
                "another recording of the same eyes at the same time: lag, gain and offset")
         .type("TRACE|SESSION");
     command->recorded.add_to(app);
-    app.option("--json", command->question.json, "write it as JSON; without a file, to stdout")
+    app.option("--html", command->question.outputs.html,
+               "write it as one page with plots; - is stdout")
+        .type("FILE");
+    app.option("--events", command->question.outputs.events,
+               "write what the eyes did as CSV, a line per event; - is stdout")
+        .type("FILE");
+    app.option("--json", command->question.outputs.json,
+               "write it as JSON; without a file, to stdout")
         .file_or_stdout();
     command->log.add_to(app);
     app.does([=] {

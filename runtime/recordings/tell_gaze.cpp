@@ -3,14 +3,12 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "runtime/gaze/gaze_comparison.h"
 #include "runtime/recordings/recorded_gaze.h"
 #include "runtime/report/gaze_comparison_text.h"
 #include "runtime/report/gaze_report.h"
-#include "runtime/report/output_file.h"
-#include "runtime/report/summary_json.h"
 
 namespace gazeloop::recordings {
 namespace {
@@ -21,43 +19,34 @@ void compare(const GazeQuestion& question) {
     const gaze::GazeTrace other = recorded_gaze(question.other, question.read);
     const gaze::GazeComparison comparison =
         value_or_throw(gaze::compare_gaze(one.samples, other.samples));
-    if (question.json != "-") {
+    if (!question.outputs.take_stdout()) {
         fmt::print("{}\n{}\n{}", one.file, other.file, report::gaze_comparison_text(comparison));
     }
-    if (!question.json.empty()) {
-        nlohmann::ordered_json json{{"files", {one.file, other.file}},
-                                    {"comparison", report::gaze_comparison_json(comparison)}};
-        value_or_throw(report::write_text(question.json, report::json_text(json)));
-    }
+    const std::array found{report::gaze_findings(one), report::gaze_findings(other)};
+    const std::array<report::page::PageRecording, 2> recordings{
+        {{one, found[0], {}}, {other, found[1], {}}}};
+    value_or_throw(report::write_comparison(recordings, comparison, question.outputs));
 }
 
 }  // namespace
 
 void tell_gaze(const GazeQuestion& question) {
-    if (!question.json.empty()) {
-        value_or_throw(report::check_output(question.json));
-        const std::array<report::NamedFile, 1> outputs{{{"--json", question.json}}};
-        const std::array<report::NamedFile, 2> inputs{
-            {{"the recording", question.file}, {"the other recording", question.other}}};
-        value_or_throw(report::check_apart(outputs, inputs));
+    std::vector<std::string> files{question.file};
+    if (!question.other.empty()) {
+        files.push_back(question.other);
     }
+    value_or_throw(report::check_outputs(question.outputs, files));
     if (!question.other.empty()) {
         compare(question);
         return;
     }
     std::string refusal;
     const gaze::GazeTrace trace = recorded_gaze_even_refused(question.file, question.read, refusal);
-    if (question.json != "-") {
-        fmt::print("{}", report::gaze_text(trace));
+    const report::GazeFindings found = report::gaze_findings(trace);
+    if (!question.outputs.take_stdout()) {
+        fmt::print("{}", report::gaze_text(trace, found));
     }
-    if (!question.json.empty()) {
-        nlohmann::ordered_json json = report::gaze_json(trace);
-        json["refused"] = nullptr;
-        if (!refusal.empty()) {
-            json["refused"] = refusal;
-        }
-        value_or_throw(report::write_text(question.json, report::json_text(json)));
-    }
+    value_or_throw(report::write_gaze({trace, found, refusal}, question.outputs));
     if (!refusal.empty()) {
         throw SetupError(ErrorKind::BadInput, refusal);
     }

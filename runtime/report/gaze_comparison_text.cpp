@@ -25,25 +25,32 @@ Json axis_json(const gaze::AxisAgreement& axis) {
 
 }  // namespace
 
-std::string gaze_comparison_text(const gaze::GazeComparison& comparison) {
+std::string lag_text(const gaze::GazeComparison& comparison) {
     const std::string interval =
         comparison.lag_interval_ms
             ? fmt::format("95 % {:+.1f} to {:+.1f}", (*comparison.lag_interval_ms)[0],
                           (*comparison.lag_interval_ms)[1])
             : std::string{"too short for an interval"};
-    return wrapped_row("lag", fmt::format("the second is {:+.1f} ms later ({}), each from its own "
-                                          "first sample; velocities correlate by {:.3f}",
-                                          comparison.lag_ms, interval, comparison.correlation)) +
+    return fmt::format(
+        "the second is {:+.1f} ms later ({}), each from its own first sample; velocities correlate "
+        "by {:.3f}",
+        comparison.lag_ms, interval, comparison.correlation);
+}
+
+std::string doubt_text() {
+    return fmt::format(
+        "velocities of the same eyes correlate by more than {:.1f}: these may be of other eyes, or "
+        "of another time",
+        gaze::GazeComparison::kLeastCorrelation);
+}
+
+std::string gaze_comparison_text(const gaze::GazeComparison& comparison) {
+    return wrapped_row("lag", lag_text(comparison)) +
            wrapped_row("azimuth", axis_text(comparison.azimuth)) +
            wrapped_row("height", axis_text(comparison.elevation)) +
            wrapped_row("over", fmt::format("{:.1f} s with gaze in both, every {:.1f} ms",
                                            comparison.overlap_s, comparison.step_ms)) +
-           (comparison.doubtful()
-                ? wrapped_row("doubt",
-                              fmt::format("velocities of the same eyes correlate by more than "
-                                          "{:.1f}: these may be of other eyes, or of another time",
-                                          gaze::GazeComparison::kLeastCorrelation))
-                : std::string{});
+           (comparison.doubtful() ? wrapped_row("doubt", doubt_text()) : std::string{});
 }
 
 Json gaze_comparison_json(const gaze::GazeComparison& comparison) {

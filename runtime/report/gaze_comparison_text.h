@@ -7,6 +7,11 @@
 
 namespace gazeloop::report {
 
+/// How much later the second one is, and how sure that is; one sentence without a full stop.
+[[nodiscard]] std::string lag_text(const gaze::GazeComparison& comparison);
+/// What to make of a doubtful one.
+[[nodiscard]] std::string doubt_text();
+
 /// What two recordings of the same eyes have in common, for people, at most 100 columns wide.
 [[nodiscard]] std::string gaze_comparison_text(const gaze::GazeComparison& comparison);
 

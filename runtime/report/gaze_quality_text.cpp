@@ -15,14 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-gaze::SmoothingFinding smoothing_of(const gaze::GazeTrace& trace) {
-    gaze::GazeSmoothing smoothing;
-    for (const gaze::GazeSample& sample : trace.samples) {
-        smoothing.add(sample);
-    }
-    return smoothing.finding();
-}
-
 std::string losses_text(const gaze::Losses& losses, double duration_s) {
     if (losses.count == 0) {
         return "none";
@@ -35,8 +27,9 @@ std::string losses_text(const gaze::Losses& losses, double duration_s) {
 }
 
 std::string noise_text(std::string_view whose, const gaze::EyePrecision& precision) {
-    return fmt::format("{} {:.3f} deg from sample to sample, {:.3f} deg SD", whose,
-                       precision.sample_to_sample_deg, precision.deviation_deg);
+    return fmt::format("{} {:.3f} deg from sample to sample (RMS), {:.3f} deg SD, BCEA {:.4f} deg2",
+                       whose, precision.sample_to_sample_deg, precision.deviation_deg,
+                       precision.bcea_deg2);
 }
 
 std::string precision_text(const gaze::PerEye<std::optional<gaze::EyePrecision>>& eyes) {
@@ -79,13 +72,14 @@ Json precision_json(const std::optional<gaze::EyePrecision>& precision) {
     return {{"windows", precision->windows},
             {"sample_to_sample_deg", precision->sample_to_sample_deg},
             {"deviation_deg", precision->deviation_deg},
+            {"bcea_deg2", precision->bcea_deg2},
             {"step_per_deviation", precision->step_per_deviation}};
 }
 
 }  // namespace
 
-std::string quality_text(const gaze::GazeTrace& trace) {
-    const gaze::GazeQuality quality = gaze::gaze_quality(trace.samples);
+std::string quality_text(const GazeFindings& found) {
+    const gaze::GazeQuality& quality = found.quality;
     std::string text;
     if (quality.intervals) {
         text += wrapped_row(
@@ -99,13 +93,13 @@ std::string quality_text(const gaze::GazeTrace& trace) {
         text += wrapped_row("losses", losses_text(*quality.losses, quality.duration_s));
     }
     text += wrapped_row("noise", precision_text(quality.precision));
-    const gaze::SmoothingFinding smoothing = smoothing_of(trace);
+    const gaze::SmoothingFinding& smoothing = found.smoothing;
     return text + wrapped_row("smoothed", fmt::format("{}: {}", answer_of(smoothing.verdict),
                                                       smoothing_text(smoothing)));
 }
 
-void add_quality(const gaze::GazeTrace& trace, Json& json) {
-    const gaze::GazeQuality quality = gaze::gaze_quality(trace.samples);
+void add_quality(const GazeFindings& found, Json& json) {
+    const gaze::GazeQuality& quality = found.quality;
     json["intervals"] = nullptr;
     if (quality.intervals) {
         json["intervals"] = {{"median_ms", quality.intervals->median_ms},
@@ -123,7 +117,7 @@ void add_quality(const gaze::GazeTrace& trace, Json& json) {
     }
     json["precision"] = {{"left", precision_json(quality.precision[0])},
                          {"right", precision_json(quality.precision[1])}};
-    const gaze::SmoothingFinding smoothing = smoothing_of(trace);
+    const gaze::SmoothingFinding& smoothing = found.smoothing;
     json["smoothing"] = {
         {"verdict", name_of(smoothing.verdict)},
         {"why", smoothing_text(smoothing)},

@@ -12,6 +12,7 @@
 #include "runtime/gaze/anatomy.h"
 #include "runtime/gaze/sample_rate.h"
 #include "runtime/latency/sample_counter.h"
+#include "runtime/report/gaze_events_text.h"
 #include "runtime/report/gaze_quality_text.h"
 #include "runtime/report/trace_account.h"
 #include "runtime/report/wrapped_row.h"
@@ -130,7 +131,7 @@ Json counts_json(const gaze::TraceReport& report) {
 
 }  // namespace
 
-std::string gaze_text(const gaze::GazeTrace& trace) {
+std::string gaze_text(const gaze::GazeTrace& trace, const GazeFindings& findings) {
     const Samples found = look_at(trace);
     const std::size_t all = trace.samples.size();
     std::string text = fmt::format("{}\n", trace.file);
@@ -153,7 +154,8 @@ std::string gaze_text(const gaze::GazeTrace& trace) {
     row("eyes", fmt::format("left valid {:.1f} %, right {:.1f} %, both {:.1f} %",
                             percent(found.valid[0], all), percent(found.valid[1], all),
                             percent(found.both_valid, all)));
-    text += quality_text(trace);
+    text += quality_text(findings);
+    text += events_text(findings.statistics);
     row("axes", directions_of(trace));
     row("head", found.with_head > 0 ? fmt::format("recorded with {:.1f} % of the samples",
                                                   percent(found.with_head, all))
@@ -164,7 +166,7 @@ std::string gaze_text(const gaze::GazeTrace& trace) {
     return trace.report.rows > 0 ? text + findings_text(trace.report) : text;
 }
 
-Json gaze_json(const gaze::GazeTrace& trace) {
+Json gaze_json(const gaze::GazeTrace& trace, const GazeFindings& findings) {
     const Samples found = look_at(trace);
     const std::size_t all = trace.samples.size();
     Json gaps = Json::array();
@@ -184,7 +186,8 @@ Json gaze_json(const gaze::GazeTrace& trace) {
                 {"right", percent(found.valid[1], all)},
                 {"both", percent(found.both_valid, all)}}},
               {"head_percent", percent(found.with_head, all)}};
-    add_quality(trace, json);
+    add_quality(findings, json);
+    json["events"] = events_json(findings.statistics);
     json["counts"] = counts_json(trace.report);
     TraceAccount account;
     for (const std::string& event : trace_events(trace.report)) {
@@ -195,5 +198,11 @@ Json gaze_json(const gaze::GazeTrace& trace) {
     json["lost"] = trace.report.rows > 0 ? trace.report.lost_by_tracker : found.counts.lost;
     return json;
 }
+
+std::string gaze_text(const gaze::GazeTrace& trace) {
+    return gaze_text(trace, gaze_findings(trace));
+}
+
+Json gaze_json(const gaze::GazeTrace& trace) { return gaze_json(trace, gaze_findings(trace)); }
 
 }  // namespace gazeloop::report

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "runtime/report/page/page_parts.h"
 #include "runtime/report/page/page_tables.h"
 #include "runtime/report/row_names.h"
 #include "runtime/report/session_rows.h"
@@ -93,7 +94,7 @@ std::string plot_data(const PageContents& contents, const FramePlots& plots,
         }
     }
     const latency::SummaryConfig& config = contents.session.report.config;
-    const Json data{{"rows", plots.rows},
+    const Json json{{"rows", plots.rows},
                     {"end", plots.end},
                     {"time_known", plots.time_known},
                     {"period_ms", config.period_ns > 0
@@ -107,17 +108,7 @@ std::string plot_data(const PageContents& contents, const FramePlots& plots,
                     {"latch", distribution_json(at_latch_and_display[0])},
                     {"display", distribution_json(at_latch_and_display[1])},
                     {"events", std::move(events)}};
-    const std::string text = data.dump(-1, ' ', true, Json::error_handler_t::replace);
-    std::string safe;
-    safe.reserve(text.size());
-    for (const char one : text) {
-        if (one == '<') {  // "</script>" and "<!--" would end the element
-            safe += "\\u003c";
-        } else {
-            safe += one;
-        }
-    }
-    return safe;
+    return script_json(json);
 }
 
 }  // namespace gazeloop::report::page

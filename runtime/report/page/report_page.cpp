@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <kainjow/mustache.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -14,7 +12,7 @@
 #include "runtime/report/page/distribution.h"
 #include "runtime/report/page/eye_event_table.h"
 #include "runtime/report/page/frame_plots.h"
-#include "runtime/report/page/page_files.h"
+#include "runtime/report/page/page_parts.h"
 #include "runtime/report/page/page_tables.h"
 #include "runtime/report/page/plot_data.h"
 #include "runtime/report/page/violations.h"
@@ -22,19 +20,11 @@
 #include "runtime/report/row_names.h"
 #include "runtime/report/session_rows.h"
 #include "runtime/report/summary_text.h"
-#include "runtime/version.h"
 
 namespace gazeloop::report::page {
 namespace {
 
-using kainjow::mustache::data;
-using List = data::type;
-
 constexpr std::size_t kMostRuns = 50;  ///< of each limit, around which single frames are kept
-
-std::string file_text(std::string_view name) { return std::string(page_file(name)); }
-
-data list() { return data(List::list); }
 
 std::vector<std::string> lines_of(std::string_view text) {
     std::vector<std::string> lines;
@@ -46,70 +36,6 @@ std::vector<std::string> lines_of(std::string_view text) {
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return lines;
-}
-
-data texts(const std::vector<std::string>& lines) {
-    data all = list();
-    for (const std::string& line : lines) {
-        all << data("text", line);
-    }
-    return all;
-}
-
-void add_show(data& item, const std::optional<double>& show_s) {
-    if (show_s) {
-        item.set("show", fmt::format("{:.5f}", *show_s));
-    }
-}
-
-data table_data(const Table& table) {
-    data heads = list();
-    for (std::size_t i = 1; i < table.heads.size(); ++i) {
-        data head("text", table.heads[i].text);
-        add_show(head, table.heads[i].show_s);
-        heads << head;
-    }
-    data rows = list();
-    for (const TableRow& row : table.rows) {
-        data item;
-        item.set("label", row.label);
-        item.set("key", row.key);
-        item.set("indented", row.indented);
-        if (row.heading) {
-            item.set("heading", data("span", fmt::format("{}", table.heads.size())));
-        }
-        add_show(item, row.show_s);
-        data cells = list();
-        for (const std::string& cell : row.cells) {
-            cells << data("text", cell);
-        }
-        item.set("cells", cells);
-        rows << item;
-    }
-    data all;
-    all.set("first_head", table.heads.front().text);
-    all.set("heads", heads);
-    all.set("rows", rows);
-    all.set("words", table.text);
-    all.set("tight", table.tight);
-    all.set("any", !table.rows.empty());
-    return all;
-}
-
-struct Figure {
-    std::string id;
-    std::string title;
-    std::string note;
-    Table table;
-};
-
-data figure_data(const Figure& figure) {
-    data item;
-    item.set("id", figure.id);
-    item.set("title", figure.title);
-    item.set("note", figure.note);
-    item.set("table", table_data(figure.table));
-    return item;
 }
 
 data share_data(const latency::SummaryReport& report) {
@@ -327,16 +253,9 @@ std::string report_page(const PageContents& contents) {
     const std::vector<Distribution> both = distributions(ages);
 
     data page;
-    page.set("css", file_text("page.css"));
-    page.set("chart_js", file_text("chart.min.js"));
-    page.set("chart_licence", file_text("chart_licence.txt"));
-    std::string script;
-    for (const char* const name : {"numbers.js", "levels.js", "view.js", "plots.js", "page.js"}) {
-        script += page_file(name);
-    }
-    page.set("script", script);
+    add_style_and_scripts(
+        page, {"numbers.js", "levels.js", "view.js", "plots.js", "figures.js", "page.js"});
     page.set("plot_data", plot_data(contents, plots, limits, both));
-    page.set("version", kVersion);
     page.set("file", contents.file);
     std::vector<std::string> head = lines_of(summary_head(report));
     std::ranges::stable_partition(  // the verdict first
@@ -362,11 +281,11 @@ std::string report_page(const PageContents& contents) {
     }
     page.set("sections", sections);
     data ages_figures = list();
-    ages_figures << figure_data(
-        {.id = "distribution",
-         .title = "Distribution of the age",
-         .note = distribution_note(both),
-         .table = distribution_table(both, {{"when used"}, {"when shown"}})});
+    ages_figures << figure_data({.id = "distribution",
+                                 .title = "Distribution of the age",
+                                 .note = distribution_note(both),
+                                 .table = distribution_table(both, {{"when used"}, {"when shown"}}),
+                                 .moves = false});
     page.set("distribution", ages_figures);
     data over_time = list();
     for (const Figure& figure : time_figures(contents, limits)) {
@@ -385,17 +304,7 @@ std::string report_page(const PageContents& contents) {
     page.set("device_table", table_data(named_values(contents.info.header.device)));
     page.set("config_table", table_data(named_values(contents.info.header.config)));
     page.set("command_line", contents.info.header.meta.command_line);
-    for (const char* const partial : {"table", "figure"}) {
-        page.set(partial == std::string_view("table") ? "table_part" : "figure_part",
-                 data(kainjow::mustache::partial(
-                     [partial] { return file_text(std::string(partial) + ".mustache"); })));
-    }
-    kainjow::mustache::mustache rendered(file_text("report.mustache"));
-    std::string html = rendered.render(page);
-    if (!rendered.is_valid()) {
-        throw std::logic_error("report.mustache: " + rendered.error_message());
-    }
-    return html;
+    return rendered("report.mustache", page);
 }
 
 }  // namespace gazeloop::report::page
