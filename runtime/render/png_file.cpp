@@ -4,8 +4,11 @@
 #include <png.h>
 
 #include <array>
+#include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "runtime/files/output_file.h"
 #include "runtime/render/srgb.h"
@@ -71,6 +74,26 @@ Expected<LinearPicture> finish(png_image& image, const std::string& name, std::u
     return picture;
 }
 
+png_image image_of(const Picture& picture) {
+    png_image image = new_image();
+    image.width = picture.width;
+    image.height = picture.height;
+    image.format = PNG_FORMAT_RGB;
+    return image;
+}
+
+/// The picture's PNG. None: `image` has the reason.
+std::optional<std::string> encoded(const Picture& picture, png_image& image) {
+    std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
+    png_alloc_size_t size = bytes.size();
+    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.pixels.data(), 0,
+                                  nullptr) == 0) {
+        return std::nullopt;
+    }
+    bytes.resize(size);
+    return bytes;
+}
+
 }  // namespace
 
 Expected<LinearPicture> read_png(const std::filesystem::path& file) {
@@ -93,22 +116,24 @@ Expected<LinearPicture> read_png(std::span<const std::byte> bytes, const std::st
 }
 
 Expected<void> write_png(const Picture& picture, const std::filesystem::path& file) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = picture.width;
-    image.height = picture.height;
-    image.format = PNG_FORMAT_RGB;
+    png_image image = image_of(picture);
     // Not to the file: libpng removes what it could not write, even a device.
-    std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
-    png_alloc_size_t size = bytes.size();
-    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.pixels.data(), 0,
-                                  nullptr) == 0) {
+    const std::optional<std::string> bytes = encoded(picture, image);
+    if (!bytes) {
         return std::unexpected(Error{
             ErrorKind::BadInput,
             fmt::format("{}: the picture cannot be a PNG ({})", file.string(), image.message)});
     }
-    bytes.resize(size);
-    return files::write_text(file, bytes);
+    return files::write_text(file, *bytes);
+}
+
+std::string png_bytes(const Picture& picture) {
+    png_image image = image_of(picture);
+    std::optional<std::string> bytes = encoded(picture, image);
+    if (!bytes) {
+        throw std::runtime_error(image.message);  // out of memory: nothing else can happen here
+    }
+    return *std::move(bytes);
 }
 
 }  // namespace gazeloop::render

@@ -22,5 +22,7 @@ Expected<LinearPicture> read_png(std::span<const std::byte> bytes, const std::st
 
 /// Errors (BadInput): the file cannot be written; it names file and reason.
 Expected<void> write_png(const Picture& picture, const std::filesystem::path& file);
+/// The same file's bytes. Precondition: the picture has pixels.
+[[nodiscard]] std::string png_bytes(const Picture& picture);
 
 }  // namespace gazeloop::render

@@ -128,8 +128,8 @@ data comparison_data(std::span<const PageRecording> recordings,
 std::string gaze_page(std::span<const PageRecording> recordings,
                       const gaze::GazeComparison* comparison) {
     data page;
-    add_style_and_scripts(
-        page, {"numbers.js", "levels.js", "view.js", "plots.js", "figures.js", "gaze_plots.js"});
+    add_style_and_scripts(page, {"numbers.js", "levels.js", "view.js", "charts.js", "plots.js",
+                                 "shown_time.js", "gaze_plots.js"});
     const bool alone = recordings.size() == 1;
     std::string title;
     std::vector<std::string> names;

@@ -121,7 +121,7 @@ async function start() {
     }
   }
   moveByButtons(view);
-  keepDrawn(plots);
+  drawPlots(plots);
 }
 
 start();

@@ -82,7 +82,7 @@ async function start() {
     document.querySelector(".toolbar").hidden = true;
   }
 
-  keepDrawn(plots);
+  drawPlots(plots);
 }
 
 start();

@@ -14,15 +14,6 @@ const kPlotKinds = {
   events: {events: true},
 };
 
-function colours() {
-  const style = getComputedStyle(document.documentElement);
-  const named = (name) => style.getPropertyValue(name).trim();
-  return {paper: named("--paper"), ink: named("--ink"), soft: named("--soft"), rule: named("--rule"),
-    series: [1, 2, 3, 4, 5].map((i) => named(`--c${i}`))};
-}
-
-const faint = (colour, share) => colour + Math.round(255 * share).toString(16).padStart(2, "0");
-
 // Five colours, and five hatched ones: colour alone need not tell them apart.
 function bandFill(palette, i, context) {
   const colour = palette.series[i % 5];
@@ -209,22 +200,6 @@ function timeAxis(data, palette) {
         const decimals = this.step >= 1 ? 0 : Math.ceil(-Math.log10(this.step) - 1e-9);
         return timeText(value, data.time_known, decimals);
       }},
-  };
-}
-
-function valueAxis(unit, palette, more = {}) {
-  return {
-    type: "linear", grid: {color: palette.rule}, ticks: {color: palette.soft, maxTicksLimit: 7},
-    title: {display: true, text: unit, color: palette.soft}, afterFit: (axis) => { axis.width = 64; }, ...more};
-}
-
-function optionsOf(scales, palette, tooltip) {
-  return {
-    animation: false, responsive: true, maintainAspectRatio: false, parsing: false, normalized: true, spanGaps: false,
-    events: ["mousemove", "mouseout"], interaction: {mode: "index", intersect: false, axis: "x"},
-    color: palette.soft, font: {size: 12}, layout: {padding: {top: 6, right: 8}},
-    elements: {line: {borderJoinStyle: "round"}}, scales,
-    plugins: {legend: {display: false}, tooltip: {animation: false, displayColors: false, ...tooltip}},
   };
 }
 

@@ -253,8 +253,8 @@ std::string report_page(const PageContents& contents) {
     const std::vector<Distribution> both = distributions(ages);
 
     data page;
-    add_style_and_scripts(
-        page, {"numbers.js", "levels.js", "view.js", "plots.js", "figures.js", "page.js"});
+    add_style_and_scripts(page, {"numbers.js", "levels.js", "view.js", "charts.js", "plots.js",
+                                 "shown_time.js", "page.js"});
     page.set("plot_data", plot_data(contents, plots, limits, both));
     page.set("file", contents.file);
     std::vector<std::string> head = lines_of(summary_head(report));

@@ -1,5 +1,6 @@
-// What a page's figures share. The page says in its own verdict whether all went well, because a
-// browser tells nobody else.
+// What every page with plots needs: their colours and axes, their legends, and how they are drawn
+// anew when colours change or the page is printed. A page says in its own verdict whether all went
+// well, because a browser tells nobody else.
 
 const kPaper = {width: 690, scale: 3};
 
@@ -68,31 +69,39 @@ class Plot {
   }
 }
 
-function moveByButtons(view) {
-  for (const button of document.querySelectorAll("button[data-move]")) {
-    button.addEventListener("click", () => view.move(button.dataset.move));
-  }
+function colours() {
+  const style = getComputedStyle(document.documentElement);
+  const named = (name) => style.getPropertyValue(name).trim();
+  return {paper: named("--paper"), ink: named("--ink"), soft: named("--soft"), rule: named("--rule"),
+    series: [1, 2, 3, 4, 5].map((i) => named(`--c${i}`))};
 }
 
-// `what` a bin's rows are.
-function shownText(data, view, part, what = "frame") {
-  const decimals = view.to - view.from < 10 ? 3 : view.to - view.from < 600 ? 1 : 0;
-  const times = `${timeText(view.from, data.time_known, decimals)} to ${timeText(view.to, data.time_known, decimals)}`;
-  let rows = 0;
-  for (let i = part.begin; i < part.end; ++i) {
-    rows += part.bins.rows[i];
-  }
-  const each = rows / Math.max(1, part.end - part.begin);
-  return each <= 1 ? `${times}: every ${what}`
-    : `${times}: reduced, each point has the least and the greatest of ${each.toFixed(each < 10 ? 1 : 0)} ${what}s`;
+const faint = (colour, share) => colour + Math.round(255 * share).toString(16).padStart(2, "0");
+
+function valueAxis(unit, palette, more = {}) {
+  return {
+    type: "linear", grid: {color: palette.rule}, ticks: {color: palette.soft, maxTicksLimit: 7},
+    title: {display: true, text: unit, color: palette.soft}, afterFit: (axis) => { axis.width = 64; }, ...more};
 }
 
-// Draws them, and again whenever colours change or paper is asked for.
-function keepDrawn(plots) {
-  const showAll = () => {
-    const palette = colours();
-    plots.forEach((plot) => plot.show(palette));
+function optionsOf(scales, palette, tooltip) {
+  return {
+    animation: false, responsive: true, maintainAspectRatio: false, parsing: false, normalized: true, spanGaps: false,
+    events: ["mousemove", "mouseout"], interaction: {mode: "index", intersect: false, axis: "x"},
+    color: palette.soft, font: {size: 12}, layout: {padding: {top: 6, right: 8}},
+    elements: {line: {borderJoinStyle: "round"}}, scales,
+    plugins: {legend: {display: false}, tooltip: {animation: false, displayColors: false, ...tooltip}},
   };
+}
+
+function showAllOf(plots) {
+  const palette = colours();
+  plots.forEach((plot) => plot.show(palette));
+}
+
+// Draws them, follows colours and paper, and says so in the page's verdict.
+function drawPlots(plots) {
+  const showAll = () => showAllOf(plots);
   showAll();
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", showAll);
   addEventListener("beforeprint", () => {
