@@ -17,7 +17,7 @@ void add_gaze_command(Command program);
 void add_plan_command(Command program);
 void add_calibrate_command(Command program, const std::string& command_line);
 void add_compare_command(Command program);
-void add_trade_command(Command program);
+void add_trade_command(Command program, const std::string& command_line);
 void add_simulate_command(Command program);
 /// Those within it.
 void add_simulate_tracker_command(Command simulate);

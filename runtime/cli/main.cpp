@@ -58,7 +58,7 @@ int gazeloop_main(int count, char** arguments) {
         gazeloop::cli::add_convert_command(program);
         gazeloop::cli::add_plan_command(program);
         gazeloop::cli::add_compare_command(program);
-        gazeloop::cli::add_trade_command(program);
+        gazeloop::cli::add_trade_command(program, command_line);
         gazeloop::cli::add_simulate_command(program);
         gazeloop::cli::add_devices_command(program);
         gazeloop::cli::add_doctor_command(program);

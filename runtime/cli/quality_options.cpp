@@ -2,12 +2,16 @@
 
 namespace gazeloop::cli {
 
-void QualityOptions::add_to(Command command) {
-    command
-        .option("--gaze", gaze,
-                "direction of gaze, degrees to the right and up, or a trace whose first sample is "
-                "the first frame's")
-        .type("AZ,EL|trace:FILE");
+void QualityOptions::add_to(Command command, std::vector<std::string>* gazes) {
+    const std::string meaning =
+        "direction of gaze, degrees to the right and up, or a trace whose first sample is the "
+        "first "
+        "frame's";
+    if (gazes == nullptr) {
+        command.option("--gaze", gaze, meaning).type("AZ,EL|trace:FILE");
+    } else {
+        command.option("--gaze", *gazes, meaning + "; may be repeated").type("AZ,EL|trace:FILE");
+    }
     command.option("--eye", eye, "whose view is compared: left or right").one_of({"left", "right"});
     command.option("--metric", metrics,
                    "contrast, flip, ssim or psnr; may be repeated; all without it");

@@ -17,7 +17,9 @@ struct QualityOptions {
     std::string eye = "left";
     std::string gaze = "0,0";  ///< see recordings::ComparedGaze::parse
 
-    void add_to(Command command);
+    /// `gazes` (which must live until the command line is parsed): --gaze may be repeated, and goes
+    /// there instead.
+    void add_to(Command command, std::vector<std::string>* gazes = nullptr);
 
     /// Throws SetupError (Usage) for a metric that there is not.
     [[nodiscard]] quality::MetricChoice metric_choice() const {

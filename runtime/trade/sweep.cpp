@@ -3,146 +3,100 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
+#include <set>
+#include <utility>
+#include <vector>
 
-#include "runtime/foveation/eye/fewest_samples.h"
-#include "runtime/foveation/eye/guenter_acuity.h"
 #include "runtime/methods/registry.h"
 #include "runtime/render/off_screen.h"
 #include "runtime/scene/scenes.h"
+#include "runtime/trade/point_picture.h"
+#include "runtime/trade/settings_of_point.h"
+#include "runtime/trade/time_left.h"
 
 namespace gazeloop::trade {
 namespace {
 
-/// The points' settings while they are made, and those before in the end.
-class SettingsOfPoint {
+/// One case's points.
+class CaseSweep {
   public:
-    explicit SettingsOfPoint(settings::Settings& settings) : settings_(settings) {}
-    SettingsOfPoint(const SettingsOfPoint&) = delete;
-    SettingsOfPoint& operator=(const SettingsOfPoint&) = delete;
-    ~SettingsOfPoint() {
-        for (auto kept = before_.rbegin(); kept != before_.rend(); ++kept) {
-            (void)settings_.set(kept->key, kept->text, kept->origin);
-        }
-    }
-
-    Expected<void> set(const SweepPoint& point) {
-        for (const auto& [key, text] : point.settings) {
-            for (const settings::SettingRow& row : settings_.rows()) {
-                if (row.key == key) {
-                    before_.push_back({key, settings::text_of(row), settings_.origin(key)});
-                }
-            }
-            if (auto done = settings_.set(key, text, "trade"); !done) {
-                return done;
-            }
-        }
-        return {};
-    }
-
-  private:
-    struct Kept {
-        std::string key;
-        std::string text;
-        std::string origin;
-    };
-    settings::Settings& settings_;
-    std::vector<Kept> before_;
-};
-
-/// What each pass took; 0 for one that did not run.
-using PassMs = std::array<double, frame::kMostPasses>;
-
-void add(PassMs& sums, const frame::FrameGpuRecord& gpu) {
-    for (std::size_t pass = 0; pass < sums.size(); ++pass) {
-        sums[pass] += 1e-6 * static_cast<double>(gpu.passes[pass].value_or(0));
-    }
-}
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
-class Sweep {
-  public:
-    Sweep(const vulkan::Context& context, const SweepQuestion& question,
-          const std::vector<SweepPoint>& points, const methods::MethodSettings& values,
-          settings::Settings& settings, const SweepHooks& hooks)
+    CaseSweep(const vulkan::Context& context, const SweepQuestion& question, std::size_t at_case,
+              const methods::MethodSettings& values, settings::Settings& settings,
+              const SweepHooks& hooks, SweepRecord& record)
         : context_(context),
           question_(question),
+          at_case_(at_case),
+          case_(question.cases[at_case]),
           values_(values),
           settings_(settings),
           hooks_(hooks),
-          scene_(scene::make_scene(context, question.scene)) {
-        contenders_.emplace_back().row.point.method = "full";
-        for (const SweepPoint& point : points) {
-            if (point.method != "full") {
-                contenders_.emplace_back().row.point = point;
+          record_(record) {
+        for (std::size_t point = 0; point < record.points.size(); ++point) {
+            if (question.shard.has(point)) {
+                contenders_.emplace_back().point = point;
+            }
+        }
+        for (const JudgedPoint& judged : record.judged) {
+            if (judged.of_case == at_case) {
+                const auto found = std::ranges::find(contenders_, judged.point, &Contender::point);
+                if (found != contenders_.end()) {
+                    found->known = true;
+                    found->failed = !judged.error.empty();
+                }
+            }
+        }
+        for (const TimedTurn& turn : record.turns) {
+            if (turn.of_case == at_case) {
+                timed_.emplace(turn.round, turn.frame);
             }
         }
     }
 
-    Expected<std::vector<SweepRow>> run() {
-        if (auto rendered = render_reference(); !rendered) {
-            return std::unexpected(rendered.error());
+    Expected<void> run() {
+        const std::size_t known = count_known();
+        const bool all_timed = timed_.size() == std::size_t{question_.rounds} * frames();
+        if (known == contenders_.size() && all_timed) {
+            return {};
         }
-        auto comparison = quality::Comparison::create(question_.comparison);
-        if (!comparison) {
-            return std::unexpected(comparison.error());
-        }
-        for (std::size_t at = 0; at < contenders_.size(); ++at) {
-            Contender& contender = contenders_[at];
-            if (auto stopped = stop_if_interrupted(); !stopped) {
-                return std::unexpected(stopped.error());
+        scene_ = scene::make_scene(context_, case_.scene);
+        if (known < contenders_.size()) {
+            if (auto judged = judge_all(); !judged) {
+                return judged;
             }
-            if (auto judged = judge(contender, *comparison); !judged) {
-                if (judged.error().kind == ErrorKind::Interrupted) {
-                    return std::unexpected(judged.error());
-                }
-                contender.renderer.reset();
-                contender.row.error = judged.error().message;
-            }
-            hooks_.progress(fmt::format(
-                "{} of {} points compared: {} {}{}", at + 1, contenders_.size(),
-                contender.row.point.method, contender.row.point.settings_text(),
-                contender.row.error.empty() ? "" : fmt::format(": {}", contender.row.error)));
         }
         reference_.clear();
-        for (unsigned round = 0; round < question_.rounds; ++round) {
-            if (auto timed = time_round(); !timed) {
-                return std::unexpected(timed.error());
-            }
-            hooks_.progress(fmt::format("{} of {} rounds timed", round + 1, question_.rounds));
-        }
-        const auto fewest = fewest_cells();
-        if (!fewest) {
-            return std::unexpected(fewest.error());
-        }
-        std::vector<SweepRow> rows;
-        for (Contender& contender : contenders_) {
-            finish(contender, *fewest);
-            rows.push_back(std::move(contender.row));
-        }
-        mark_fronts(rows);
-        return rows;
+        return all_timed ? Expected<void>{} : time_all();
     }
 
   private:
     struct Contender {
-        SweepRow row;
+        std::size_t point = 0;
+        bool known = false;   ///< judged
+        bool failed = false;  ///< and why is in its record
         std::unique_ptr<render::OffScreen> renderer;
-        std::vector<double> round_ms{};  ///< means over the frames
-        std::array<std::vector<double>, frame::kMostPasses> round_pass_ms{};
     };
+
+    [[nodiscard]] std::size_t frames() const { return case_.directions.size(); }
+    [[nodiscard]] std::size_t count_known() const {
+        return static_cast<std::size_t>(std::ranges::count(contenders_, true, &Contender::known));
+    }
+    [[nodiscard]] const SweepPoint& point_of(const Contender& contender) const {
+        return record_.points[contender.point];
+    }
 
     [[nodiscard]] Expected<void> stop_if_interrupted() const {
         if (hooks_.interrupted()) {
             return std::unexpected(Error{ErrorKind::Interrupted, "the sweep was interrupted"});
         }
         return {};
+    }
+
+    void say(const std::string& text) const {
+        hooks_.progress(question_.cases.size() > 1
+                            ? fmt::format("case {} of {} ({}, {}): {}", at_case_ + 1,
+                                          question_.cases.size(), case_.scene, case_.gaze, text)
+                            : text);
     }
 
     [[nodiscard]] render::FrameView view(std::size_t frame) const {
@@ -155,7 +109,7 @@ class Sweep {
     [[nodiscard]] gaze::FrameFovea fovea(std::size_t frame) const {
         gaze::FrameFovea foveae;
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            foveae.eyes[e].direction = question_.gaze[frame][e];
+            foveae.eyes[e].direction = case_.directions[frame][e];
             foveae.eyes[e].position = gaze::project(foveae.eyes[e].direction, question_.views[e]);
             foveae.eyes[e].state = gaze::FoveaState::Tracking;
         }
@@ -178,35 +132,76 @@ class Sweep {
     Expected<void> render_reference() {
         const gaze::EyeView& view_of_eye = question_.views[gaze::index(eye())];
         const std::uint64_t bytes = std::uint64_t{view_of_eye.width_px} * view_of_eye.height_px *
-                                    sizeof(glm::vec3) * question_.gaze.size();
+                                    sizeof(glm::vec3) * frames();
         if (bytes > kMostReferenceBytes) {
             return std::unexpected(Error{
                 ErrorKind::Usage,
                 fmt::format("the reference's {} frames would take {} MiB of memory, over {}: fewer "
                             "--frames, or smaller pictures (--set render.scale=0.5)",
-                            question_.gaze.size(), bytes >> 20U, kMostReferenceBytes >> 20U)});
+                            frames(), bytes >> 20U, kMostReferenceBytes >> 20U)});
         }
         const auto passes = methods::find_method("full")->passes(values_, settings_);
         if (!passes) {
             return std::unexpected(passes.error());
         }
         const auto full = renderer(*passes, question_.reference_samples);
-        for (std::size_t frame = 0; frame < question_.gaze.size(); ++frame) {
+        for (std::size_t frame = 0; frame < frames(); ++frame) {
             if (auto stopped = stop_if_interrupted(); !stopped) {
                 return stopped;
             }
             full->render(view(frame), fovea(frame));
             reference_.push_back(full->linear_picture(eye()));
         }
-        hooks_.progress(fmt::format("{} frames of the reference rendered", reference_.size()));
+        say(fmt::format("{} frames of the reference rendered", reference_.size()));
         return {};
     }
 
-    /// Makes the point's renderer and compares its frames.
-    Expected<void> judge(Contender& contender, quality::Comparison& comparison) {
-        const methods::Method& method = *methods::find_method(contender.row.point.method);
+    Expected<void> judge_all() {
+        if (auto rendered = render_reference(); !rendered) {
+            return rendered;
+        }
+        quality::ComparisonQuestion asked = question_.comparison;
+        asked.with_maps = question_.with_pictures;
+        auto comparison = quality::Comparison::create(asked);
+        if (!comparison) {
+            return std::unexpected(comparison.error());
+        }
+        TimeLeft left(contenders_.size() - count_known());
+        for (Contender& contender : contenders_) {
+            if (contender.known) {
+                continue;
+            }
+            if (auto stopped = stop_if_interrupted(); !stopped) {
+                return stopped;
+            }
+            auto judged = judge(contender, *comparison);
+            if (!judged) {
+                if (judged.error().kind == ErrorKind::Interrupted) {
+                    return std::unexpected(judged.error());
+                }
+                contender.renderer.reset();
+                contender.failed = true;
+                judged = JudgedPoint{
+                    .of_case = at_case_, .point = contender.point, .error = judged.error().message};
+            }
+            if (auto kept = hooks_.judged(*judged); !kept) {
+                return kept;
+            }
+            contender.known = true;
+            left.done_one();
+            say(fmt::format("{} of {} points compared{}: {} {}{}", count_known(),
+                            contenders_.size(), left.text(), point_of(contender).method,
+                            point_of(contender).settings_text(),
+                            judged->error.empty() ? "" : fmt::format(": {}", judged->error)));
+            record_.judged.push_back(std::move(*judged));
+        }
+        return {};
+    }
+
+    Expected<void> make_renderer(Contender& contender) {
+        const methods::Method& method = *methods::find_method(point_of(contender).method);
         SettingsOfPoint of_point(settings_);
-        if (auto set = of_point.set(contender.row.point); !set) {
+        if (auto set = of_point.set(point_of(contender)); !set) {
             return set;
         }
         if (method.check_picture != nullptr) {
@@ -222,153 +217,152 @@ class Sweep {
         if (!passes) {
             return std::unexpected(passes.error());
         }
+        contender.renderer = renderer(*passes, question_.samples);
+        return {};
+    }
+
+    /// Makes the point's renderer and compares its frames.
+    Expected<JudgedPoint> judge(Contender& contender, quality::Comparison& comparison) {
+        JudgedPoint judged{.of_case = at_case_, .point = contender.point};
         comparison.forget();
         quality::QualityTotals totals;
         try {
-            contender.renderer = renderer(*passes, question_.samples);
+            if (auto made = make_renderer(contender); !made) {
+                return std::unexpected(made.error());
+            }
             double cells = 0.0;
-            for (std::size_t frame = 0; frame < question_.gaze.size(); ++frame) {
+            for (std::size_t frame = 0; frame < frames(); ++frame) {
                 if (auto stopped = stop_if_interrupted(); !stopped) {
-                    return stopped;
+                    return std::unexpected(stopped.error());
                 }
                 const auto rendered = contender.renderer->render(view(frame), fovea(frame));
                 cells += static_cast<double>(rendered.counts.shaded());
-                const auto quality =
-                    comparison.compare(reference_[frame], contender.renderer->linear_picture(eye()),
-                                       question_.gaze[frame][gaze::index(eye())]);
+                const render::LinearPicture picture = contender.renderer->linear_picture(eye());
+                const auto quality = comparison.compare(
+                    reference_[frame], picture, case_.directions[frame][gaze::index(eye())]);
                 if (!quality) {
                     return std::unexpected(quality.error());
                 }
                 totals.add(*quality);
+                if (question_.with_pictures && frame + 1 == frames()) {
+                    judged.picture = small_picture(picture);
+                    judged.heat_map = small_heat_map(*quality);
+                }
             }
-            contender.row.cells = cells / static_cast<double>(question_.gaze.size());
+            judged.cells = cells / static_cast<double>(frames());
         } catch (const SetupError& error) {
             return std::unexpected(Error{error.kind(), error.what()});
         }
-        contender.row.figures = totals.figures();
-        return {};
+        const frame::PassList& passes = contender.renderer->renderer().passes();
+        for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+            judged.passes.emplace_back(passes[pass]);
+        }
+        judged.figures = totals.figures();
+        return judged;
     }
 
-    /// All frames by all points that work, in turns.
-    Expected<void> time_round() {
-        std::vector<PassMs> sums_ms(contenders_.size());
-        for (std::size_t frame = 0; frame < question_.gaze.size(); ++frame) {
-            for (std::size_t at = 0; at < contenders_.size(); ++at) {
+    /// The points that were judged before this sweep went on: all have rendered the same frames
+    /// before they are timed.
+    Expected<void> warm_up_known() {
+        for (Contender& contender : contenders_) {
+            if (contender.renderer || contender.failed) {
+                continue;
+            }
+            if (auto made = make_renderer(contender); !made) {
+                return made;
+            }
+            for (std::size_t frame = 0; frame < frames(); ++frame) {
                 if (auto stopped = stop_if_interrupted(); !stopped) {
                     return stopped;
                 }
-                if (contenders_[at].renderer) {
-                    add(sums_ms[at],
-                        contenders_[at].renderer->render(view(frame), fovea(frame)).gpu);
-                }
+                contender.renderer->render(view(frame), fovea(frame));
             }
-        }
-        const auto frames = static_cast<double>(question_.gaze.size());
-        for (std::size_t at = 0; at < contenders_.size(); ++at) {
-            Contender& contender = contenders_[at];
-            double total_ms = 0.0;
-            for (std::size_t pass = 0; pass < frame::kMostPasses; ++pass) {
-                contender.round_pass_ms[pass].push_back(sums_ms[at][pass] / frames);
-                total_ms += sums_ms[at][pass] / frames;
-            }
-            contender.round_ms.push_back(total_ms);
         }
         return {};
     }
 
-    /// By the comparison's line, both eyes, mean of the frames.
-    [[nodiscard]] Expected<double> fewest_cells() const {
-        const auto model = foveation::GuenterAcuity::create(question_.comparison.line);
-        if (!model) {
-            return std::unexpected(model.error());
+    Expected<void> time_all() {
+        if (auto warm = warm_up_known(); !warm) {
+            return warm;
         }
-        double sum = 0.0;
-        double of_frame = 0.0;
-        for (std::size_t frame = 0; frame < question_.gaze.size(); ++frame) {
-            if (frame > 0 && question_.gaze[frame] == question_.gaze[frame - 1]) {
-                sum += of_frame;
+        const std::size_t all = std::size_t{question_.rounds} * frames();
+        TimeLeft left(all - timed_.size());
+        for (unsigned round = 0; round < question_.rounds; ++round) {
+            const auto first = timed_.lower_bound({round, 0});
+            const bool any = first != timed_.end() && first->first == round;
+            if (any && timed_.contains({round, frames() - 1})) {
                 continue;
             }
-            of_frame = 0.0;
-            for (const gaze::Eye one : gaze::kEyes) {
-                const std::size_t e = gaze::index(one);
-                const auto field =
-                    foveation::GazeField::create(question_.views[e], question_.gaze[frame][e]);
-                if (!field) {
-                    return std::unexpected(field.error());
+            for (std::size_t frame = 0; frame < frames(); ++frame) {
+                // What was timed already is rendered again for the histories alone.
+                auto turn = render_turn(round, frame);
+                if (!turn) {
+                    return std::unexpected(turn.error());
                 }
-                of_frame += foveation::fewest_samples(*field, **model, one);
+                if (timed_.contains({round, frame})) {
+                    continue;
+                }
+                if (auto kept = hooks_.timed(*turn); !kept) {
+                    return kept;
+                }
+                timed_.emplace(round, frame);
+                record_.turns.push_back(std::move(*turn));
+                left.done_one();
             }
-            sum += of_frame;
+            say(fmt::format("{} of {} rounds timed{}", round + 1, question_.rounds, left.text()));
         }
-        return sum / static_cast<double>(question_.gaze.size());
+        return {};
     }
 
-    void finish(Contender& contender, double fewest_cells) const {
-        if (!contender.renderer) {
-            return;
-        }
-        const Contender& full = contenders_.front();
-        std::vector<double> ratios;
-        for (std::size_t round = 0; round < contender.round_ms.size(); ++round) {
-            ratios.push_back(full.round_ms[round] / contender.round_ms[round]);
-        }
-        SweepRow& row = contender.row;
-        row.time = {median(contender.round_ms), std::ranges::min(contender.round_ms),
-                    std::ranges::max(contender.round_ms)};
-        row.speedup = median(ratios);
-        row.fewer_cells = full_cells() / row.cells;
-        row.cells_over_fewest = row.cells / fewest_cells;
-        const frame::PassList& passes = contender.renderer->renderer().passes();
-        for (std::size_t pass = 0; pass < passes.size(); ++pass) {
-            row.pass_ms.emplace_back(passes[pass], median(contender.round_pass_ms[pass]));
-        }
-    }
-
-    [[nodiscard]] double full_cells() const {
-        double cells = 0.0;
-        for (const gaze::EyeView& one : question_.views) {
-            cells += static_cast<double>(one.width_px) * one.height_px;
-        }
-        return cells;
-    }
-
-    static void mark_fronts(std::vector<SweepRow>& rows) {
-        const auto worse_by = [](const SweepRow& row) {
-            const quality::QualityFigure& figure = row.figures.front();
-            return figure.lower_is_better ? figure.mean : -figure.mean;
-        };
-        const auto mark = [&](const auto& cost, bool SweepRow::* front) {
-            for (SweepRow& row : rows) {
-                row.*front =
-                    row.error.empty() && std::ranges::none_of(rows, [&](const SweepRow& other) {
-                        return other.error.empty() && cost(other) <= cost(row) &&
-                               worse_by(other) <= worse_by(row) &&
-                               (cost(other) < cost(row) || worse_by(other) < worse_by(row));
-                    });
+    /// One frame by all points that work.
+    Expected<TimedTurn> render_turn(unsigned round, std::size_t frame) {
+        TimedTurn turn{.of_case = at_case_, .round = round, .frame = frame};
+        for (const Contender& contender : contenders_) {
+            if (auto stopped = stop_if_interrupted(); !stopped) {
+                return std::unexpected(stopped.error());
             }
-        };
-        mark([](const SweepRow& row) { return row.cells; }, &SweepRow::on_cells_front);
-        mark([](const SweepRow& row) { return row.time.median_ms; }, &SweepRow::on_time_front);
+            if (!contender.renderer) {
+                continue;
+            }
+            const frame::FrameGpuRecord gpu =
+                contender.renderer->render(view(frame), fovea(frame)).gpu;
+            PointTime time{.point = contender.point};
+            for (std::size_t pass = 0; pass < contender.renderer->renderer().passes().size();
+                 ++pass) {
+                time.pass_ms.push_back(1e-6 * static_cast<double>(gpu.passes[pass].value_or(0)));
+            }
+            turn.times.push_back(std::move(time));
+        }
+        return turn;
     }
 
     const vulkan::Context& context_;
     const SweepQuestion& question_;
+    std::size_t at_case_;
+    const CaseQuestion& case_;
     const methods::MethodSettings& values_;
     settings::Settings& settings_;
     const SweepHooks& hooks_;
+    SweepRecord& record_;
     std::unique_ptr<scene::Scene> scene_;  ///< outlives the renderers
     std::vector<Contender> contenders_;
+    std::set<std::pair<unsigned, std::size_t>> timed_;  ///< round, frame
     std::vector<render::LinearPicture> reference_;
 };
 
 }  // namespace
 
-Expected<std::vector<SweepRow>> sweep(const vulkan::Context& context, const SweepQuestion& question,
-                                      const std::vector<SweepPoint>& points,
-                                      const methods::MethodSettings& values,
-                                      settings::Settings& settings, const SweepHooks& hooks) {
-    return Sweep(context, question, points, values, settings, hooks).run();
+Expected<void> sweep(const vulkan::Context& context, const SweepQuestion& question,
+                     const methods::MethodSettings& values, settings::Settings& settings,
+                     const SweepHooks& hooks, SweepRecord& record) {
+    for (std::size_t at_case = 0; at_case < question.cases.size(); ++at_case) {
+        if (auto done =
+                CaseSweep(context, question, at_case, values, settings, hooks, record).run();
+            !done) {
+            return done;
+        }
+    }
+    return {};
 }
 
 }  // namespace gazeloop::trade

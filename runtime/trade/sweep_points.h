@@ -15,6 +15,8 @@ struct SweepPoint {
 
     /// "kfr.sigma=1.8 kfr.alpha=4"; empty without settings.
     [[nodiscard]] std::string settings_text() const;
+
+    friend bool operator==(const SweepPoint&, const SweepPoint&) = default;
 };
 
 /// One setting and the values that it takes in turn.

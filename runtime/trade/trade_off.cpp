@@ -4,19 +4,15 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "runtime/methods/registry.h"
 #include "runtime/present/scaled_extent.h"
-#include "runtime/recordings/compared_gaze.h"
-#include "runtime/report/output_file.h"
-#include "runtime/report/summary_json.h"
 #include "runtime/settings/nearest_name.h"
-#include "runtime/trade/sweep_report.h"
+#include "runtime/trade/measured_sweep.h"
+#include "runtime/trade/settings_of_point.h"
 
 namespace gazeloop::trade {
 namespace {
@@ -64,21 +60,30 @@ std::vector<Varied> chosen_variation(const TradeRequest& request,
     return varied;
 }
 
-/// Refuses values that their settings cannot have before anything is rendered.
-void check_values(const std::vector<Varied>& varied, settings::Settings& settings) {
-    for (const Varied& one : varied) {
-        for (const settings::SettingRow& row : settings.rows()) {
-            if (row.key != one.key) {
-                continue;
+/// Every scene along every gaze.
+std::vector<CaseQuestion> cases_of(const TradeRequest& request, const std::string& scene,
+                                   const SweepQuestion& question) {
+    std::vector<std::string> scenes{scene};
+    if (!request.scenes.empty()) {
+        scenes = value_or_throw(parse_varied("scenes=" + request.scenes)).values;
+    }
+    std::vector<CaseQuestion> cases;
+    for (const std::string& name : scenes) {
+        for (const LookedAt& gaze : request.gazes) {
+            CaseQuestion& of_case = cases.emplace_back();
+            of_case.scene = name;
+            of_case.gaze = gaze.text;
+            for (std::uint64_t frame = 0; frame < request.frames; ++frame) {
+                const glm::dvec3 in_head = gaze.direction_at(
+                    std::llround(static_cast<double>(frame) * question.frame_seconds * 1e9));
+                gaze::PerEye<glm::dvec3>& directions = of_case.directions.emplace_back();
+                for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+                    directions[e] = glm::conjugate(question.views[e].pose.orientation) * in_head;
+                }
             }
-            const std::string text = settings::text_of(row);
-            const std::string origin = settings.origin(one.key);
-            for (const std::string& value : one.values) {
-                value_or_throw(settings.set(one.key, value, "trade"));
-            }
-            value_or_throw(settings.set(one.key, text, origin));
         }
     }
+    return cases;
 }
 
 SweepQuestion question_of(const TradeRequest& request, const TradeScene& scene) {
@@ -89,25 +94,16 @@ SweepQuestion question_of(const TradeRequest& request, const TradeScene& scene) 
         {foveation::GazeField::kMaxSidePx, foveation::GazeField::kMaxSidePx});
     SweepQuestion question{
         .views = {},
-        .scene = scene.render.scene,
+        .display = display.name,
         .samples = static_cast<std::uint32_t>(scene.render.spp),
         .reference_samples = static_cast<std::uint32_t>(request.reference_samples),
         .frame_seconds = 1.0 / display.refresh_hz,
-        .rounds = static_cast<unsigned>(request.rounds)};
+        .rounds = static_cast<unsigned>(request.rounds),
+        .shard = value_or_throw(parse_shard(request.shard)),
+        .with_pictures = !request.outputs.html.empty()};
     for (const gaze::Eye one : gaze::kEyes) {
         question.views[gaze::index(one)] =
             display::profile_view(display, one, extent.width, extent.height);
-    }
-    const recordings::ComparedGaze gaze =
-        value_or_throw(recordings::ComparedGaze::parse(request.gaze, eye));
-    for (std::uint64_t frame = 0; frame < request.frames; ++frame) {
-        const glm::dvec3 in_head = gaze.direction_at(
-            std::llround(static_cast<double>(frame) * question.frame_seconds * 1e9));
-        gaze::PerEye<glm::dvec3> directions;
-        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            directions[e] = glm::conjugate(question.views[e].pose.orientation) * in_head;
-        }
-        question.gaze.push_back(directions);
     }
     question.comparison = {
         .view = question.views[gaze::index(eye)],
@@ -116,52 +112,59 @@ SweepQuestion question_of(const TradeRequest& request, const TradeScene& scene) 
         .contrast = request.contrast,
         .line = {.slope = scene.methods.acuity.mar},
         .frame_seconds = request.frames > 1 ? std::optional(question.frame_seconds) : std::nullopt};
+    question.cases = cases_of(request, scene.render.scene, question);
     return question;
+}
+
+/// Refuses names of scenes that there are not before anything is measured.
+void check_scenes(const SweepQuestion& question, settings::Settings& settings) {
+    for (const CaseQuestion& of_case : question.cases) {
+        SettingsOfPoint checked(settings);
+        value_or_throw(checked.set({.method = "", .settings = {{"render.scene", of_case.scene}}}));
+    }
+}
+
+SweepRecord record_of(const TradeRequest& request, const TradeScene& scene,
+                      settings::Settings& settings, const SweepHooks& hooks) {
+    if (!request.merge.empty()) {
+        return value_or_throw(merged_sweep(request.merge, hooks.progress));
+    }
+    const std::vector<std::string> methods = chosen_methods(request.methods);
+    const std::vector<SweepPoint> points =
+        value_or_throw(sweep_points(methods, chosen_variation(request, methods)));
+    const SweepQuestion question = question_of(request, scene);
+    check_scenes(question, settings);
+    const vulkan::Context context({.validation = scene.vulkan.validation,
+                                   .device = scene.vulkan.device,
+                                   .device_origin = settings.origin("vulkan.device")},
+                                  nullptr);
+    return value_or_throw(
+        measured_sweep(context, question, points, scene.methods, settings, request.journal, hooks));
 }
 
 }  // namespace
 
 bool trade_off(const TradeRequest& request, const TradeScene& scene, settings::Settings& settings,
                const SweepHooks& hooks) {
-    const std::string& json = request.json;
-    for (const std::string& file : {json, request.csv}) {
-        if (!file.empty()) {
-            value_or_throw(report::check_output(file));
-        }
+    std::vector<report::NamedFile> inputs{{"--resume", request.journal}};
+    for (const std::string& file : request.merge) {
+        inputs.emplace_back("--merge", file);
     }
-    const std::array<report::NamedFile, 2> outputs{{{"--csv", request.csv}, {"--json", json}}};
-    value_or_throw(report::check_apart(outputs, {}));
-    const std::vector<std::string> methods = chosen_methods(request.methods);
-    const std::vector<Varied> varied = chosen_variation(request, methods);
-    const std::vector<SweepPoint> points = value_or_throw(sweep_points(methods, varied));
-    check_values(varied, settings);
-    const SweepQuestion question = question_of(request, scene);
-    const vulkan::Context context({.validation = scene.vulkan.validation,
-                                   .device = scene.vulkan.device,
-                                   .device_origin = settings.origin("vulkan.device")},
-                                  nullptr);
-    const std::vector<SweepRow> rows =
-        value_or_throw(sweep(context, question, points, scene.methods, settings, hooks));
-    const SweepSubject subject{
-        .display = scene.display.name, .gaze = request.gaze, .device = context.device_name()};
-    if (json != "-" && request.csv != "-" && !request.quiet) {
-        fmt::print("{}", sweep_text(subject, question, rows));
+    value_or_throw(check_outputs(request.outputs, inputs));
+    ChoiceQuestion question{.budget_ms = request.budget_ms};
+    for (const std::string& text : request.limits) {
+        question.floors.push_back(value_or_throw(parse_floor(text)));
     }
-    if (!request.csv.empty()) {
-        value_or_throw(report::write_text(request.csv, sweep_csv(rows)));
+    SweepReport report = report_of(record_of(request, scene, settings, hooks));
+    report.question = std::move(question);
+    report.with_fits = request.fit;
+    report.command_line = request.command_line;
+    value_or_throw(write_outputs(report, request.outputs));
+    const std::vector<std::string> failed = failures(report);
+    for (const std::string& failure : failed) {
+        spdlog::error("{}", failure);
     }
-    if (!json.empty()) {
-        value_or_throw(
-            report::write_text(json, report::json_text(sweep_json(subject, question, rows))));
-    }
-    bool failed = false;
-    for (const SweepRow& row : rows) {
-        if (!row.error.empty()) {
-            spdlog::error("{} {}: {}", row.point.method, row.point.settings_text(), row.error);
-            failed = true;
-        }
-    }
-    return !failed;
+    return failed.empty();
 }
 
 }  // namespace gazeloop::trade

@@ -65,6 +65,106 @@ TEST(Trade, SetsCostAgainstQuality) {
     EXPECT_EQ(std::count(std::istreambuf_iterator<char>(lines), {}, '\n'), 4);
 }
 
+std::string text_of(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A line of the journal for each comparison and each timed frame, after the first one.
+std::size_t lines_of(const std::string& text) {
+    return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+}
+
+TEST(Trade, MeasuresNothingTwiceAndLosesNothingThatWasMeasured) {
+    const ScratchFolder folder;
+    const std::string journal = folder.file("trade.journal");
+    const std::string json_file = folder.file("trade.json");
+    const std::vector<std::string> asked{"--methods", "kfr",      "--sigma",  "1.8",    "--alpha",
+                                         "4",         "--gaze",   "0,0",      "--gaze", "9,4",
+                                         "--frames",  "2",        "--rounds", "2",      "--metric",
+                                         "psnr",      "--resume", journal,    "--json", json_file};
+    const ProgramResult whole = trade(asked);
+    ASSERT_EQ(whole.exit_code, 0) << whole.err;
+    const std::string all = text_of(journal);
+    ASSERT_EQ(lines_of(all), 1U + 2 * (2 + 4));
+    const json first = json::parse(std::ifstream(json_file));
+    ASSERT_EQ(first.at("cases").size(), 2U);
+    ASSERT_EQ(first.at("points").size(), 4U);
+    EXPECT_EQ(first.at("means").size(), 2U);
+
+    // All there: nothing is measured, and the report is the same to the last bit.
+    ASSERT_EQ(trade(asked).exit_code, 0);
+    EXPECT_EQ(text_of(journal), all);
+    EXPECT_EQ(json::parse(std::ifstream(json_file)), first);
+
+    // Killed in the middle of a line: what was whole stays as it was, the rest is measured.
+    std::size_t cut = 0;
+    for (int line = 0; line < 5; ++line) {
+        cut = all.find('\n', cut) + 1;
+    }
+    ASSERT_EQ(folder.write("trade.journal", all.substr(0, cut + 9)), journal);
+    const ProgramResult resumed = trade(asked);
+    ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_THAT(resumed.err, HasSubstr("cut short"));
+    const std::string again = text_of(journal);
+    EXPECT_EQ(again.substr(0, cut), all.substr(0, cut));
+    EXPECT_EQ(lines_of(again), lines_of(all));
+    const json second = json::parse(std::ifstream(json_file));
+    for (std::size_t point = 0; point < 4; ++point) {
+        EXPECT_EQ(second.at("points")[point].at("figures"),
+                  first.at("points")[point].at("figures"));
+    }
+
+    // Another sweep does not go on there.
+    std::vector<std::string> other = asked;
+    other[5] = "2";
+    const ProgramResult refused = trade(other);
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("kfr.alpha=2"));
+    EXPECT_EQ(text_of(journal), again);
+}
+
+TEST(Trade, SplitsASweepAndMergesIt) {
+    const ScratchFolder folder;
+    const auto shard = [&](const std::string& which, const std::string& file) {
+        return trade({"--methods", "kfr", "--sigma", "1.8,3.2", "--alpha", "4", "--frames", "1",
+                      "--rounds", "1", "--metric", "psnr", "--shard", which, "--resume",
+                      folder.file(file), "--quiet"});
+    };
+    EXPECT_EQ(shard("1/2", "one").exit_code, 0);
+    EXPECT_EQ(shard("2/2", "two").exit_code, 0);
+    const ProgramResult half = run_gazeloop({"trade", "--merge", folder.file("one")});
+    EXPECT_EQ(half.exit_code, 1);
+    EXPECT_THAT(half.err, HasSubstr("not measured"));
+    const ProgramResult result =
+        run_gazeloop({"trade", "--merge", folder.file("one"), "--merge", folder.file("two"),
+                      "--json", "-", "--html", folder.file("page.html")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json points = json::parse(result.out).at("points");
+    ASSERT_EQ(points.size(), 3U);
+    for (const json& point : points) {
+        EXPECT_GT(point.at("speedup").get<double>(), 0.0);
+    }
+    EXPECT_THAT(text_of(folder.file("page.html")), HasSubstr("Samples against quality"));
+    EXPECT_EQ(run_gazeloop({"trade", "--merge", folder.file("one"), "--merge", folder.file("one")})
+                  .exit_code,
+              3);
+}
+
+TEST(Trade, RecommendsAndFits) {
+    const ScratchFolder folder;
+    const std::string page = folder.file("trade.html");
+    const ProgramResult result =
+        trade({"--methods", "kfr", "--sigma", "1.5,2,3,4", "--alpha", "4", "--frames", "1",
+               "--rounds", "1", "--limit", "contrast=1000", "--fit", "--html", page});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("Recommended for contrast at most 1000: kfr"));
+    EXPECT_THAT(result.out, HasSubstr("kfr.sigma^-"));
+    const std::string text = text_of(page);
+    EXPECT_THAT(text, HasSubstr("data:image/png;base64,"));
+    EXPECT_LT(text.size(), 3'000'000U);
+}
+
 TEST(Trade, GivesTheSameQualityTwice) {
     const std::vector<std::string> asked{"--methods", "acuity", "--mar",  "0.022", "--frames", "2",
                                          "--rounds",  "1",      "--gaze", "5,3",   "--json",   "-"};
@@ -103,6 +203,14 @@ TEST(Trade, RefusesWhatItCannotSweep) {
              {{"--scene", "nothing"}, 2, "nothing"},
              {{"--gaze", "up"}, 2, "up"},
              {{"--csv", "/nowhere/at/all.csv"}, 3, "/nowhere"},
+             {{"--html", "/nowhere/at/all.html"}, 3, "/nowhere"},
+             {{"--resume", "/nowhere/at/all"}, 3, "/nowhere"},
+             {{"--merge", "/nowhere/at/all"}, 3, "/nowhere"},
+             {{"--shard", "3/2"}, 2, "3/2"},
+             {{"--scenes", "raymarch,"}, 2, "empty"},
+             {{"--scenes", "raymarch,nothing", "--frames", "1"}, 2, "nothing"},
+             {{"--limit", "contrast"}, 2, "FIGURE=NUMBER"},
+             {{"--budget-ms", "0"}, 2, "--budget-ms"},
          }) {
         const ProgramResult result = trade(bad.arguments);
         EXPECT_EQ(result.exit_code, bad.exit_code) << bad.said << '\n' << result.err;

@@ -3,10 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "runtime/trade/sweep_report.h"
-
 namespace gazeloop::trade {
 namespace {
 
@@ -55,41 +51,6 @@ TEST(Varied, IsReadFromText) {
         ASSERT_FALSE(refused) << bad;
         EXPECT_EQ(refused.error().kind, ErrorKind::Usage);
     }
-}
-
-SweepRow row_of(const char* method, double cells) {
-    SweepRow row;
-    row.point = {.method = method, .settings = {{"kfr.sigma", "1.8"}}};
-    row.cells = cells;
-    row.speedup = 2.0;
-    row.fewer_cells = 4.0;
-    row.cells_over_fewest = 3.0;
-    row.pass_ms = {{"disc", 1.5}};
-    row.figures = {{.key = "contrast", .meaning = "thresholds", .mean = 0.5},
-                   {.key = "psnr_db",
-                    .meaning = "dB",
-                    .lower_is_better = false,
-                    .mean = std::numeric_limits<double>::infinity()}};
-    return row;
-}
-
-TEST(SweepReport, WritesALinePerPointAndNoInfinityAsJson) {
-    SweepRow failed;
-    failed.point.method = "kfr";
-    failed.error = "said \"no\", twice";
-    const std::vector<SweepRow> rows{row_of("kfr", 100.0), failed};
-    const std::string csv = sweep_csv(rows);
-    EXPECT_THAT(csv, HasSubstr("on_time_front,contrast,psnr_db\n"));
-    EXPECT_THAT(csv, HasSubstr("kfr,\"kfr.sigma=1.8\",\"\",100,4,3,0,0,0,2,0,0,0.5,inf\n"));
-    EXPECT_THAT(csv, HasSubstr("kfr,\"\",\"said \"\"no\"\", twice\",,,,,,,,,,,\n"));
-    SweepQuestion question;
-    question.gaze.resize(1);
-    const auto json = sweep_json({}, question, rows);
-    EXPECT_EQ(json.at("points")[0].at("settings").at("kfr.sigma"), "1.8");
-    EXPECT_EQ(json.at("points")[0].at("pass_ms").at("disc"), 1.5);
-    EXPECT_TRUE(json.at("points")[0].at("figures").at("psnr_db").at("mean").is_null());
-    EXPECT_EQ(json.at("points")[1].at("error"), failed.error);
-    EXPECT_THAT(sweep_text({}, question, rows), HasSubstr("failed: said"));
 }
 
 }  // namespace

@@ -1,0 +1,67 @@
+#include "runtime/cli/trade_options.h"
+
+namespace gazeloop::cli {
+
+void TradeOptions::add_to(Command command) {
+    command
+        .option("--scenes", asked.scenes, "several scenes instead of --scene, with commas between")
+        .type("LIST");
+    command.option("--methods", asked.methods, "which, with commas between (kfr,acuity)")
+        .type("LIST");
+    command.option("--sigma", asked.sigmas, "values of kfr.sigma, with commas between")
+        .type("LIST");
+    command.option("--alpha", asked.alphas, "values of kfr.alpha").type("LIST");
+    command.option("--mar", asked.slopes, "values of acuity.mar").type("LIST");
+    command
+        .option("--vary", asked.varied,
+                "values of any setting of a method; may be repeated: all combinations are rendered")
+        .type("KEY=V1,V2,...");
+    command.option("--frames", asked.frames, "frames at the display's rate (4); 1: a still")
+        .number_between(1, 100'000);
+    command
+        .option("--rounds", asked.rounds, "how often each frame is timed, all points in turns (3)")
+        .number_between(1, 1000);
+    command
+        .option("--reference-spp", asked.reference_samples,
+                "samples per pixel of the reference, 1 to 16 (16)")
+        .number_between(1, 16);
+    quality.add_to(command, &gazes);
+    command
+        .option("--budget-ms", asked.budget_ms,
+                "recommend the best point whose frames take no longer")
+        .number_between(1e-3, 1e6);
+    command
+        .option("--limit", asked.limits,
+                "recommend the fastest point of which this figure's mean is no worse; may be "
+                "repeated")
+        .type("FIGURE=NUMBER");
+    command.flag("--fit", asked.fit,
+                 "fit how cells, time and quality follow each method's settings");
+    command
+        .option("--resume", asked.journal,
+                "keep all that is measured in this file, and go on where it ends")
+        .type("FILE")
+        .not_empty();
+    command.option("--shard", asked.shard, "measure every N-th point alone, from the I-th on (1/1)")
+        .type("I/N");
+    command
+        .option("--merge", asked.merge,
+                "measure nothing: report what --resume kept of the shards; may be repeated")
+        .type("FILE");
+    command.option("--csv", asked.outputs.csv, "write a line per case and point")
+        .type("FILE")
+        .not_empty();
+    command.option("--html", asked.outputs.html, "write one page with plots, tables and pictures")
+        .type("FILE")
+        .not_empty();
+}
+
+trade::TradeRequest TradeOptions::request() const {
+    trade::TradeRequest request = asked;
+    request.eye = quality.which_eye();
+    request.metrics = quality.metric_choice();
+    request.contrast = quality.contrast();
+    return request;
+}
+
+}  // namespace gazeloop::cli

@@ -1,0 +1,48 @@
+#include "runtime/trade/page/sweep_outputs.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "runtime/report/summary_json.h"
+#include "runtime/trade/page/sweep_page.h"
+
+namespace gazeloop::trade {
+
+Expected<void> check_outputs(const SweepOutputs& outputs,
+                             std::span<const report::NamedFile> inputs) {
+    for (const std::string& file : {outputs.csv, outputs.json, outputs.html}) {
+        if (!file.empty()) {
+            if (auto checked = report::check_output(file); !checked) {
+                return checked;
+            }
+        }
+    }
+    const std::array<report::NamedFile, 3> files{
+        {{"--csv", outputs.csv}, {"--json", outputs.json}, {"--html", outputs.html}}};
+    return report::check_apart(files, inputs);
+}
+
+Expected<void> write_outputs(const SweepReport& report, const SweepOutputs& outputs) {
+    if (auto chosen = choose(report.summed_rows(), report.question); !chosen) {
+        return std::unexpected(chosen.error());
+    }
+    const bool taken = outputs.csv == "-" || outputs.json == "-" || outputs.html == "-";
+    if (outputs.text && !taken) {
+        fmt::print("{}", sweep_text(report));
+    }
+    const auto write = [](const std::string& file, const auto& text_of) {
+        return file.empty() ? Expected<void>{} : report::write_text(file, text_of());
+    };
+    if (auto done = write(outputs.csv, [&] { return sweep_csv(report); }); !done) {
+        return done;
+    }
+    if (auto done = write(outputs.json, [&] { return report::json_text(sweep_json(report)); });
+        !done) {
+        return done;
+    }
+    return write(outputs.html, [&] { return sweep_page(report); });
+}
+
+}  // namespace gazeloop::trade
