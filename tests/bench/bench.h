@@ -81,6 +81,16 @@ std::vector<Figure> events(const Options& options);
 /// chosen and of the others; and what an hour of 1 kHz gaze costs.
 std::vector<Figure> prediction(const Options& options);
 
+/// Every method against full resolution and against KFR as published, at each display's size (one
+/// frame per scene, 16 samples): speed, samples, share of the bound, quality by our contrast metric;
+/// and what a taller LP-buffer or the acuity map save at KFR's quality. The larger displays only
+/// where a case of theirs is named.
+std::vector<Figure> headline(const Options& options);
+
+/// What the best points of today save at the quality of KFR as published, over all scenes: with
+/// gaze along a trace, and in fixation. Ratios to full resolution with as many samples.
+std::vector<Figure> front(const Options& options);
+
 /// Every method on every scene, on one display along one gaze trace, frame by frame in turns:
 /// samples, time of each pass, speed-up over full resolution. Also written as a CSV file and, for
 /// each scene, a plot.

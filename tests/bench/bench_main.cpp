@@ -33,6 +33,8 @@ constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
                               Named{"events", events},
                               Named{"prediction", prediction},
                               Named{"rivals", rivals},
+                              Named{"headline", headline},
+                              Named{"front", front},
                               Named{"traces", traces}};
 
 /// Preload libraries count from a program's start: it begins once more, under umockdev's.

@@ -1,0 +1,267 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "drivers/trace/read_trace.h"
+#include "runtime/error.h"
+#include "runtime/profiles/profiles.h"
+#include "runtime/run/program_settings.h"
+#include "runtime/scene/scenes.h"
+#include "runtime/trade/equal_quality.h"
+#include "runtime/trade/measured_sweep.h"
+#include "runtime/trade/sweep_report.h"
+#include "tests/bench/bench.h"
+
+namespace gazeloop::bench {
+namespace {
+
+const trade::SweepPoint kPublished{.method = "kfr",
+                                   .settings = {{"kfr.sigma", "1.8"}, {"kfr.alpha", "4"}}};
+
+trade::SweepQuestion question_of(const display::DisplayProfile& display, vk::Extent2D extent,
+                                 const Options& options, std::uint32_t samples) {
+    trade::SweepQuestion question{.views = {},
+                                  .display = display.name,
+                                  .samples = options.samples.value_or(samples),
+                                  .reference_samples = 16,
+                                  .frame_seconds = 1.0 / display.refresh_hz,
+                                  .rounds = options.rounds};
+    for (const gaze::Eye eye : gaze::kEyes) {
+        question.views[gaze::index(eye)] =
+            display::profile_view(display, eye, extent.width, extent.height);
+    }
+    question.comparison.view = question.views[0];
+    question.comparison.metrics = {true, false, false, false};
+    return question;
+}
+
+trade::CaseQuestion still(std::string_view scene, std::size_t frames) {
+    return {.scene = std::string(scene),
+            .gaze = "0,0",
+            .directions = std::vector<gaze::PerEye<glm::dvec3>>(
+                frames, {glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0, 0.0, -1.0)})};
+}
+
+std::vector<trade::SweepSheet> swept(const vulkan::Context& context,
+                                     const trade::SweepQuestion& question,
+                                     const std::vector<trade::SweepPoint>& points) {
+    run::ProgramSettings settings;
+    const auto say = [](const std::string& said) { fmt::print(stderr, "{}\n", said); };
+    return trade::sheets_of(value_or_throw(trade::measured_sweep(
+        context, question, points, settings.values().methods, settings, {},
+        {.progress = say, .interrupted = [] { return false; }, .judged = {}, .timed = {}})));
+}
+
+const trade::SweepRow& row_of(const std::vector<trade::SweepRow>& rows,
+                              const trade::SweepPoint& point) {
+    const auto found = std::ranges::find(rows, point, &trade::SweepRow::point);
+    if (found == rows.end() || !found->error.empty()) {
+        throw SetupError(ErrorKind::Usage,
+                         fmt::format("{}: {}", trade::point_text(point),
+                                     found == rows.end() ? "was not swept" : found->error));
+    }
+    return *found;
+}
+
+struct Size {
+    const char* display;
+    vk::Extent2D extent;
+    bool only_by_name;  ///< takes long on a software renderer
+};
+const std::array kSizes{Size{"fove0", {1280, 1440}, false},
+                        Size{"generic_2160", {2160, 2160}, true},
+                        Size{"varjo_xr4", {3840, 3744}, true}};
+
+struct Headlined {
+    const char* name;
+    trade::SweepPoint point;
+};
+const std::array kHeadlined{
+    Headlined{"kfr", kPublished},
+    Headlined{"kfr-as-printed",
+              {.method = "kfr",
+               .settings = {{"kfr.kernel", "power-as-printed"},
+                            {"kfr.sigma", "1.8"},
+                            {"kfr.alpha", "4"}}}},
+    Headlined{"acuity", {.method = "acuity", .settings = {{"acuity.mar", "0.022"}}}},
+    Headlined{"acuity-0.0275", {.method = "acuity", .settings = {{"acuity.mar", "0.0275"}}}},
+    Headlined{"layers", {.method = "layers"}},
+    Headlined{"rings", {.method = "rings"}},
+    Headlined{"sparse", {.method = "sparse"}},
+    Headlined{"fixed", {.method = "fixed"}}};
+
+/// The points by which a taller LP-buffer (about three rows per column) and the acuity map are held
+/// to the published point's quality, for pictures of this size.
+std::vector<trade::SweepPoint> equal_quality_points(vk::Extent2D extent) {
+    constexpr double kAspect = 0.35;
+    std::vector<trade::SweepPoint> points;
+    for (const double sigma : {1.8, 2.2, 2.6, 3.2}) {
+        const double texels = extent.width / sigma * extent.height / sigma;
+        const auto side = [](double texels_along) {
+            return fmt::format("{}", std::lround(texels_along));
+        };
+        points.push_back({.method = "kfr",
+                          .settings = {{"kfr.alpha", "4"},
+                                       {"kfr.lp_width", side(std::sqrt(texels * kAspect))},
+                                       {"kfr.lp_height", side(std::sqrt(texels / kAspect))}}});
+    }
+    for (const char* const slope : {"0.005", "0.0085", "0.012"}) {
+        points.push_back({.method = "acuity", .settings = {{"acuity.mar", slope}}});
+    }
+    return points;
+}
+
+/// The rows of what is varied to reach a quality, as points of one method.
+std::optional<trade::Saving> saving_of_varied(const std::vector<trade::SweepRow>& rows,
+                                              const std::vector<trade::SweepPoint>& varied,
+                                              double level) {
+    std::vector<trade::SweepRow> ours;
+    for (trade::SweepRow row : rows) {
+        if (std::ranges::find(varied, row.point) != varied.end()) {
+            row.point.method = "ours";
+            ours.push_back(std::move(row));
+        }
+    }
+    return trade::saving_at(ours, "ours", level);
+}
+
+void add_headlines(const std::vector<trade::SweepSheet>& sheets,
+                   const std::vector<trade::SweepPoint>& varied, const std::string& size,
+                   std::vector<Figure>& figures) {
+    for (const trade::SweepSheet& sheet : sheets) {
+        const trade::SweepRow& published = row_of(sheet.rows, kPublished);
+        const auto add = [&](const std::string& name, const char* metric, double value,
+                             const char* unit, const char* better = "higher") {
+            figures.push_back({"headline", fmt::format("{}-{}", name, size),
+                               fmt::format("{} {}", sheet.of.scene, metric), value, unit, better});
+        };
+        for (const Headlined& one : kHeadlined) {
+            const trade::SweepRow& row = row_of(sheet.rows, one.point);
+            add(one.name, "speedup", row.speedup, "x");
+            add(one.name, "speedup_over_kfr", row.speedup / published.speedup, "x");
+            add(one.name, "samples", row.cells, "", "lower");
+            add(one.name, "bound_share", 1.0 / row.cells_over_fewest, "");
+            add(one.name, "quality", row.figures.front().mean, "", "lower");
+        }
+        // At the published point's quality, or not at all.
+        if (const auto saving =
+                saving_of_varied(sheet.rows, varied, published.figures.front().mean)) {
+            add("equal-quality", "speedup", saving->speedup, "x");
+            add("equal-quality", "speedup_over_kfr", saving->speedup / published.speedup, "x");
+            add("equal-quality", "fewer", saving->fewer_cells, "x");
+            add("equal-quality", "quality", published.figures.front().mean, "", "lower");
+        }
+    }
+}
+
+/// Gaze along the trace, one sample per frame, from its middle on; straight ahead without one.
+trade::CaseQuestion along_trace(std::string_view scene, std::size_t frames, double frame_seconds,
+                                const Options& options) {
+    trade::CaseQuestion of_case = still(scene, frames);
+    if (!options.trace) {
+        return of_case;
+    }
+    const gaze::GazeTrace trace = value_or_throw(drivers::read_trace(*options.trace));
+    std::size_t at = trace.samples.size() / 2;
+    const std::int64_t begin_ns = at < trace.samples.size() ? trace.samples[at].sampled.ns : 0;
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+        const auto until_ns =
+            begin_ns + std::llround(static_cast<double>(frame) * frame_seconds * 1e9);
+        while (at + 1 < trace.samples.size() && trace.samples[at + 1].sampled.ns <= until_ns) {
+            ++at;
+        }
+        for (std::size_t back = at + 1; back > 0; --back) {
+            const auto& eyes = trace.samples[back - 1].eyes;
+            if (eyes[0].valid && eyes[1].valid) {
+                of_case.directions[frame] = {eyes[0].direction, eyes[1].direction};
+                break;
+            }
+        }
+    }
+    of_case.gaze = *options.trace;
+    return of_case;
+}
+
+}  // namespace
+
+std::vector<Figure> headline(const Options& options) {
+    const vulkan::Context context({}, nullptr);
+    std::vector<Figure> figures;
+    for (const Size& size : kSizes) {
+        const std::string text = fmt::format("{}x{}", size.extent.width, size.extent.height);
+        const bool asked = std::ranges::any_of(
+            options.cases, [&](const std::string& name) { return name.ends_with("-" + text); });
+        if (options.cases.empty() ? size.only_by_name : !asked) {
+            continue;
+        }
+        const display::DisplayProfile display =
+            value_or_throw(profiles::load_display(size.display));
+        trade::SweepQuestion question = question_of(display, size.extent, options, 16);
+        for (const std::string_view scene : scene::scene_names()) {
+            question.cases.push_back(still(scene, 1));
+        }
+        const std::vector<trade::SweepPoint> varied = equal_quality_points(size.extent);
+        std::vector<trade::SweepPoint> points = varied;
+        for (const Headlined& one : kHeadlined) {
+            points.push_back(one.point);
+        }
+        add_headlines(swept(context, question, points), varied, text, figures);
+    }
+    std::erase_if(figures, [&](const Figure& figure) { return !options.wants(figure.name); });
+    return figures;
+}
+
+std::vector<Figure> front(const Options& options) {
+    constexpr std::size_t kFrames = 24;
+    constexpr std::uint32_t kScale = 4;  // of the display's sides
+    const vulkan::Context context({}, nullptr);
+    const display::DisplayProfile display = value_or_throw(profiles::load_display("vive_pro_eye"));
+    const vk::Extent2D extent(display.width_px / kScale, display.height_px / kScale);
+    const std::vector<trade::SweepPoint> varied = equal_quality_points(extent);
+    std::vector<trade::SweepPoint> points = varied;
+    points.push_back(kPublished);
+    std::vector<Figure> figures;
+    for (const char* const name : {"average", "fixation"}) {
+        if (!options.wants(name)) {
+            continue;
+        }
+        trade::SweepQuestion question = question_of(display, extent, options, 4);
+        question.comparison.frame_seconds = question.frame_seconds;
+        for (const std::string_view scene : scene::scene_names()) {
+            question.cases.push_back(
+                name == std::string_view("average")
+                    ? along_trace(scene, kFrames, question.frame_seconds, options)
+                    : still(scene, kFrames));
+        }
+        const std::vector<trade::SweepSheet> sheets = swept(context, question, points);
+        const trade::SweepSheet mean = trade::mean_sheet(sheets);
+        const std::vector<trade::SweepRow>& rows = mean.rows;
+        const trade::SweepRow& published = row_of(rows, kPublished);
+        const double level = published.figures.front().mean;
+        const auto saving = saving_of_varied(rows, varied, level);
+        const bool fixation = name == std::string_view("fixation");
+        const auto add = [&](const char* metric, double value, const char* unit,
+                             std::optional<double> target = {}, const char* better = "higher") {
+            figures.push_back({"front", name, metric, value, unit, better, std::nullopt, target});
+        };
+        add("quality_of_kfr", level, "", std::nullopt, "lower");
+        add("kfr_samples_ratio", published.fewer_cells, "x");
+        if (!saving) {
+            fmt::print(stderr, "{}: no point is as good as the published one\n", name);
+            continue;
+        }
+        constexpr double kAverageTarget = 12.0;
+        constexpr double kFixationTarget = 18.0;
+        add("samples_ratio", saving->fewer_cells, "x", fixation ? kFixationTarget : kAverageTarget);
+        // Full resolution at 4 rays per pixel against as many per texel.
+        add("rays_ratio", saving->fewer_cells, "x", 20.0);
+        add("time_ratio", saving->speedup, "x", 8.0);
+        add("time_ratio_over_kfr", saving->speedup / published.speedup, "x", 3.0);
+        add("quality", level, "", std::nullopt, "lower");
+    }
+    return figures;
+}
+
+}  // namespace gazeloop::bench
