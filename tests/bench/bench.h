@@ -82,9 +82,9 @@ std::vector<Figure> events(const Options& options);
 std::vector<Figure> prediction(const Options& options);
 
 /// Every method against full resolution and against KFR as published, at each display's size (one
-/// frame per scene, 16 samples): speed, samples, share of the bound, quality by our contrast metric;
-/// and what a taller LP-buffer or the acuity map save at KFR's quality. The larger displays only
-/// where a case of theirs is named.
+/// frame per scene, 16 samples): speed, samples, share of the bound, quality by our contrast
+/// metric; and what a taller LP-buffer or the acuity map save at KFR's quality. The larger displays
+/// only where a case of theirs is named.
 std::vector<Figure> headline(const Options& options);
 
 /// What the best points of today save at the quality of KFR as published, over all scenes: with

@@ -23,7 +23,8 @@ struct Case {
     std::uint32_t width;
     std::uint32_t height;
 };
-constexpr Case kCases[] = {{"1280x1440", 1280, 1440}, {"2560x1440", 2560, 1440}};
+constexpr Case kCases[] = {
+    {"1280x1440", 1280, 1440}, {"1920x1080", 1920, 1080}, {"2560x1440", 2560, 1440}};
 
 render::LinearPicture noise(const Case& size, unsigned seed) {
     std::mt19937 random(seed);
