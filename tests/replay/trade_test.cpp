@@ -163,6 +163,17 @@ TEST(Trade, RecommendsAndFits) {
     const std::string text = text_of(page);
     EXPECT_THAT(text, HasSubstr("data:image/png;base64,"));
     EXPECT_LT(text.size(), 3'000'000U);
+
+    if (run_program({"chromium", "--version"}).exit_code != 0) {
+        GTEST_SKIP() << "there is no chromium here: whether it draws the page is not looked at";
+    }
+    const ProgramResult seen =
+        run_program({"chromium", "--headless=new", "--no-sandbox", "--disable-gpu",
+                     "--user-data-dir=" + folder.file("profile"), "--enable-logging=stderr",
+                     "--virtual-time-budget=5000", "--dump-dom", "file://" + page});
+    EXPECT_THAT(seen.err, testing::Not(HasSubstr("CONSOLE")));
+    EXPECT_THAT(seen.out, HasSubstr("data-state=\"drawn\""));
+    EXPECT_THAT(seen.out, HasSubstr("data-plots=\"2\""));
 }
 
 TEST(Trade, GivesTheSameQualityTwice) {

@@ -47,8 +47,11 @@ function frontSets(data, sheet, cost, key, palette) {
   return {sets, legend, figure};
 }
 
-function costAxis(cost, palette) {
-  return {type: "logarithmic", grid: {color: palette.rule}, border: {color: palette.rule}, grace: "8%",
+// A little beyond the points: by itself the axis would end at powers of ten.
+function costAxis(cost, sets, palette) {
+  const costs = sets.flatMap(({data}) => data.map(({x}) => x));
+  return {type: "logarithmic", grid: {color: palette.rule}, border: {color: palette.rule},
+    min: 0.93 * Math.min(...costs), max: 1.07 * Math.max(...costs),
     title: {display: true, text: kCosts[cost].label, color: palette.soft},
     afterBuildTicks: (axis) => {
       const values = [];
@@ -63,8 +66,8 @@ function costAxis(cost, palette) {
 function frontChart(data, sheet, cost, key, palette) {
   const {sets, legend, figure} = frontSets(data, sheet, cost, key, palette);
   const y = valueAxis(`${key}, ${figure.lower_is_better ? "lower" : "higher"} is better`, palette,
-    {reverse: figure.lower_is_better, grace: "6%"});
-  const options = optionsOf({x: costAxis(cost, palette), y}, palette, {
+    figure.lower_is_better ? {reverse: true, beginAtZero: true} : {grace: "6%"});
+  const options = optionsOf({x: costAxis(cost, sets, palette), y}, palette, {
     filter: ({dataset}) => Boolean(dataset.says),
     callbacks: {title: () => "", label: ({raw}) => [raw.point.name,
       `${shortNumber(raw.point.fewer)} times fewer cells, ${shortNumber(raw.point.faster)} times faster, ${shortNumber(raw.point.ms)} ms`,
