@@ -16,6 +16,8 @@ void TradeOptions::add_to(Command command) {
         .option("--vary", asked.varied,
                 "values of any setting of a method; may be repeated: all combinations are rendered")
         .type("KEY=V1,V2,...");
+    command.flag("--published-grid", asked.published,
+                 "also every sigma and alpha of the KFR paper's pilot study (58 points)");
     command.option("--frames", asked.frames, "frames at the display's rate (4); 1: a still")
         .number_between(1, 100'000);
     command

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "runtime/trade/equal_quality.h"
+#include "runtime/trade/published_grid.h"
 
 namespace gazeloop::trade {
 namespace {
@@ -176,6 +177,10 @@ std::string sweep_text(const SweepReport& report) {
             }
         }
     }
+    for (const std::string& line : against_published(rows)) {
+        text += '\n' + line;
+    }
+    text += '\n';
     if (report.question.asked()) {
         const auto chosen = value_or_throw(choose(rows, report.question));
         text += fmt::format("\nRecommended for {}: {}\n", report.question.text(rows),

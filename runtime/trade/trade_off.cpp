@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <iterator>
 #include <utility>
 
 #include "runtime/methods/registry.h"
 #include "runtime/present/scaled_extent.h"
 #include "runtime/settings/nearest_name.h"
 #include "runtime/trade/measured_sweep.h"
+#include "runtime/trade/published_grid.h"
 #include "runtime/trade/settings_of_point.h"
 
 namespace gazeloop::trade {
@@ -130,8 +132,14 @@ SweepRecord record_of(const TradeRequest& request, const TradeScene& scene,
         return value_or_throw(merged_sweep(request.merge, hooks.progress));
     }
     const std::vector<std::string> methods = chosen_methods(request.methods);
-    const std::vector<SweepPoint> points =
+    std::vector<SweepPoint> points =
         value_or_throw(sweep_points(methods, chosen_variation(request, methods)));
+    if (request.published) {
+        std::ranges::copy_if(published_grid(), std::back_inserter(points),
+                             [&](const SweepPoint& point) {
+                                 return std::ranges::find(points, point) == points.end();
+                             });
+    }
     const SweepQuestion question = question_of(request, scene);
     check_scenes(question, settings);
     const vulkan::Context context({.validation = scene.vulkan.validation,

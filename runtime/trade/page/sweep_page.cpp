@@ -16,6 +16,7 @@
 #include "runtime/trade/equal_quality.h"
 #include "runtime/trade/page/sweep_files.h"
 #include "runtime/trade/page/sweep_tables.h"
+#include "runtime/trade/published_grid.h"
 
 namespace gazeloop::trade {
 namespace {
@@ -285,6 +286,7 @@ std::string sweep_page(const SweepReport& report) {
                     "points is as good.",
                     equal.figure));
     page.set("equal_table", table_data(equal_table(equal)));
+    page.set("published", texts(against_published(rows)));
     if (report.with_fits) {
         data fitted;
         fitted.set("fits_table", table_data(fits_table(setting_fits(rows))));
