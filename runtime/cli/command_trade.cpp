@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "runtime/cli/commands.h"
-#include "runtime/cli/compared_gaze.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/cli/trade_options.h"
 #include "runtime/profiles/profiles_in_force.h"
+#include "runtime/recordings/compared_gaze.h"
 #include "runtime/run/interrupt.h"
 
 namespace gazeloop::cli {
@@ -27,7 +27,7 @@ ExitCode trade_of(const TradeCommand& command, const std::string& command_line) 
     value_or_throw(settings.check());
     trade::TradeRequest request = command.trade.request();
     for (const std::string& text : command.trade.gazes) {
-        const ComparedGaze gaze = value_or_throw(ComparedGaze::parse(text, request.eye));
+        const auto gaze = value_or_throw(recordings::ComparedGaze::parse(text, request.eye));
         request.gazes.push_back(
             {text, [gaze](std::int64_t time_ns) { return gaze.direction_at(time_ns); }});
     }

@@ -5,13 +5,16 @@ namespace gazeloop::cli {
 void TradeOptions::add_to(Command command) {
     command
         .option("--scenes", asked.scenes, "several scenes instead of --scene, with commas between")
-        .type("LIST");
+        .type("LIST")
+        .not_empty();
     command.option("--methods", asked.methods, "which, with commas between (kfr,acuity)")
-        .type("LIST");
+        .type("LIST")
+        .not_empty();
     command.option("--sigma", asked.sigmas, "values of kfr.sigma, with commas between")
-        .type("LIST");
-    command.option("--alpha", asked.alphas, "values of kfr.alpha").type("LIST");
-    command.option("--mar", asked.slopes, "values of acuity.mar").type("LIST");
+        .type("LIST")
+        .not_empty();
+    command.option("--alpha", asked.alphas, "values of kfr.alpha").type("LIST").not_empty();
+    command.option("--mar", asked.slopes, "values of acuity.mar").type("LIST").not_empty();
     command
         .option("--vary", asked.varied,
                 "values of any setting of a method; may be repeated: all combinations are rendered")

@@ -62,6 +62,23 @@ std::vector<Varied> chosen_variation(const TradeRequest& request,
     return varied;
 }
 
+/// Refuses values that their settings cannot have before anything is rendered.
+void check_values(const std::vector<Varied>& varied, settings::Settings& settings) {
+    for (const Varied& one : varied) {
+        for (const settings::SettingRow& row : settings.rows()) {
+            if (row.key != one.key) {
+                continue;
+            }
+            const std::string text = settings::text_of(row);
+            const std::string origin = settings.origin(one.key);
+            for (const std::string& value : one.values) {
+                value_or_throw(settings.set(one.key, value, "trade"));
+            }
+            value_or_throw(settings.set(one.key, text, origin));
+        }
+    }
+}
+
 /// Every scene along every gaze.
 std::vector<CaseQuestion> cases_of(const TradeRequest& request, const std::string& scene,
                                    const SweepQuestion& question) {
@@ -132,8 +149,9 @@ SweepRecord record_of(const TradeRequest& request, const TradeScene& scene,
         return value_or_throw(merged_sweep(request.merge, hooks.progress));
     }
     const std::vector<std::string> methods = chosen_methods(request.methods);
-    std::vector<SweepPoint> points =
-        value_or_throw(sweep_points(methods, chosen_variation(request, methods)));
+    const std::vector<Varied> varied = chosen_variation(request, methods);
+    std::vector<SweepPoint> points = value_or_throw(sweep_points(methods, varied));
+    check_values(varied, settings);
     if (request.published) {
         std::ranges::copy_if(published_grid(), std::back_inserter(points),
                              [&](const SweepPoint& point) {

@@ -11,8 +11,7 @@
 #include <utility>
 
 #include "runtime/report/page/page_files.h"
-#include "runtime/report/page/script_json.h"
-#include "runtime/report/page/table_markup.h"
+#include "runtime/report/page/page_parts.h"
 #include "runtime/trade/equal_quality.h"
 #include "runtime/trade/page/sweep_files.h"
 #include "runtime/trade/page/sweep_tables.h"
@@ -21,19 +20,11 @@
 namespace gazeloop::trade {
 namespace {
 
-using kainjow::mustache::data;
 using nlohmann::ordered_json;
+using report::page::data;
+using report::page::list;
 using report::page::table_data;
-
-data list() { return data(data::type::list); }
-
-data texts(const std::vector<std::string>& lines) {
-    data all = list();
-    for (const std::string& line : lines) {
-        all << data("text", line);
-    }
-    return all;
-}
+using report::page::texts;
 
 /// All cases, and their means before them.
 std::vector<const SweepSheet*> sheets_shown(const SweepReport& report) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "runtime/report/page/page_table.h"
+#include "runtime/report/page/table.h"
 #include "runtime/trade/equal_quality.h"
 #include "runtime/trade/setting_fit.h"
 #include "runtime/trade/sweep_rows.h"
