@@ -34,19 +34,20 @@ FoveaDepth::FoveaDepth(const vulkan::Context& context, vk::Extent2D extent)
 
 void FoveaDepth::record(const vk::raii::CommandBuffer& commands,
                         vulkan::TrackedImage& direct_buffer, const gaze::EyeView& view,
-                        const gaze::PixelPosition& fovea,
-                        std::span<const foveation::Columns> disc_bands) {
+                        const gaze::PixelPosition& fovea, std::span<const foveation::Columns> bands,
+                        const foveation::Tile& covers) {
     const std::uint32_t across = reach_px(kReachAcross_rad, view.fov.left_rad, view.fov.right_rad,
                                           view.width_px, fovea.x_px, kMostAcross_px);
     const std::uint32_t down = reach_px(kReachDown_rad, view.fov.up_rad, view.fov.down_rad,
                                         view.height_px, fovea.y_px, kMostDown_px);
     const foveation::Tile tile =
-        foveation::shaded_around(fovea, across, down, {view.width_px, view.height_px}, disc_bands);
+        foveation::shaded_around({fovea.x_px - covers.x0, fovea.y_px - covers.y0}, across, down,
+                                 {covers.x1 - covers.x0, covers.y1 - covers.y0}, bands);
     width_px_ = tile.x1 - tile.x0;
     const std::uint32_t height_px = tile.y1 - tile.y0;
     copied_.view = view;
-    copied_.x0_px = tile.x0;
-    copied_.y0_px = tile.y0;
+    copied_.x0_px = covers.x0 + tile.x0;
+    copied_.y0_px = covers.y0 + tile.y0;
     copied_.step_x_px = std::max(divided_up(width_px_, kMostColumns), 1U);
     copied_.step_y_px = std::max(divided_up(height_px, kMostRows), 1U);
     copied_.columns = divided_up(width_px_, copied_.step_x_px);
@@ -82,6 +83,22 @@ void FoveaDepth::collect(gaze::DepthPatch& patch) const {
             std::memcpy(&*next++, pixels + pixel * kBytesPerPixel + kNearnessByte,
                         sizeof(std::uint16_t));
         }
+    }
+}
+
+FoveaDepths::FoveaDepths(const vulkan::Context& context, const gaze::PerEye<vk::Extent2D>& extents,
+                         std::uint32_t slots)
+    : slots_(slots) {
+    for (auto& slot : slots_) {
+        for (const vk::Extent2D extent : extents) {
+            slot.emplace_back(context, extent);
+        }
+    }
+}
+
+void FoveaDepths::collect(std::size_t slot, gaze::SeenDepth& seen) const {
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        slots_[slot][e].collect(seen[e]);
     }
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "runtime/foveation/picture/band_tiles.h"
+#include "runtime/foveation/picture/tile.h"
 #include "runtime/gaze/seen_depth.h"
 #include "runtime/vulkan/memory.h"
 #include "runtime/vulkan/tracked_image.h"
@@ -28,11 +30,18 @@ class FoveaDepth {
     /// For pictures of this size.
     FoveaDepth(const vulkan::Context& context, vk::Extent2D extent);
 
-    /// Records the copy from the direct buffer. Nothing is copied where the fovea's pixel is not
-    /// among `disc_bands`. A barrier from Copy to Host is left to the caller.
+    /// Records the copy from a buffer of pixels that were shaded directly. Nothing is copied where
+    /// the fovea's pixel is not among `bands`. A barrier from Copy to Host is left to the caller.
+    /// `covers`: the part of the picture that buffer and bands begin at and belong to.
     void record(const vk::raii::CommandBuffer& commands, vulkan::TrackedImage& direct_buffer,
                 const gaze::EyeView& view, const gaze::PixelPosition& fovea,
-                std::span<const foveation::Columns> disc_bands);
+                std::span<const foveation::Columns> bands, const foveation::Tile& covers);
+    /// The same of a buffer of the whole picture.
+    void record(const vk::raii::CommandBuffer& commands, vulkan::TrackedImage& direct_buffer,
+                const gaze::EyeView& view, const gaze::PixelPosition& fovea,
+                std::span<const foveation::Columns> bands) {
+        record(commands, direct_buffer, view, fovea, bands, {0, 0, view.width_px, view.height_px});
+    }
 
     /// What was copied, once the GPU has finished it. Reuses the patch's memory: no allocation once
     /// it has grown.
@@ -42,6 +51,20 @@ class FoveaDepth {
     vulkan::HostBuffer pixels_;
     gaze::DepthPatch copied_;  ///< without its samples
     std::uint32_t width_px_ = 0;
+};
+
+/// Of both eyes, for each frame in flight.
+class FoveaDepths {
+  public:
+    FoveaDepths() = default;
+    FoveaDepths(const vulkan::Context& context, const gaze::PerEye<vk::Extent2D>& extents,
+                std::uint32_t slots);
+
+    [[nodiscard]] FoveaDepth& of(std::size_t slot, std::size_t eye) { return slots_[slot][eye]; }
+    void collect(std::size_t slot, gaze::SeenDepth& seen) const;
+
+  private:
+    std::vector<std::vector<FoveaDepth>> slots_;  ///< by eye
 };
 
 }  // namespace gazeloop::render

@@ -5,7 +5,8 @@ namespace gazeloop::vulkan {
 History::History(const Context& context, vk::Extent2D extent, vk::Format format) {
     for (Entry& entry : images_) {
         entry = Entry(context, extent, format,
-                      vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled);
+                      vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled |
+                          vk::ImageUsageFlagBits::eTransferSrc);
     }
 }
 

@@ -11,6 +11,7 @@
 #include "runtime/gaze/fixation.h"
 #include "runtime/render/depth.h"
 #include "tests/support/frame_renderer_fixture.h"
+#include "tests/support/method_by_settings.h"
 
 namespace gazeloop::render {
 namespace {
@@ -68,6 +69,59 @@ TEST_F(SeenDepth, IsWhatTheDepthImagesHold) {
                             << "pixel " << pixel;
                     }
                 }
+            }
+        }
+    }
+}
+
+// Of layers, the inner one's cells are pixels; they begin anywhere in the picture.
+TEST_F(SeenDepth, IsKeptByEveryMethodThatShadesPixelsAroundTheFovea) {
+    const MethodConfig full = [] {
+        MethodConfig made = config(Method::Full, 320, 280);
+        made.depth_format = vk::Format::eD32Sfloat;
+        return made;
+    }();
+    const MethodConfig with = with_seen_depth(Method::Full);
+    using Settings = std::vector<NamedValue>;
+    for (const auto& [method, set] :
+         {std::pair<const char*, Settings>{"layers",
+                                           {{"layers.temporal", "false"}, {"acuity.mar", "0.1"}}},
+          {"layers", {{"acuity.mar", "0.1"}}},
+          {"quad", {}},
+          {"rings", {}},
+          {"fixed", {{"fixed.method", "quad"}}}}) {
+        // Of samples that move in their cells, edges lie elsewhere.
+        const bool moves = std::string_view(method) == "layers" && set.size() == 1;
+        for (const gaze::PixelPosition fovea :
+             {gaze::PixelPosition{150.0, 160.0}, {91.3, 142.8}, {2.0, 270.0}}) {
+            if (std::string_view(method) == "fixed" && fovea.x_px < 10.0) {
+                continue;  // what is shaded is ahead
+            }
+            const FrameRequest frame = request(with, fovea);
+            const Rendered exact = render(full, frame);
+            OffScreen off_screen(context(), scene(), tests::passes_by(method, set), with);
+            off_screen.render(frame, frame.fovea());
+            for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+                const gaze::DepthPatch& patch = off_screen.renderer().seen_depth()[e];
+                ASSERT_GT(patch.nearness.size(), 8U) << method << ' ' << fovea.x_px;
+                ASSERT_LE(patch.x0_px, fovea.x_px);
+                ASSERT_LE(patch.y0_px, fovea.y_px);
+                ASSERT_GT(patch.x0_px + patch.columns * patch.step_x_px, fovea.x_px);
+                ASSERT_GT(patch.y0_px + patch.rows * patch.step_y_px, fovea.y_px);
+                std::size_t wrong = 0;
+                for (std::size_t row = 0; row < patch.rows; ++row) {
+                    for (std::size_t column = 0; column < patch.columns; ++column) {
+                        const double wanted =
+                            exact.depths[e].at((patch.y0_px + row * patch.step_y_px) * 320 +
+                                               patch.x0_px + column * patch.step_x_px);
+                        const double share = moves ? 0.03 : 1.0 / 1024.0;
+                        wrong +=
+                            std::abs(depth_of(patch, column, row) - wanted) > share * wanted + 1e-6
+                                ? 1
+                                : 0;
+                    }
+                }
+                EXPECT_LE(wrong, moves ? patch.nearness.size() / 5 : 0) << method;
             }
         }
     }

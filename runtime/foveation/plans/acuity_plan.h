@@ -2,7 +2,7 @@
 
 #include "runtime/foveation/log_polar/acuity_map.h"
 #include "runtime/foveation/picture/image_size.h"
-#include "runtime/foveation/plans/log_polar_plan.h"
+#include "runtime/foveation/plans/log_polar_method_plan.h"
 #include "runtime/foveation/plans/prepared_views.h"
 
 namespace gazeloop::foveation {
@@ -24,19 +24,21 @@ void plan_acuity(const AcuityParameters& parameters, const AcuityProfile& profil
                  const HiddenArea* hidden = nullptr, double widening_deg = 0.0);
 
 /// The acuity-derived map, made for one pair of fields of view.
-class AcuityPlan final : public MethodPlan {
+class AcuityPlan final : public LogPolarMethodPlan {
   public:
     explicit AcuityPlan(const AcuityParameters& parameters) : parameters_(parameters) {}
 
-    [[nodiscard]] const frame::GridList& grids() const override { return log_polar_grids(); }
     [[nodiscard]] bool fits(const gaze::StereoView& views) const override;
     Expected<void> prepare(const gaze::StereoView& views) override;
     void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
               const HiddenArea* hidden, const FrameInRun& frame, EyePlan& plan) const override;
 
-    /// Precondition: prepare().
-    [[nodiscard]] const AcuityProfile& profile(gaze::Eye eye) const {
-        return *profiles_[gaze::index(eye)];
+    [[nodiscard]] bool in_gaze_frame() const override { return true; }
+    [[nodiscard]] LpSize lp(gaze::Eye eye) const override {
+        return profiles_[gaze::index(eye)]->lp();
+    }
+    [[nodiscard]] MapTables tables(gaze::Eye eye) const override {
+        return build_map_tables(*profiles_[gaze::index(eye)]);
     }
 
   private:

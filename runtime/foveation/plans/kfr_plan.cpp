@@ -12,6 +12,10 @@ constexpr double kNoCore = -1.0;
 
 }  // namespace
 
+double core_u(const LogPolarMap& map, const LogPolarPlan& plan) {
+    return plan.disc_radius_px > 0.0 ? map.u(plan.disc_radius_px - plan.disc_border_px) : kNoCore;
+}
+
 void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
               const gaze::PixelPosition& fovea, LogPolarPlan& plan, const HiddenArea* hidden) {
     const LogPolarMap map(parameters.kernel, image, fovea);
@@ -34,9 +38,7 @@ void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
     if (plan.disc_radius_px >= map.max_radius_px()) {
         plan.disc_border_px = 0.0;  // the disc covers the screen: there is nothing to blend with
     }
-    plan_lp_tiles(
-        map, plan.disc_radius_px > 0.0 ? map.u(plan.disc_radius_px - plan.disc_border_px) : kNoCore,
-        hidden, plan);
+    plan_lp_tiles(map, core_u(map, plan), hidden, plan);
     if (plan.disc_radius_px > 0.0) {
         const double radius = plan.disc_radius_px + kDiscSlackPx;
         const double width = image.width_px;

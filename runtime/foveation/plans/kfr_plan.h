@@ -2,7 +2,7 @@
 
 #include "runtime/foveation/log_polar/log_polar_map.h"
 #include "runtime/foveation/picture/image_size.h"
-#include "runtime/foveation/plans/log_polar_plan.h"
+#include "runtime/foveation/plans/log_polar_method_plan.h"
 
 namespace gazeloop::foveation {
 
@@ -16,20 +16,25 @@ void plan_kfr(const KfrParameters& parameters, LpSize lp, ImageSize image,
               const gaze::PixelPosition& fovea, LogPolarPlan& plan,
               const HiddenArea* hidden = nullptr);
 
+/// The column, as a share of the width, inside which the disc of such a plan covers all; negative:
+/// there is no disc.
+[[nodiscard]] double core_u(const LogPolarMap& map, const LogPolarPlan& plan);
+
 /// Kernel foveated rendering (Meng et al. 2018), for pictures whose sizes may differ.
-class KfrPlan final : public MethodPlan {
+class KfrPlan final : public LogPolarMethodPlan {
   public:
     explicit KfrPlan(const KfrParameters& parameters) : parameters_(parameters) {}
 
-    [[nodiscard]] const frame::GridList& grids() const override { return log_polar_grids(); }
     [[nodiscard]] bool fits(const gaze::StereoView& views) const override;
     Expected<void> prepare(const gaze::StereoView& views) override;
     void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
               const HiddenArea* hidden, const FrameInRun& frame, EyePlan& plan) const override;
 
-    [[nodiscard]] const KfrParameters& parameters() const { return parameters_; }
-    /// Precondition: prepare().
-    [[nodiscard]] LpSize lp(gaze::Eye eye) const { return lp_[gaze::index(eye)]; }
+    [[nodiscard]] bool in_gaze_frame() const override { return false; }
+    [[nodiscard]] LpSize lp(gaze::Eye eye) const override { return lp_[gaze::index(eye)]; }
+    [[nodiscard]] MapTables tables(gaze::Eye eye) const override {
+        return build_map_tables(parameters_.kernel, lp(eye));
+    }
 
   private:
     KfrParameters parameters_;

@@ -1,7 +1,10 @@
 #include "runtime/foveation/plans/log_polar_plan.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 namespace gazeloop::foveation {
@@ -83,6 +86,17 @@ MapUniforms map_uniforms(const LogPolarPlan& plan) {
         plan.in_gaze_frame ? plan.in_gaze_frame->disc_half_sine : plan.disc_radius_px,
         plan.in_gaze_frame ? plan.in_gaze_frame->border_half_sine : plan.disc_border_px));
     return uniforms;
+}
+
+void put_map_uniforms(const MapUniforms& uniforms, EyePlan& plan) {
+    static_assert(sizeof(MapUniforms) <= sizeof plan.uniforms);
+    std::memcpy(plan.uniforms.data(), &uniforms, sizeof uniforms);
+}
+
+MapUniforms map_uniforms_of(const EyePlan& plan) {
+    std::array<glm::vec4, sizeof(MapUniforms) / sizeof(glm::vec4)> vectors{};
+    std::copy_n(plan.uniforms.begin(), vectors.size(), vectors.begin());
+    return std::bit_cast<MapUniforms>(vectors);
 }
 
 }  // namespace gazeloop::foveation

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -70,6 +69,10 @@ void plan_disc_tiles(std::uint32_t height_px, const HiddenArea* hidden, const Ba
 /// What the shaders are told of a plan (shaders/lib/log_polar.glsl).
 [[nodiscard]] MapUniforms map_uniforms(const LogPolarPlan& plan);
 
+/// Puts them into a method's plan, and takes them from it.
+void put_map_uniforms(const MapUniforms& uniforms, EyePlan& plan);
+[[nodiscard]] MapUniforms map_uniforms_of(const EyePlan& plan);
+
 /// Lets `make(LogPolarPlan&)` fill a log-polar plan in the memory of a method's plan, and takes the
 /// result over.
 template <typename Make>
@@ -79,9 +82,7 @@ void plan_log_polar(EyePlan& plan, const Make& make) {
     made.texels = std::move(plan.grids[0]);
     made.disc = std::move(plan.grids[1]);
     make(made);
-    static_assert(sizeof(MapUniforms) <= sizeof plan.uniforms);
-    const MapUniforms uniforms = map_uniforms(made);
-    std::memcpy(plan.uniforms.data(), &uniforms, sizeof uniforms);
+    put_map_uniforms(map_uniforms(made), plan);
     plan.ring_px = made.disc_radius_px;
     plan.grids[0] = std::move(made.texels);
     plan.grids[1] = std::move(made.disc);

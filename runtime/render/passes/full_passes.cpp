@@ -4,15 +4,17 @@
 
 #include "runtime/foveation/plans/full_plan.h"
 #include "runtime/render/passes/drawing.h"
+#include "runtime/render/passes/planned_passes.h"
 #include "runtime/vulkan/pipelines.h"
 
 namespace gazeloop::render {
 namespace {
 
-class FullPasses final : public MethodPasses {
+class FullPasses final : public PlannedPasses<foveation::FullPlan> {
   public:
     explicit FullPasses(const PassSetup& setup)
-        : setup_(setup),
+        : PlannedPasses({"full"}, std::make_unique<foveation::FullPlan>()),
+          setup_(setup),
           layout_(vulkan::make_pipeline_layout(setup.context.device(),
                                                {setup.frame_layout, setup.scene.inputs(), {}},
                                                setup.empty_layout)) {
@@ -31,11 +33,6 @@ class FullPasses final : public MethodPasses {
              .constants = constants});
     }
 
-    [[nodiscard]] const frame::PassList& passes() const override { return passes_; }
-    [[nodiscard]] const foveation::MethodPlan& plan() const override { return plan_; }
-    [[nodiscard]] bool fits(const gaze::StereoView& /*views*/) const override { return true; }
-    void prepare(const gaze::StereoView& /*views*/) override {}
-
     void record_after_gaze(vulkan::PassRecorder& recorder, const FrameRecording& frame,
                            const gaze::PerEye<foveation::EyePlan>& /*plans*/) override {
         const vk::raii::CommandBuffer& commands = recorder.begin("full");
@@ -48,8 +45,6 @@ class FullPasses final : public MethodPasses {
 
   private:
     PassSetup setup_;
-    frame::PassList passes_{"full"};
-    foveation::FullPlan plan_;
     vk::raii::PipelineLayout layout_;
     vk::raii::Pipeline pipeline_{nullptr};
 };

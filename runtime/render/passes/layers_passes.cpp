@@ -3,14 +3,17 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <glm/vec4.hpp>
 #include <string>
 #include <utility>
 
+#include "runtime/render/fovea_depth.h"
 #include "runtime/render/frame_uniforms.h"
 #include "runtime/render/jitter.h"
 #include "runtime/render/passes/drawing.h"
 #include "runtime/render/passes/eye_sets.h"
 #include "runtime/render/passes/log_polar_eye.h"
+#include "runtime/render/passes/planned_passes.h"
 #include "runtime/vulkan/history.h"
 #include "runtime/vulkan/pipelines.h"
 
@@ -58,17 +61,19 @@ frame::PassList pass_list(std::size_t layers) {
     return value_or_throw(frame::PassList::parse(text + "composite", frame::kMostPasses));
 }
 
-class LayersPasses final : public MethodPasses {
+class LayersPasses final : public PlannedPasses<LayeredPlan> {
   public:
     LayersPasses(const PassSetup& setup, const LayersConfig& config,
                  LayeredPlan::LayersOf layers_of)
-        : setup_(setup),
+        : PlannedPasses(
+              pass_list(config.layers),
+              std::make_unique<LayeredPlan>(
+                  foveation::LayeredOptions{.layers = config.layers,
+                                            .half_rate = config.half_rate,
+                                            .kept = config.half_rate || config.over_frames},
+                  std::move(layers_of))),
+          setup_(setup),
           config_(config),
-          passes_(pass_list(config.layers)),
-          plan_({.layers = config.layers,
-                 .half_rate = config.half_rate,
-                 .kept = config.half_rate || config.over_frames},
-                std::move(layers_of)),
           sampler_(make_sampler(setup.context.device(), vk::Filter::eNearest)),
           composite_sets_(setup, {.uniform_bytes = sizeof(LayerUniforms), .images = kMostLayers},
                           *sampler_) {
@@ -79,18 +84,8 @@ class LayersPasses final : public MethodPasses {
                 *sampler_);
         }
         make_pipelines();
-    }
-
-    [[nodiscard]] const frame::PassList& passes() const override { return passes_; }
-    [[nodiscard]] const foveation::MethodPlan& plan() const override { return plan_; }
-    [[nodiscard]] bool fits(const gaze::StereoView& views) const override {
-        return plan_.fits(views);
-    }
-
-    void prepare(const gaze::StereoView& views) override {
-        value_or_throw(plan_.prepare(views));
-        for (const gaze::Eye eye : gaze::kEyes) {
-            make_layers(eye);
+        if (setup.seen_depth) {
+            depths_ = FoveaDepths(setup.context, setup.extents, setup.slots);
         }
     }
 
@@ -111,7 +106,7 @@ class LayersPasses final : public MethodPasses {
         };
         for (std::size_t layer = 0; layer < config_.layers; ++layer) {
             if (any(layer)) {
-                shade(recorder.begin(passes_[layer]), layer);
+                shade(recorder.begin(passes()[layer]), layer);
             }
         }
         // A layer without any cell is not submitted for itself; what it has to prepare goes along.
@@ -128,7 +123,35 @@ class LayersPasses final : public MethodPasses {
         });
     }
 
+    [[nodiscard]] bool keeps_depth() const override { return setup_.seen_depth; }
+
+    /// The inner layer's cells are pixels of the picture.
+    void record_depth_copies(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
+                             const gaze::PerEye<foveation::EyePlan>& plans,
+                             const gaze::FrameFovea& fovea) override {
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            const glm::uvec4 covers(LayeredPlan::layer_of(plans[e], 0).covers);
+            Layer& inner = layers_[e].front();
+            vulkan::TrackedColorImage& cells =
+                config_.over_frames ? inner.fresh : inner.history.now();
+            depths_.of(frame.slot, e)
+                .record(commands, cells.tracked, frame.view.views[e], fovea.eyes[e].position,
+                        plans[e].grids[0].bands,
+                        {covers.x, covers.y, covers.x + covers.z, covers.y + covers.w});
+        }
+    }
+
+    void collect_depth(std::size_t slot, gaze::SeenDepth& seen) const override {
+        depths_.collect(slot, seen);
+    }
+
   private:
+    void attach() override {
+        for (const gaze::Eye eye : gaze::kEyes) {
+            make_layers(eye);
+        }
+    }
+
     /// What an eye keeps of a layer from frame to frame.
     struct Layer {
         vulkan::History history;
@@ -189,7 +212,7 @@ class LayersPasses final : public MethodPasses {
     /// The composite for the layers that an eye keeps from the last frame.
     [[nodiscard]] const vk::raii::Pipeline& composite(std::size_t e,
                                                       const foveation::EyePlan& plan) const {
-        const std::size_t layers = plan_.layers(gaze::kEyes.at(e)).size();
+        const std::size_t layers = this->plan().layers(gaze::kEyes.at(e)).size();
         std::size_t kept = 0;
         for (std::size_t layer = 1; layer < layers; ++layer) {
             kept = its_turn(plan, layer) ? kept : 2 - layer % 2;
@@ -201,7 +224,7 @@ class LayersPasses final : public MethodPasses {
     void make_layers(gaze::Eye eye) {
         const std::size_t e = gaze::index(eye);
         const vk::Extent2D picture = setup_.extents[e];
-        const std::vector<foveation::LayerShape>& shapes = plan_.layers(eye);
+        const std::vector<foveation::LayerShape>& shapes = plan().layers(eye);
         std::array<vk::ImageView, kMostLayers> views;
         for (std::size_t i = 0; i < config_.layers; ++i) {
             Layer& layer = layers_[e].at(i);
@@ -216,14 +239,14 @@ class LayersPasses final : public MethodPasses {
             if (config_.over_frames) {
                 using Usage = vk::ImageUsageFlagBits;
                 layer.fresh = {setup_.context, extent, kLpFormat,
-                               Usage::eColorAttachment | Usage::eSampled};
+                               Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc};
             }
             views.at(i) = layer.history.now().image.view();
         }
         for (std::size_t i = config_.layers; i < kMostLayers; ++i) {
             views.at(i) = views[0];
         }
-        const std::size_t table = plan_.table_words(picture.height);
+        const std::size_t table = plan().table_words(picture.height);
         for (std::size_t i = 0; i < config_.layers; ++i) {
             layer_sets_[i].attach(
                 e, table, {},
@@ -261,7 +284,7 @@ class LayersPasses final : public MethodPasses {
                                             layer.history.other().image.view());
             }
             // What a view has no layer for is never shaded: any image does.
-            const bool exists = i < plan_.layers(gaze::kEyes[e]).size();
+            const bool exists = i < this->plan().layers(gaze::kEyes[e]).size();
             uniforms.shown.at(i) = layer.shown;
             uniforms.before.at(i) = layer.before;
             uniforms.first_band[static_cast<glm::length_t>(i)] = planned.cells.z;
@@ -322,8 +345,6 @@ class LayersPasses final : public MethodPasses {
 
     PassSetup setup_;
     LayersConfig config_;
-    frame::PassList passes_;
-    LayeredPlan plan_;
     vk::raii::Sampler sampler_;
     std::vector<EyeSets> layer_sets_;
     EyeSets composite_sets_;
@@ -334,6 +355,7 @@ class LayersPasses final : public MethodPasses {
     /// By place in kKeptLayers.
     std::array<vk::raii::Pipeline, kKeptLayers.size()> composites_{nullptr, nullptr, nullptr};
     gaze::PerEye<std::array<Layer, kMostLayers>> layers_;
+    FoveaDepths depths_;
 };
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include "runtime/render/fovea_depth.h"
 #include "runtime/render/passes/drawing.h"
 #include "runtime/render/passes/log_polar_eye.h"
+#include "runtime/render/passes/log_polar_sets.h"
+#include "runtime/render/passes/planned_passes.h"
 #include "runtime/vulkan/pipelines.h"
 
 namespace gazeloop::render {
@@ -14,81 +16,34 @@ namespace {
 
 using Type = vk::DescriptorType;
 
-/// Set 2 (shaders/lib/log_polar.glsl, bands.glsl, resolve/log_polar.frag).
-constexpr std::array kBindings{Type::eUniformBuffer,          // MapUniforms
-                               Type::eUniformBuffer,          // MapTables
-                               Type::eStorageBuffer,          // columns
-                               Type::eStorageBuffer,          // rows
-                               Type::eStorageBuffer,          // bands
-                               Type::eCombinedImageSampler,   // LP-buffer
-                               Type::eCombinedImageSampler};  // disc
+/// Set 2: the map, then LP-buffer and disc (shaders/resolve/log_polar.frag).
+constexpr std::array kBindings{kMapBindings[0],
+                               kMapBindings[1],
+                               kMapBindings[2],
+                               kMapBindings[3],
+                               kMapBindings[4],
+                               Type::eCombinedImageSampler,
+                               Type::eCombinedImageSampler};
 
 /// Places of the grids in log_polar_grids().
 constexpr std::size_t kTexels = 0;
 constexpr std::size_t kDisc = 1;
 
-/// The plan of a log-polar method, and what its map needs on the GPU.
-class Map {
+class LogPolarPasses final : public PlannedPasses<foveation::LogPolarMethodPlan> {
   public:
-    Map() = default;
-    Map(const Map&) = delete;
-    Map& operator=(const Map&) = delete;
-    virtual ~Map() = default;
-    [[nodiscard]] virtual foveation::MethodPlan& plan() = 0;
-    [[nodiscard]] virtual bool in_gaze_frame() const = 0;
-    /// Precondition: the plan is prepared.
-    [[nodiscard]] virtual foveation::LpSize lp(gaze::Eye eye) const = 0;
-    [[nodiscard]] virtual foveation::MapTables tables(gaze::Eye eye) const = 0;
-};
-
-class KfrMap final : public Map {
-  public:
-    explicit KfrMap(const foveation::KfrParameters& parameters) : plan_(parameters) {}
-    [[nodiscard]] foveation::MethodPlan& plan() override { return plan_; }
-    [[nodiscard]] bool in_gaze_frame() const override { return false; }
-    [[nodiscard]] foveation::LpSize lp(gaze::Eye eye) const override { return plan_.lp(eye); }
-    [[nodiscard]] foveation::MapTables tables(gaze::Eye eye) const override {
-        return foveation::build_map_tables(plan_.parameters().kernel, plan_.lp(eye));
-    }
-
-  private:
-    foveation::KfrPlan plan_;
-};
-
-class AcuityDerivedMap final : public Map {
-  public:
-    explicit AcuityDerivedMap(const foveation::AcuityParameters& parameters) : plan_(parameters) {}
-    [[nodiscard]] foveation::MethodPlan& plan() override { return plan_; }
-    [[nodiscard]] bool in_gaze_frame() const override { return true; }
-    [[nodiscard]] foveation::LpSize lp(gaze::Eye eye) const override {
-        return plan_.profile(eye).lp();
-    }
-    [[nodiscard]] foveation::MapTables tables(gaze::Eye eye) const override {
-        return foveation::build_map_tables(plan_.profile(eye));
-    }
-
-  private:
-    foveation::AcuityPlan plan_;
-};
-
-class LogPolarPasses final : public MethodPasses {
-  public:
-    LogPolarPasses(const PassSetup& setup, std::unique_ptr<Map> map)
-        : setup_(setup),
-          map_(std::move(map)),
-          passes_(setup.lp_gaussian ? frame::PassList{"pass_i", "disc", "lp_gaussian", "resolve"}
-                                    : frame::PassList{"pass_i", "disc", "resolve"}) {
+    LogPolarPasses(const PassSetup& setup, std::unique_ptr<foveation::LogPolarMethodPlan> plan)
+        : PlannedPasses(setup.lp_gaussian
+                            ? frame::PassList{"pass_i", "disc", "lp_gaussian", "resolve"}
+                            : frame::PassList{"pass_i", "disc", "resolve"},
+                        std::move(plan)),
+          setup_(setup) {
         const vk::raii::Device& device = setup.context.device();
         set_layout_ =
             vulkan::make_set_layout(device, kBindings, vk::ShaderStageFlagBits::eFragment);
         layout_ = vulkan::make_pipeline_layout(
             device, {setup.frame_layout, setup.scene.inputs(), *set_layout_}, setup.empty_layout);
         make_pipelines();
-        using Mode = vk::SamplerAddressMode;
-        sampler_ = vk::raii::Sampler(
-            device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear,
-                                          vk::SamplerMipmapMode::eNearest, Mode::eClampToEdge,
-                                          Mode::eRepeat, Mode::eClampToEdge));
+        sampler_ = make_lp_sampler(device);
         // With a filter, a second set for the resolve, which then reads what the filter wrote.
         const std::uint32_t sets =
             setup.slots * static_cast<std::uint32_t>(gaze::kEyeCount) * (setup.lp_gaussian ? 2 : 1);
@@ -98,6 +53,9 @@ class LogPolarPasses final : public MethodPasses {
         pool_ = vk::raii::DescriptorPool(
             device, vk::DescriptorPoolCreateInfo(
                         vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, sets, sizes));
+        if (setup.seen_depth) {
+            depths_ = FoveaDepths(setup.context, setup.extents, setup.slots);
+        }
         slots_.resize(setup.slots);
         for (auto& slot : slots_) {
             for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
@@ -108,26 +66,7 @@ class LogPolarPasses final : public MethodPasses {
                 if (setup.lp_gaussian) {
                     at.resolve_set = allocate_set();
                 }
-                if (setup.seen_depth) {
-                    at.depth.emplace(setup.context, setup.extents[e]);
-                }
             }
-        }
-    }
-
-    [[nodiscard]] const frame::PassList& passes() const override { return passes_; }
-    [[nodiscard]] const foveation::MethodPlan& plan() const override { return map_->plan(); }
-    [[nodiscard]] bool fits(const gaze::StereoView& views) const override {
-        return map_->plan().fits(views);
-    }
-
-    void prepare(const gaze::StereoView& views) override {
-        value_or_throw(map_->plan().prepare(views));
-        for (const gaze::Eye eye : gaze::kEyes) {
-            const std::size_t e = gaze::index(eye);
-            eyes_[e].emplace(setup_.context, map_->tables(eye), map_->lp(eye), setup_.extents[e],
-                             setup_.samples, setup_.lp_gaussian);
-            attach_eye(e);
         }
     }
 
@@ -188,16 +127,14 @@ class LogPolarPasses final : public MethodPasses {
                              const gaze::PerEye<foveation::EyePlan>& plans,
                              const gaze::FrameFovea& fovea) override {
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            slots_[frame.slot][e].depth->record(commands, eyes_[e]->direct_buffer().tracked,
-                                                frame.view.views[e], fovea.eyes[e].position,
-                                                plans[e].grids[kDisc].bands);
+            depths_.of(frame.slot, e)
+                .record(commands, eyes_[e]->direct_buffer().tracked, frame.view.views[e],
+                        fovea.eyes[e].position, plans[e].grids[kDisc].bands);
         }
     }
 
     void collect_depth(std::size_t slot, gaze::SeenDepth& seen) const override {
-        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            slots_[slot][e].depth->collect(seen[e]);
-        }
+        depths_.collect(slot, seen);
     }
 
     [[nodiscard]] std::vector<BufferPicture> buffers(
@@ -217,7 +154,6 @@ class LogPolarPasses final : public MethodPasses {
     struct EyeSlot {
         vulkan::HostBuffer uniforms;
         vulkan::HostBuffer bands;
-        std::optional<FoveaDepth> depth;
         vk::raii::DescriptorSet set{nullptr};
         vk::raii::DescriptorSet resolve_set{nullptr};  ///< only with a filter
     };
@@ -227,9 +163,18 @@ class LogPolarPasses final : public MethodPasses {
             setup_.context.device(), vk::DescriptorSetAllocateInfo(*pool_, *set_layout_))[0]);
     }
 
+    void attach() override {
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const std::size_t e = gaze::index(eye);
+            eyes_[e].emplace(setup_.context, plan().tables(eye), plan().lp(eye), setup_.extents[e],
+                             setup_.samples, setup_.lp_gaussian);
+            attach_eye(e);
+        }
+    }
+
     void make_pipelines() {
         const vk::raii::Device& device = setup_.context.device();
-        const std::uint32_t in_gaze_frame = map_->in_gaze_frame() ? 1 : 0;
+        const std::uint32_t in_gaze_frame = plan().in_gaze_frame() ? 1 : 0;
         const auto pass_constants =
             with_scene(setup_.scene, {{kSamples, setup_.samples}, {kInGazeFrame, in_gaze_frame}});
         pass_i_ = vulkan::make_pipeline(
@@ -278,23 +223,11 @@ class LogPolarPasses final : public MethodPasses {
     void write_set(vk::DescriptorSet set, const EyeSlot& at, LogPolarEye& eye,
                    const LogPolarEye::Buffer& lp_buffer) const {
         const vk::raii::Device& device = setup_.context.device();
-        const std::array buffers{at.uniforms.buffer(), eye.map_buffers().map_tables(),
-                                 eye.map_buffers().column_table(), eye.map_buffers().row_table(),
-                                 at.bands.buffer()};
-        std::uint32_t binding = 0;
-        for (const vk::Buffer buffer : buffers) {
-            const vk::DescriptorBufferInfo info(buffer, 0, VK_WHOLE_SIZE);
-            device.updateDescriptorSets(
-                vk::WriteDescriptorSet(set, binding, 0, kBindings.at(binding), {}, info), {});
-            ++binding;
-        }
+        write_map(device, set, at.uniforms.buffer(), eye.map_buffers(), at.bands.buffer());
+        std::uint32_t binding = kMapBindings.size();
         for (const LogPolarEye::Buffer* image :
              {&lp_buffer, static_cast<const LogPolarEye::Buffer*>(&eye.direct_buffer())}) {
-            const vk::DescriptorImageInfo info(*sampler_, image->image.view(),
-                                               vk::ImageLayout::eShaderReadOnlyOptimal);
-            device.updateDescriptorSets(
-                vk::WriteDescriptorSet(set, binding, 0, kBindings.at(binding), info), {});
-            ++binding;
+            write_image(device, set, binding++, *sampler_, image->image.view());
         }
     }
 
@@ -330,8 +263,6 @@ class LogPolarPasses final : public MethodPasses {
     }
 
     PassSetup setup_;
-    std::unique_ptr<Map> map_;
-    frame::PassList passes_;
     vk::raii::DescriptorSetLayout set_layout_{nullptr};
     vk::raii::PipelineLayout layout_{nullptr};
     vk::raii::Pipeline pass_i_{nullptr};
@@ -342,6 +273,7 @@ class LogPolarPasses final : public MethodPasses {
     vk::raii::DescriptorPool pool_{nullptr};
     gaze::PerEye<std::optional<LogPolarEye>> eyes_;
     std::vector<gaze::PerEye<EyeSlot>> slots_;
+    FoveaDepths depths_;
 };
 
 }  // namespace
@@ -352,12 +284,14 @@ std::unique_ptr<MethodPasses> make_kfr_passes(const PassSetup& setup,
         // Checked now, not with the first frame, because it does not depend on the fields of view.
         (void)value_or_throw(foveation::lp_buffer_size(parameters, {extent.width, extent.height}));
     }
-    return std::make_unique<LogPolarPasses>(setup, std::make_unique<KfrMap>(parameters));
+    return std::make_unique<LogPolarPasses>(setup,
+                                            std::make_unique<foveation::KfrPlan>(parameters));
 }
 
 std::unique_ptr<MethodPasses> make_acuity_passes(const PassSetup& setup,
                                                  const foveation::AcuityParameters& parameters) {
-    return std::make_unique<LogPolarPasses>(setup, std::make_unique<AcuityDerivedMap>(parameters));
+    return std::make_unique<LogPolarPasses>(setup,
+                                            std::make_unique<foveation::AcuityPlan>(parameters));
 }
 
 }  // namespace gazeloop::render

@@ -8,6 +8,7 @@
 #include "runtime/render/passes/drawing.h"
 #include "runtime/render/passes/eye_sets.h"
 #include "runtime/render/passes/log_polar_eye.h"
+#include "runtime/render/passes/planned_passes.h"
 #include "runtime/vulkan/pipelines.h"
 
 namespace gazeloop::render {
@@ -15,11 +16,12 @@ namespace {
 
 constexpr unsigned kRates = 3;
 
-class RingsPasses final : public MethodPasses {
+class RingsPasses final : public PlannedPasses<foveation::RingsPlan> {
   public:
     RingsPasses(const PassSetup& setup, foveation::RingsPlan::RingsOf rings_of)
-        : setup_(setup),
-          plan_(std::move(rings_of)),
+        : PlannedPasses({"shade", "resolve"},
+                        std::make_unique<foveation::RingsPlan>(std::move(rings_of))),
+          setup_(setup),
           sampler_(make_sampler(setup.context.device(), vk::Filter::eNearest)),
           sets_(setup, {.images = kRates}, *sampler_),
           layout_(vulkan::make_pipeline_layout(
@@ -43,20 +45,11 @@ class RingsPasses final : public MethodPasses {
                                           .constants = encode});
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
             make_cells(e);
-            if (setup.seen_depth) {
-                for (std::uint32_t slot = 0; slot < setup.slots; ++slot) {
-                    depths_[e].emplace_back(setup.context, setup.extents[e]);
-                }
-            }
+        }
+        if (setup.seen_depth) {
+            depths_ = FoveaDepths(setup.context, setup.extents, setup.slots);
         }
     }
-
-    [[nodiscard]] const frame::PassList& passes() const override { return passes_; }
-    [[nodiscard]] const foveation::MethodPlan& plan() const override { return plan_; }
-    [[nodiscard]] bool fits(const gaze::StereoView& views) const override {
-        return plan_.fits(views);
-    }
-    void prepare(const gaze::StereoView& views) override { value_or_throw(plan_.prepare(views)); }
 
     void record_after_gaze(vulkan::PassRecorder& recorder, const FrameRecording& frame,
                            const gaze::PerEye<foveation::EyePlan>& plans) override {
@@ -84,15 +77,14 @@ class RingsPasses final : public MethodPasses {
                              const gaze::PerEye<foveation::EyePlan>& plans,
                              const gaze::FrameFovea& fovea) override {
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            depths_[e][frame.slot].record(commands, cells_[e][0].tracked, frame.view.views[e],
-                                          fovea.eyes[e].position, plans[e].grids[0].bands);
+            depths_.of(frame.slot, e)
+                .record(commands, cells_[e][0].tracked, frame.view.views[e], fovea.eyes[e].position,
+                        plans[e].grids[0].bands);
         }
     }
 
     void collect_depth(std::size_t slot, gaze::SeenDepth& seen) const override {
-        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            depths_[e][slot].collect(seen[e]);
-        }
+        depths_.collect(slot, seen);
     }
 
   private:
@@ -113,15 +105,13 @@ class RingsPasses final : public MethodPasses {
     }
 
     PassSetup setup_;
-    frame::PassList passes_{"shade", "resolve"};
-    foveation::RingsPlan plan_;
     vk::raii::Sampler sampler_;
     EyeSets sets_;
     vk::raii::PipelineLayout layout_;
     vk::raii::Pipeline shade_{nullptr};
     vk::raii::Pipeline resolve_{nullptr};
     gaze::PerEye<std::array<vulkan::TrackedColorImage, kRates>> cells_;
-    gaze::PerEye<std::vector<FoveaDepth>> depths_;  ///< by slot
+    FoveaDepths depths_;
 };
 
 }  // namespace

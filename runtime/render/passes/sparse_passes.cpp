@@ -5,6 +5,7 @@
 #include "runtime/render/passes/drawing.h"
 #include "runtime/render/passes/eye_sets.h"
 #include "runtime/render/passes/log_polar_eye.h"
+#include "runtime/render/passes/planned_passes.h"
 #include "runtime/vulkan/history.h"
 #include "runtime/vulkan/pipelines.h"
 
@@ -37,13 +38,12 @@ struct PatternBuffers {
     vulkan::DeviceBuffer nearest;
 };
 
-class SparsePasses final : public MethodPasses {
+class SparsePasses final : public PlannedPasses<SparsePlan> {
   public:
     SparsePasses(const PassSetup& setup, const SparseConfig& config)
-        : setup_(setup),
+        : PlannedPasses(pass_list(config.accumulate), std::make_unique<SparsePlan>(config.plan)),
+          setup_(setup),
           config_(config),
-          passes_(pass_list(config.accumulate)),
-          plan_(config.plan),
           sampler_(make_sampler(setup.context.device(), vk::Filter::eNearest)),
           sets_(setup, {.buffers = 2, .images = kImages}, *sampler_),
           layout_(vulkan::make_pipeline_layout(
@@ -54,19 +54,6 @@ class SparsePasses final : public MethodPasses {
             for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
                 histories_[e] = vulkan::History(setup.context, setup.extents[e], kHistoryFormat);
             }
-        }
-    }
-
-    [[nodiscard]] const frame::PassList& passes() const override { return passes_; }
-    [[nodiscard]] const foveation::MethodPlan& plan() const override { return plan_; }
-    [[nodiscard]] bool fits(const gaze::StereoView& views) const override {
-        return plan_.fits(views);
-    }
-
-    void prepare(const gaze::StereoView& views) override {
-        value_or_throw(plan_.prepare(views));
-        for (const gaze::Eye eye : gaze::kEyes) {
-            attach_eye(eye);
         }
     }
 
@@ -98,6 +85,12 @@ class SparsePasses final : public MethodPasses {
     }
 
   private:
+    void attach() override {
+        for (const gaze::Eye eye : gaze::kEyes) {
+            attach_eye(eye);
+        }
+    }
+
     void make_pipelines() {
         const vk::raii::Device& device = setup_.context.device();
         const std::array samples{vulkan::ShaderConstant{kSamples, setup_.samples}};
@@ -129,7 +122,7 @@ class SparsePasses final : public MethodPasses {
 
     void attach_eye(gaze::Eye eye) {
         const std::size_t e = gaze::index(eye);
-        const auto& prepared = plan_.prepared(eye);
+        const auto& prepared = plan().prepared(eye);
         using Usage = vk::ImageUsageFlagBits;
         lists_[e] = {setup_.context,
                      {SparsePlan::kListWidth, prepared->list_rows()},
@@ -208,8 +201,6 @@ class SparsePasses final : public MethodPasses {
 
     PassSetup setup_;
     SparseConfig config_;
-    frame::PassList passes_;
-    SparsePlan plan_;
     vk::raii::Sampler sampler_;
     EyeSets sets_;
     vk::raii::PipelineLayout layout_;
