@@ -7,7 +7,7 @@
 #include "../lib/encode.glsl"
 #include "../lib/depth.glsl"
 
-layout(set = 2, binding = 6) uniform sampler2D accumulated;
+layout(set = 2, binding = 13) uniform sampler2D accumulated;
 layout(constant_id = 6) const bool kAccumulated = false;
 layout(location = 0) out vec4 color;
 

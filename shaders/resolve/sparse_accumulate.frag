@@ -8,7 +8,7 @@
 #include "../lib/sparse_fill.glsl"
 #include "../lib/sparse_accumulated.glsl"
 
-layout(set = 2, binding = 5) uniform sampler2D history;
+layout(set = 2, binding = 12) uniform sampler2D history;
 layout(location = 0) out vec4 color;
 
 const float kKept = 0.95;         // of the weight, from frame to frame

@@ -9,6 +9,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "runtime/foveation/plans/sparse_plan.h"
+#include "runtime/render/depth.h"
 #include "tests/support/frame_renderer_fixture.h"
 #include "tests/support/method_by_settings.h"
 #include "tests/unit/foveation/picture/masks.h"
@@ -225,6 +226,89 @@ TEST_F(RivalMethods, SparseWeighsNeighboursByInverseDistance) {
         }
     }
     EXPECT_GT(checked, 96 * 72 / 2);
+}
+
+/// What full resolution says of a picture's distances: 1 / distance of each pixel of the left eye.
+std::vector<double> nearness_of(const FrameRequest& at, const std::vector<float>& depths) {
+    std::vector<double> nearness;
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        const gaze::EyeView& view = at.views[0];
+        const glm::dvec3 ray = gaze::unproject({static_cast<double>(i % view.width_px) + 0.5,
+                                                static_cast<double>(i / view.width_px) + 0.5},
+                                               view);
+        nearness.push_back(depths[i] / kDepthNear_m * -ray.z);
+    }
+    return nearness;
+}
+
+// With depth, a neighbour weighs less the farther its distance is from the nearest sample's: over
+// an edge of depth the picture is nearer to full resolution, elsewhere hardly another.
+TEST_F(RivalMethods, SparseGuidedByDepthKeepsEdges) {
+    RendererConfig config = pictures(160, 120);
+    config.depth_format = vk::Format::eD32Sfloat;
+    const FrameRequest at = request_for(config, {80, 60});
+    OffScreen full(context(), scene(), tests::passes_by("full"), config);
+    full.render(at, at.fovea());
+    const LinearPicture exact = full.linear_picture(gaze::Eye::Left);
+    const std::vector<double> nearness = nearness_of(at, full.depth(gaze::Eye::Left));
+    const LinearPicture plain = Run("sparse", {}, config).left_linear(at);
+    const LinearPicture guided =
+        Run("sparse", {{"sparse.depth_guided", "true"}}, config).left_linear(at);
+    const auto pattern = foveation::make_sparse_pattern({}, {160, 120}).value();
+    const auto nearest = foveation::find_nearest_samples(pattern, 4).value();
+    const foveation::FieldPixel window = pattern.window({80, 60});
+    double plain_error = 0.0;
+    double guided_error = 0.0;
+    int over_edges = 0;
+    int on_surfaces = 0;
+    for (int y = 0; y < 120; ++y) {
+        for (int x = 0; x < 160; ++x) {
+            const auto pixel = static_cast<std::size_t>(y * 160 + x);
+            glm::dvec3 sum(0.0);
+            double weights = 0.0;
+            double first = -1.0;
+            double apart = 0.0;
+            bool inside = true;
+            for (const std::uint32_t index : nearest.of(static_cast<std::uint32_t>(x + window.x),
+                                                        static_cast<std::uint32_t>(y + window.y))) {
+                const int from_x = pattern.samples[index].x - window.x;
+                const int from_y = pattern.samples[index].y - window.y;
+                inside = inside && from_x >= 0 && from_x < 160 && from_y >= 0 && from_y < 120;
+                if (!inside) {
+                    break;
+                }
+                const auto from = static_cast<std::size_t>(from_y * 160 + from_x);
+                inside = glm::all(glm::lessThan(exact.pixels[from], glm::vec3(0.95F)));
+                first = first < 0.0 ? nearness[from] : first;
+                const double between = std::abs(nearness[from] - first) /
+                                       (0.05 * std::max(nearness[from], first) + 1e-4);
+                apart = std::max(apart, between);
+                const double weight = 1.0 / std::max(1e-9, std::hypot(from_x - x, from_y - y)) /
+                                      (1.0 + between * between);
+                sum += weight * glm::dvec3(exact.pixels[from]);
+                weights += weight;
+            }
+            if (!inside) {
+                continue;
+            }
+            const glm::dvec3 expected = sum / weights;
+            const glm::dvec3 got(guided.pixels[pixel]);
+            // Both were rounded to 8 bits, and distances to halves.
+            ASSERT_LE(glm::length(got - expected), 0.02 * (0.2 + glm::length(expected)))
+                << x << ' ' << y;
+            if (apart > 3.0) {
+                ++over_edges;
+                plain_error += glm::length(glm::dvec3(plain.pixels[pixel] - exact.pixels[pixel]));
+                guided_error += glm::length(glm::dvec3(guided.pixels[pixel] - exact.pixels[pixel]));
+            } else if (apart == 0.0) {
+                ++on_surfaces;
+                EXPECT_EQ(guided.pixels[pixel], plain.pixels[pixel]) << "one distance";
+            }
+        }
+    }
+    EXPECT_GT(over_edges, 200);
+    EXPECT_GT(on_surfaces, 200);
+    EXPECT_LT(guided_error, 0.95 * plain_error);
 }
 
 TEST_F(RivalMethods, SparseShadesThePixelsOfItsDisc) {

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "runtime/render/passes/drawing.h"
 #include "runtime/render/passes/eye_sets.h"
 #include "runtime/render/passes/log_polar_eye.h"
@@ -20,6 +22,9 @@ constexpr vk::Format kHistoryFormat = vk::Format::eR32G32B32A32Sfloat;
 /// What a history holds where nothing was drawn: no surface has this nearness.
 constexpr std::array<float, 4> kNoSurface{0.0F, 0.0F, 0.0F, -1.0F};
 
+/// Storage buffers of set 2: the pattern, then one for each neighbour.
+constexpr std::uint32_t kMostNeighbours = foveation::NearestSamples::kMaxNeighbours;
+
 /// Images of set 2 (shaders/lib/sparse_fill.glsl, shaders/resolve).
 enum Image : std::uint32_t { kList, kBefore, kNow, kImages };
 
@@ -35,8 +40,26 @@ frame::PassList pass_list(bool accumulate) {
 struct PatternBuffers {
     std::shared_ptr<const SparsePlan::Prepared> prepared;
     vulkan::DeviceBuffer samples;
-    vulkan::DeviceBuffer nearest;
+    /// Of each neighbour, the nearest first: an index for each pixel of the field.
+    std::vector<vulkan::DeviceBuffer> nearest;
 };
+
+/// Refuses a picture (Usage) of whose field, twice as long each way, a shader of this device cannot
+/// read an index for every pixel from one buffer.
+void check_field(vk::Extent2D extent, std::uint64_t most_bytes) {
+    const std::uint64_t bytes = 16 * std::uint64_t{extent.width} * extent.height;
+    if (bytes > most_bytes) {
+        throw SetupError(
+            ErrorKind::Usage,
+            fmt::format("sparse: the tables of {}x{} pixels take {} MiB each, and a shader of this "
+                        "device reads {}: use a picture at most {:.2f} times as long each way "
+                        "(render.scale)",
+                        extent.width, extent.height, bytes >> 20U, most_bytes >> 20U,
+                        std::floor(100.0 * std::sqrt(static_cast<double>(most_bytes) /
+                                                     static_cast<double>(bytes))) /
+                            100.0));
+    }
+}
 
 class SparsePasses final : public PlannedPasses<SparsePlan> {
   public:
@@ -45,7 +68,7 @@ class SparsePasses final : public PlannedPasses<SparsePlan> {
           setup_(setup),
           config_(config),
           sampler_(make_sampler(setup.context.device(), vk::Filter::eNearest)),
-          sets_(setup, {.buffers = 2, .images = kImages}, *sampler_),
+          sets_(setup, {.buffers = 1 + kMostNeighbours, .images = kImages}, *sampler_),
           layout_(vulkan::make_pipeline_layout(
               setup.context.device(), {setup.frame_layout, setup.scene.inputs(), sets_.layout()},
               setup.empty_layout)) {
@@ -130,9 +153,14 @@ class SparsePasses final : public PlannedPasses<SparsePlan> {
                      Usage::eColorAttachment | Usage::eSampled};
         upload(e, prepared);
         const vk::ImageView view = lists_[e].image.view();
-        sets_.attach(e, prepared->table_words(),
-                     std::array{patterns_[e]->samples.buffer(), patterns_[e]->nearest.buffer()},
-                     std::array{view, view, view});
+        std::array<vk::Buffer, 1 + kMostNeighbours> buffers;
+        // The shader reads no more neighbours than there are.
+        buffers.fill(patterns_[e]->nearest.front().buffer());
+        buffers[0] = patterns_[e]->samples.buffer();
+        for (std::size_t k = 0; k < patterns_[e]->nearest.size(); ++k) {
+            buffers.at(1 + k) = patterns_[e]->nearest[k].buffer();
+        }
+        sets_.attach(e, prepared->table_words(), buffers, std::array{view, view, view});
     }
 
     /// Eyes with one pattern share its buffers.
@@ -143,27 +171,21 @@ class SparsePasses final : public PlannedPasses<SparsePlan> {
                 return;
             }
         }
-        const std::uint64_t most =
-            setup_.context.physical().getProperties().limits.maxStorageBufferRange;
-        const auto nearest = std::as_bytes(std::span(prepared->nearest.map));
-        if (nearest.size() > most) {
-            throw SetupError(
-                ErrorKind::Usage,
-                fmt::format(
-                    "sparse.k = {}: the neighbours of {}x{} pixels take {} MiB, and a "
-                    "shader of this device reads {}: use sparse.k={} or a smaller picture "
-                    "(render.scale)",
-                    config_.plan.neighbours, setup_.extents[e].width, setup_.extents[e].height,
-                    nearest.size() >> 20U, most >> 20U,
-                    std::max<std::uint64_t>(1, most * config_.plan.neighbours / nearest.size())));
-        }
         static_assert(sizeof(foveation::FieldPixel) == sizeof(std::uint32_t));
         auto made = std::make_shared<PatternBuffers>();
         made->prepared = prepared;
         constexpr auto kStorage = vk::BufferUsageFlagBits::eStorageBuffer;
         made->samples = {setup_.context, std::as_bytes(std::span(prepared->pattern.samples)),
                          kStorage};
-        made->nearest = {setup_.context, nearest, kStorage};
+        const std::vector<std::uint32_t>& map = prepared->nearest.map;
+        const std::size_t neighbours = config_.plan.neighbours;
+        std::vector<std::uint32_t> of_one(map.size() / neighbours);
+        for (std::size_t k = 0; k < neighbours; ++k) {
+            for (std::size_t pixel = 0; pixel < of_one.size(); ++pixel) {
+                of_one[pixel] = map[pixel * neighbours + k];
+            }
+            made->nearest.emplace_back(setup_.context, std::as_bytes(std::span(of_one)), kStorage);
+        }
         patterns_[e] = std::move(made);
     }
 
@@ -216,6 +238,12 @@ class SparsePasses final : public PlannedPasses<SparsePlan> {
 
 std::unique_ptr<MethodPasses> make_sparse_passes(const PassSetup& setup,
                                                  const SparseConfig& config) {
+    const std::uint64_t most =
+        setup.context.physical().getProperties().limits.maxStorageBufferRange;
+    for (const vk::Extent2D extent : setup.extents) {
+        // Now, before minutes go into looking for neighbours.
+        check_field(extent, most);
+    }
     return std::make_unique<SparsePasses>(setup, config);
 }
 
