@@ -7,6 +7,7 @@ void add_simulate_command(Command program) {
     app.require_command();
     add_simulate_tracker_command(app);
     add_simulate_steam_frame_command(app);
+    add_simulate_light_field_command(app);
     add_simulate_gaze_command(app);
 }
 

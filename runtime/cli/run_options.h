@@ -36,9 +36,11 @@ struct RunOptions {
     };
     std::vector<Alias> aliases{
         {"--target", "target.name", "openxr or headless"},
-        {"--scene", "render.scene", "scene to render: raymarch, gallery, or a .gltf or .glb file"},
+        {"--scene", "render.scene",
+         "scene to render: raymarch, gallery, or a .gltf, .glb or .lightfield file"},
         {"--method", "render.method",
-         "which samples a picture takes: full, kfr, acuity, layers, rings, sparse, quad, fixed"},
+         "which samples a picture takes: full, kfr, acuity, layers, rings, sparse, quad, kfr3d, "
+         "fixed"},
         {"--display", "profile.display", "display profile: a name or a .toml file"},
         {"--budget", "profile.budget", "latency budget: none, a name or a .toml file"},
         {"--sigma", "kfr.sigma", "picture width / LP-buffer width, .5 to 32"},

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "runtime/render/frame_uniforms.h"
+#include "runtime/scene/light_field_file.h"
 #include "runtime/scene/scene_file.h"
 #include "runtime/scene/scenes.h"
 
@@ -14,6 +15,9 @@ std::vector<settings::SettingRow> rows_of(RenderSettings& render,
     using settings::Concerns;
     using settings::Number;
     using settings::Whole;
+    std::vector<std::string_view> files(scene::kSceneFileExtensions.begin(),
+                                        scene::kSceneFileExtensions.end());
+    files.push_back(scene::kLightFieldExtension);
     return {
         {"render.depth", "give depth images to the runtime where it takes them", &render.depth,
          Concerns::Output},
@@ -35,11 +39,10 @@ std::vector<settings::SettingRow> rows_of(RenderSettings& render,
         // Views are recorded with their sizes.
         {"render.scale", "picture size relative to the display's, each way",
          Number{&render.scale, 0.01, 2.0}, Concerns::Input},
-        {"render.scene", "scene to render: a name, or a .gltf or .glb file",
+        {"render.scene", "scene to render: a name, or a .gltf, .glb or .lightfield file",
          Choice{.value = &render.scene,
                 .names = {scene::scene_names().begin(), scene::scene_names().end()},
-                .file_extensions = {scene::kSceneFileExtensions.begin(),
-                                    scene::kSceneFileExtensions.end()}},
+                .file_extensions = std::move(files)},
          Concerns::Picture},
         {"render.spp", "samples per texel or pixel", Whole{&render.spp, 1, kMaxSamples},
          Concerns::Picture},

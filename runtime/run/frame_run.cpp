@@ -115,8 +115,9 @@ class FrameRun {
         config_ = renderer_config();
         check_recorded_target(request_, config_);
         check_picture(request_, config_);
-        scene_ = scene::make_scene(*context_, values_.render.scene,
-                                   {.require_all = values_.render.require == "all"});
+        scene_ = scene::make_scene(
+            *context_, values_.render.scene,
+            {.require_all = values_.render.require == "all", .light_field = values_.light_field});
         render::FrameRenderer renderer(*context_, *scene_, make_passes(values_.render.method),
                                        config_);
         spdlog::info("Vulkan: {} ({})", context_->device_name(), context_->driver());

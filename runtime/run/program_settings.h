@@ -12,6 +12,7 @@
 #include "runtime/run/monitor_settings.h"
 #include "runtime/run/target_settings.h"
 #include "runtime/run/virtual_time_settings.h"
+#include "runtime/scene/light_field_settings.h"
 #include "runtime/settings/settings.h"
 #include "runtime/vulkan/vulkan_settings.h"
 #include "sim/gaze_simulation.h"
@@ -22,6 +23,7 @@ namespace gazeloop::run {
 struct ProgramValues {
     gaze::GazeSettings gaze;
     drivers::hid::HidSettings hid;
+    scene::LightFieldSettings light_field;
     methods::MethodSettings methods;
     MonitorSettings monitor;
     present::OpenXrSettings openxr;

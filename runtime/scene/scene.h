@@ -8,6 +8,7 @@
 
 #include "runtime/gaze/eye.h"
 #include "runtime/gaze/view.h"
+#include "runtime/light_field/lens.h"
 #include "runtime/vulkan/pass_recorder.h"
 #include "runtime/vulkan/pipelines.h"
 
@@ -37,6 +38,10 @@ class Scene {
 
     /// Whether its answers jump from pixel to pixel, so that samples farther apart alias.
     [[nodiscard]] virtual bool is_point_sampled() const { return false; }
+
+    /// Its cameras and the lens that they are seen through, if it is a light field: its shader then
+    /// also answers view by view (SCENE_OF_VIEWS). Null: it is none.
+    [[nodiscard]] virtual const light_field::LightField* light_field() const { return nullptr; }
 
     /// The same scene for the pictures of one renderer, which asks it instead. Null: this one
     /// serves all. It must not outlive this.

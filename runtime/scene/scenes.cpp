@@ -8,6 +8,8 @@
 
 #include "runtime/error.h"
 #include "runtime/scene/gallery/gallery_scene.h"
+#include "runtime/scene/light_field_file.h"
+#include "runtime/scene/light_field_scene.h"
 #include "runtime/scene/mesh_scene.h"
 #include "runtime/scene/ray_scene.h"
 #include "runtime/scene/scene_file.h"
@@ -18,11 +20,13 @@ namespace {
 
 constexpr std::string_view kGallery = "gallery";
 
-/// Those of shaders/scenes that are scenes by themselves, and those that are made of meshes.
+/// Those of shaders/scenes that are scenes by themselves, and those that are made of meshes. Light
+/// fields are files.
 std::vector<std::string_view> all_names() {
     std::vector<std::string_view> names{kGallery};
-    std::ranges::copy_if(shaders::scenes(), std::back_inserter(names),
-                         [](std::string_view name) { return name != kMeshShader; });
+    std::ranges::copy_if(shaders::scenes(), std::back_inserter(names), [](std::string_view name) {
+        return name != kMeshShader && name != kLightFieldShader;
+    });
     std::ranges::sort(names);
     return names;
 }
@@ -38,6 +42,15 @@ std::unique_ptr<Scene> make_scene(const vulkan::Context& context, std::string_vi
                                   const SceneOptions& options) {
     if (is_scene_file(name)) {
         return make_mesh_scene(context, load_scene_file(name), options);
+    }
+    if (is_light_field_file(name)) {
+        const LightFieldSettings& set = options.light_field;
+        light_field::Lens lens = set.lens();
+        lens.every_view = options.require_all;
+        return make_light_field_scene(context,
+                                      value_or_throw(load_light_field(
+                                          name, static_cast<std::uint64_t>(set.memory_mib) << 20U)),
+                                      lens);
     }
     const auto names = scene_names();
     if (std::ranges::find(names, name) == names.end()) {

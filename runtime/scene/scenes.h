@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "runtime/scene/light_field_settings.h"
 #include "runtime/scene/scene.h"
 
 namespace gazeloop::scene {
@@ -14,10 +15,11 @@ namespace gazeloop::scene {
 struct SceneOptions {
     /// Draw and light as if the scene needed everything, to measure what leaving out saves.
     bool require_all = false;
+    LightFieldSettings light_field{};
 };
 
-/// A scene by its name, or of a file (scene_file.h). Throws SetupError: Usage for a name that there
-/// is not, BadInput for a file that cannot be used.
+/// A scene by its name, or of a file (scene_file.h, light_field_file.h). Throws SetupError: Usage
+/// for a name that there is not, BadInput for a file that cannot be used.
 [[nodiscard]] std::unique_ptr<Scene> make_scene(const vulkan::Context& context,
                                                 std::string_view name,
                                                 const SceneOptions& options = {});

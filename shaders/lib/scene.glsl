@@ -12,6 +12,22 @@ struct SceneSample {
     vec2 motion_px;     // where it is in this frame less where it was in the last one
 };
 
+// A scene of several views (a light field) defines SCENE_OF_VIEWS, and states besides
+//   ScenePoint scene_point(SamplePlace)                        what its views are asked for
+//   vec3 scene_radiance_of_view(ScenePoint, SceneView)         what one of them shows of it
+// so that a method can sum them by weights of its own.
+struct SceneView {
+    vec2 camera_m;      // its place in the cameras' plane
+    float layer;        // of the pictures
+    float weight;       // in the sum
+};
+
+struct ScenePoint {
+    vec2 share;         // of a view's width and height, if its camera stood in the origin
+    vec3 point_m;       // in world
+    float nearness;     // as of a SceneSample
+};
+
 // How far a point that stands still in world has moved in the picture since the last frame. Nothing
 // where there is no last frame, and where the point was behind the eye.
 vec2 motion_of_still_px(vec2 position_px, vec3 point_m) {

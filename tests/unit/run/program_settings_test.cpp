@@ -77,6 +77,8 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "layers.outer_weight",
       "layers.s2_fixed",
       "layers.temporal",
+      "lightfield.aperture_m",
+      "lightfield.focus_m",
       "quad.blend",
       "quad.periphery",
       "quad.section",
@@ -102,8 +104,8 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
      {"acuity.luminance_cd_m2", "acuity.nasal", "render.depth", "render.frames_in_flight",
       "render.profile", "render.require", "render.wait_before_latch"}},
     {Concerns::Machine,
-     {"monitor.interval_s", "monitor.window_s", "openxr.patience_s", "profile.budget",
-      "target.name", "target.validation", "vulkan.device", "vulkan.validation"}}};
+     {"lightfield.memory_mib", "monitor.interval_s", "monitor.window_s", "openxr.patience_s",
+      "profile.budget", "target.name", "target.validation", "vulkan.device", "vulkan.validation"}}};
 
 TEST(ProgramSettings, EachConcernsWhatItShould) {
     const ProgramSettings settings;
@@ -135,6 +137,10 @@ TEST(ProgramSettings, OfMethodsAreInUseUnderTheirs) {
         const std::string group = row.key.substr(0, row.key.find('.'));
         if (group == "gaze") {
             continue;  // below
+        }
+        if (group == "lightfield") {
+            EXPECT_EQ(row.only_while.key, "") << row.key;  // of scenes that are files
+            continue;
         }
         if (row.concerns != Concerns::Picture || group == "render") {
             EXPECT_EQ(row.only_while.key, "") << row.key;
@@ -189,6 +195,7 @@ TEST(ProgramSettings, GiveEveryMemberARow) {
     expect_all(methods::FixedSettings());
     expect_all(methods::KfrSettings());
     expect_all(methods::LayersSettings());
+    expect_all(scene::LightFieldSettings());
     expect_all(methods::QuadSettings());
     expect_all(methods::RingsSettings());
     expect_all(methods::SparseSettings());

@@ -1,0 +1,310 @@
+#include "runtime/scene/light_field_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "runtime/open_for_reading.h"
+#include "runtime/scene/gltf/picture.h"
+
+namespace gazeloop::scene {
+namespace {
+
+constexpr double kRadiansPerHalfDegree = std::numbers::pi / 360.0;
+constexpr std::size_t kLongestFile = 1 << 16;
+/// Longer lists help nobody.
+constexpr std::size_t kMostListed = 12;
+
+std::unexpected<Error> refuse(const std::string& what) {
+    return std::unexpected(Error{ErrorKind::BadInput, what});
+}
+
+/// All that is wrong with a folder.
+class Problems {
+  public:
+    void add(std::string problem) { all_.push_back(std::move(problem)); }
+    [[nodiscard]] bool any() const { return !all_.empty(); }
+    [[nodiscard]] Error error(const std::filesystem::path& file) const {
+        const auto listed = std::span(all_).first(std::min(all_.size(), kMostListed));
+        return {ErrorKind::BadInput,
+                fmt::format("{}: its pictures cannot be used: {}{}", file.string(),
+                            fmt::join(listed, "; "),
+                            all_.size() > kMostListed
+                                ? fmt::format("; and {} more", all_.size() - kMostListed)
+                                : "")};
+    }
+
+  private:
+    std::vector<std::string> all_;
+};
+
+struct Place {
+    std::uint32_t row = 0;
+    std::uint32_t column = 0;
+    friend auto operator<=>(const Place&, const Place&) = default;
+};
+
+/// Takes the number that a text ends in off it.
+std::optional<std::uint32_t> take_number(std::string_view& text) {
+    std::size_t digits = 0;
+    while (digits < text.size() &&
+           std::isdigit(static_cast<unsigned char>(text[text.size() - 1 - digits])) != 0) {
+        ++digits;
+    }
+    const std::string_view number = text.substr(text.size() - digits);
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (digits == 0 || error != std::errc{} || end != number.data() + number.size()) {
+        return std::nullopt;
+    }
+    text.remove_suffix(digits);
+    return value;
+}
+
+std::optional<Place> place_of(std::string_view stem) {
+    const auto column = take_number(stem);
+    if (!column || stem.empty() || (stem.back() != '_' && stem.back() != '-')) {
+        return std::nullopt;
+    }
+    stem.remove_suffix(1);
+    const auto row = take_number(stem);
+    return row ? std::optional(Place{*row, *column}) : std::nullopt;
+}
+
+bool is_picture(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](char c) {
+        return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    });
+    return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+/// The pictures of the folder by their places.
+std::map<Place, std::filesystem::path> find_views(const std::filesystem::path& folder,
+                                                  const light_field::CameraGrid& grid,
+                                                  Problems& problems) {
+    std::set<std::filesystem::path> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        if (is_picture(entry.path())) {
+            files.insert(entry.path());
+        }
+    }
+    std::map<Place, std::filesystem::path> views;
+    for (const std::filesystem::path& file : files) {
+        const std::string name = file.filename().string();
+        const auto place = place_of(file.stem().string());
+        if (!place) {
+            problems.add(name + " does not end in row and column (view_03_07.png)");
+        } else if (place->row >= grid.rows || place->column >= grid.columns) {
+            problems.add(fmt::format("{} is beyond the {} rows and {} columns", name, grid.rows,
+                                     grid.columns));
+        } else if (const auto [at, is_new] = views.try_emplace(*place, file); !is_new) {
+            problems.add(
+                fmt::format("{} and {} are of one place", at->second.filename().string(), name));
+        }
+    }
+    std::vector<std::string> missing;
+    for (std::uint32_t row = 0; row < grid.rows; ++row) {
+        for (std::uint32_t column = 0; column < grid.columns; ++column) {
+            if (!views.contains({row, column})) {
+                missing.push_back(view_file_name(row, column));
+            }
+        }
+    }
+    for (std::size_t i = 0; i < missing.size(); ++i) {
+        problems.add(missing[i] + " is missing");
+    }
+    return views;
+}
+
+std::vector<std::byte> bytes_of(const std::filesystem::path& file) {
+    auto in = open_for_reading(file);
+    if (!in) {
+        throw gltf::Refusal("", "it cannot be read (" + in.error() + ")");
+    }
+    std::vector<std::byte> bytes(std::filesystem::file_size(file));
+    in->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(in->gcount()));
+    return bytes;
+}
+
+/// Decodes one view. Throws gltf::Refusal.
+mesh::Image decode(const std::filesystem::path& file) {
+    const std::vector<std::byte> bytes = bytes_of(file);
+    const gltf::PictureHeader header = gltf::read_picture_header(bytes, "", {});
+    if (header.format != mesh::TexelFormat::Rgba8) {
+        gltf::refuse("", "it has 16 bits per channel: 8 are expected");
+    }
+    mesh::Image image;
+    gltf::Notes notes;
+    gltf::decode_picture(bytes, header, "", image, notes);
+    if (!notes.all().empty()) {
+        gltf::refuse("", notes.all().front().text);
+    }
+    return image;
+}
+
+/// More than fits, told by the first view, before anything is decoded.
+Expected<void> check_memory(const std::filesystem::path& file, const light_field::CameraGrid& grid,
+                            const std::filesystem::path& first, std::uint64_t most_bytes) {
+    std::uint64_t bytes = 0;
+    std::uint32_t width_px = 0;
+    try {
+        const gltf::PictureHeader header = gltf::read_picture_header(bytes_of(first), "", {});
+        bytes = std::uint64_t{4} * header.width * header.height * grid.count();
+        width_px = header.width;
+    } catch (const gltf::Refusal&) {
+        return {};  // which decoding names
+    }
+    if (bytes <= most_bytes) {
+        return {};
+    }
+    const double shrink = std::sqrt(static_cast<double>(most_bytes) / static_cast<double>(bytes));
+    return refuse(fmt::format(
+        "{}: {} views take {} MiB of the GPU's memory, and they may take {}: {} views, or views of "
+        "{} px across, would fit (gazeloop simulate light-field --views, --size), or allow more by "
+        "lightfield.memory_mib",
+        file.string(), grid.count(), (bytes >> 20U) + 1, most_bytes >> 20U,
+        static_cast<std::uint64_t>(static_cast<double>(grid.count()) * shrink * shrink),
+        static_cast<std::uint32_t>(width_px * shrink)));
+}
+
+}  // namespace
+
+bool is_light_field_file(std::string_view name) {
+    return name.size() > kLightFieldExtension.size() && name.ends_with(kLightFieldExtension);
+}
+
+Expected<light_field::CameraGrid> read_light_field(std::istream& in, const std::string& name) {
+    std::string text(kLongestFile + 1, '\0');
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    if (text.size() > kLongestFile) {
+        return refuse(name + ": a light field's file has at most 64 KiB");
+    }
+    light_field::CameraGrid grid;
+    double columns = 0.0;
+    double rows = 0.0;
+    double horizontal_deg = 0.0;
+    double vertical_deg = 0.0;
+    const std::array keys{std::pair{"columns", &columns}, std::pair{"rows", &rows},
+                          std::pair{"spacing_m", &grid.spacing_m},
+                          std::pair{"horizontal_deg", &horizontal_deg},
+                          std::pair{"vertical_deg", &vertical_deg}};
+    try {
+        const toml::table table = toml::parse(text, name);
+        for (const auto& [key, node] : table) {
+            if (std::ranges::none_of(keys,
+                                     [&](const auto& known) { return key.str() == known.first; })) {
+                return refuse(fmt::format("{}:{}: there is no key '{}' in a light field's file",
+                                          name, node.source().begin.line, key.str()));
+            }
+        }
+        for (const auto& [key, value] : keys) {
+            const auto number = table[key].value<double>();
+            if (!number) {
+                return refuse(fmt::format("{}: {} = NUMBER is expected", name, key));
+            }
+            *value = *number;
+        }
+    } catch (const toml::parse_error& error) {
+        return refuse(
+            fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+    }
+    const auto whole = [](double value) {
+        return value >= 0.0 && value <= 1e6 && value == std::floor(value);
+    };
+    if (!whole(columns) || !whole(rows)) {
+        return refuse(name + ": columns and rows are whole numbers");
+    }
+    grid.columns = static_cast<std::uint32_t>(columns);
+    grid.rows = static_cast<std::uint32_t>(rows);
+    grid.half_tangents = {std::tan(horizontal_deg * kRadiansPerHalfDegree),
+                          std::tan(vertical_deg * kRadiansPerHalfDegree)};
+    const auto field_ok = [](double deg) { return deg > 0.0 && deg < 180.0; };
+    if (!field_ok(horizontal_deg) || !field_ok(vertical_deg)) {
+        return refuse(name + ": a field of view must lie between 0 and 180 deg");
+    }
+    if (const auto good = check(grid); !good) {
+        return refuse(fmt::format("{}: {}", name, good.error().message));
+    }
+    return grid;
+}
+
+std::string light_field_text(const light_field::CameraGrid& grid) {
+    const auto degrees = [](double tangent) { return std::atan(tangent) / kRadiansPerHalfDegree; };
+    return fmt::format(
+        "# The views beside this file, by row (0 is the top one) and column (0 is the leftmost).\n"
+        "columns = {}\n"
+        "rows = {}\n"
+        "spacing_m = {}        # between neighbouring cameras\n"
+        "horizontal_deg = {}   # field of view of each\n"
+        "vertical_deg = {}\n",
+        grid.columns, grid.rows, grid.spacing_m, degrees(grid.half_tangents.x),
+        degrees(grid.half_tangents.y));
+}
+
+std::string view_file_name(std::uint32_t row, std::uint32_t column) {
+    return fmt::format("view_{:02}_{:02}.png", row, column);
+}
+
+Expected<LightFieldPictures> load_light_field(const std::filesystem::path& file,
+                                              std::uint64_t most_bytes) {
+    auto in = open_for_reading(file);
+    if (!in) {
+        return refuse(
+            fmt::format("{}: the light field cannot be read ({})", file.string(), in.error()));
+    }
+    const auto grid = read_light_field(*in, file.string());
+    if (!grid) {
+        return std::unexpected(grid.error());
+    }
+    Problems problems;
+    const auto views =
+        find_views(file.parent_path().empty() ? "." : file.parent_path(), *grid, problems);
+    if (problems.any()) {
+        return std::unexpected(problems.error(file));
+    }
+    if (auto fits = check_memory(file, *grid, views.begin()->second, most_bytes); !fits) {
+        return std::unexpected(fits.error());
+    }
+    LightFieldPictures pictures{.cameras = *grid, .views = {}};
+    for (const auto& [place, view] : views) {
+        const std::string name = view.filename().string();
+        try {
+            mesh::Image image = decode(view);
+            if (pictures.width_px == 0) {
+                pictures.width_px = image.width;
+                pictures.height_px = image.height;
+            }
+            if (image.width != pictures.width_px || image.height != pictures.height_px) {
+                problems.add(fmt::format("{} has {}x{} px, those before it {}x{}", name,
+                                         image.width, image.height, pictures.width_px,
+                                         pictures.height_px));
+            }
+            pictures.views.push_back(std::move(image.texels));
+        } catch (const gltf::Refusal& refusal) {
+            problems.add(fmt::format("{}: {}", name, refusal.what()));
+        }
+    }
+    if (problems.any()) {
+        return std::unexpected(problems.error(file));
+    }
+    return pictures;
+}
+
+}  // namespace gazeloop::scene

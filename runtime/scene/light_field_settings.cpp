@@ -1,0 +1,20 @@
+#include "runtime/scene/light_field_settings.h"
+
+namespace gazeloop::scene {
+
+std::vector<settings::SettingRow> rows_of(LightFieldSettings& light_field) {
+    using settings::Concerns;
+    using settings::Number;
+    using settings::Whole;
+    return {
+        {"lightfield.aperture_m",
+         "radius of the lens that light fields are seen through; 0: between the nearest views",
+         Number{&light_field.aperture_m, 0.0, 1e3}, Concerns::Picture},
+        {"lightfield.focus_m", "distance of the lens's focal plane",
+         Number{&light_field.focus_m, 0.01, 1e4}, Concerns::Picture},
+        {"lightfield.memory_mib", "GPU memory that a light field's views may take, MiB",
+         Whole{&light_field.memory_mib, 1, 1 << 20}, Concerns::Machine},
+    };
+}
+
+}  // namespace gazeloop::scene

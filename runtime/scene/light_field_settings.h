@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/light_field/lens.h"
+#include "runtime/settings/setting_row.h"
+
+namespace gazeloop::scene {
+
+/// The settings lightfield.*
+struct LightFieldSettings {
+    double focus_m = 2.0;
+    double aperture_m = 0.01;
+    std::int64_t memory_mib = 1024;
+
+    [[nodiscard]] light_field::Lens lens() const {
+        return {.focus_m = focus_m, .aperture_m = aperture_m};
+    }
+};
+
+[[nodiscard]] std::vector<settings::SettingRow> rows_of(LightFieldSettings& light_field);
+
+}  // namespace gazeloop::scene

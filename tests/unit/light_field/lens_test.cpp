@@ -1,0 +1,103 @@
+// The lens that a light field is seen through: which views it takes, and how much of each.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "runtime/light_field/lens.h"
+
+namespace gazeloop::light_field {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+std::vector<WeightedView> views_of(const LightField& field, const glm::dvec3& eye_m) {
+    std::vector<WeightedView> views;
+    ViewsInLens(field, eye_m).for_each([&](const WeightedView& view) { views.push_back(view); });
+    return views;
+}
+
+const std::array kEyes_m{glm::dvec3{0.0}, glm::dvec3{0.0315, 0.004, 0.2},
+                         glm::dvec3{0.05, -0.05, 0.0}, glm::dvec3{9.0, -9.0, 1.0},
+                         glm::dvec3{kNan, kFar, -kFar}};
+
+TEST(Lens, SharesThePictureOutAmongItsViews) {
+    for (const double aperture_m : {0.0, 0.003, 0.02, 1.0, 1e3}) {
+        for (const std::uint32_t side : {1U, 2U, 9U, 25U}) {
+            const LightField field{.cameras = {.columns = side, .rows = side},
+                                   .lens = {.aperture_m = aperture_m}};
+            for (const glm::dvec3& eye_m : kEyes_m) {
+                double sum = 0.0;
+                for (const WeightedView& view : views_of(field, eye_m)) {
+                    EXPECT_GT(view.weight, 0.0);
+                    EXPECT_LT(view.view, field.cameras.count());
+                    sum += view.weight;
+                }
+                EXPECT_NEAR(sum, 1.0, 1e-12);
+            }
+        }
+    }
+}
+
+TEST(Lens, TakesAsManyViewsAsItsOpeningCovers) {
+    LightField field{.cameras = {.columns = 25, .rows = 25}, .lens = {.aperture_m = 0.0}};
+    EXPECT_EQ(views_of(field, {}).size(), 1U) << "a camera stands where the eye is";
+    EXPECT_EQ(views_of(field, {0.0025, 0.0025, 0.0}).size(), 4U);
+    field.lens.aperture_m = 1.0;
+    EXPECT_EQ(views_of(field, {}).size(), 625U);
+    field.lens.aperture_m = 0.01;
+    const auto some = views_of(field, {});
+    for (const WeightedView& view : some) {
+        EXPECT_LT(glm::length(view.camera_m), 0.015);
+    }
+    // Pi (r / spacing)^2 for r between the opening and a spacing more.
+    EXPECT_GT(some.size(), 12U);
+    EXPECT_LT(some.size(), 29U);
+    field.lens.every_view = true;
+    EXPECT_EQ(views_of(field, {}).size(), 625U);
+}
+
+// Between cameras, weights are continuous: what a moved eye sees changes by as little as it moved.
+TEST(Lens, LetsNoViewJumpIn) {
+    const LightField field{.cameras = {.columns = 9, .rows = 9, .spacing_m = 0.005},
+                           .lens = {.aperture_m = 0.007}};
+    const auto weights = [&](double x_m) {
+        std::vector<double> all(field.cameras.count());
+        for (const WeightedView& view : views_of(field, {x_m, 0.001, 0.0})) {
+            all.at(view.view) = view.weight;
+        }
+        return all;
+    };
+    constexpr double kStep_m = 1e-5;
+    auto before = weights(-0.03);
+    for (int step = 1; step < 6000; ++step) {
+        const auto now = weights(-0.03 + step * kStep_m);
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            // A weight rises by at most 1 per spacing, over a sum of at least 1.
+            ASSERT_LE(std::abs(now[i] - before[i]), 2.0 * kStep_m / 0.005);
+        }
+        before = now;
+    }
+}
+
+TEST(Lens, HasCamerasFromTopLeftToBottomRight) {
+    const CameraGrid grid{.columns = 3, .rows = 2, .spacing_m = 0.1};
+    EXPECT_EQ(grid.camera_m(0, 0), glm::dvec2(-0.1, 0.05));
+    EXPECT_EQ(grid.camera_m(2, 1), glm::dvec2(0.1, -0.05));
+}
+
+TEST(Lens, RefusesGridsThatAreNone) {
+    EXPECT_TRUE(check(CameraGrid{}).has_value());
+    for (const CameraGrid& bad :
+         {CameraGrid{.columns = 0}, CameraGrid{.rows = 65}, CameraGrid{.spacing_m = 0.0},
+          CameraGrid{.spacing_m = kNan}, CameraGrid{.half_tangents = {kFar, 1.0}},
+          CameraGrid{.half_tangents = {1.0, -1.0}}}) {
+        EXPECT_FALSE(check(bad).has_value());
+    }
+}
+
+}  // namespace
+}  // namespace gazeloop::light_field
