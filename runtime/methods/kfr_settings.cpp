@@ -92,7 +92,7 @@ std::vector<settings::SettingRow> rows_of(KfrSettings& kfr) {
     using settings::Concerns;
     using settings::Number;
     using settings::Whole;
-    const settings::OnlyWhile only = only_under({"kfr"});
+    const settings::OnlyWhile only = only_under({"kfr", "kfr3d"});
     return {
         {"kfr.alpha", "exponent of the kernels power (x^alpha) and power-as-printed",
          Number{&kfr.alpha, PowerKernel::kMinAlpha, PowerKernel::kMaxAlpha}, Concerns::Picture,

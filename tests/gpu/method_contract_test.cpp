@@ -24,6 +24,7 @@ const std::map<std::string, std::vector<NamedValue>> kEverything{
     {"sparse", {{"sparse.share", "1"}}},
     {"layers", {{"acuity.mar", "0.0001"}, {"layers.temporal", "false"}}},
     {"quad", {{"quad.section", "1"}}},
+    {"kfr3d", {{"kfr.sigma", "0.5"}}},
     {"fixed", {{"kfr.sigma", "0.5"}}}};
 
 struct Situation {

@@ -394,7 +394,7 @@ TEST_F(RivalMethods, QuadIsExactInsideItsInset) {
 
 TEST_F(RivalMethods, FixedLooksAheadWhereverTheGazeIs) {
     const RendererConfig config = pictures(96, 72);
-    for (const char* const held : {"kfr", "acuity", "layers", "rings", "sparse", "quad"}) {
+    for (const char* const held : {"kfr", "acuity", "layers", "rings", "sparse", "quad", "kfr3d"}) {
         const Picture ahead = left(held, {}, config, request_for(config, {48, 36}));
         const Picture fixed =
             left("fixed", {{"fixed.method", held}}, config, request_for(config, {5, 60}));

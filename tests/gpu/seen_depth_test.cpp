@@ -88,6 +88,7 @@ TEST_F(SeenDepth, IsKeptByEveryMethodThatShadesPixelsAroundTheFovea) {
                                            {{"layers.temporal", "false"}, {"acuity.mar", "0.1"}}},
           {"layers", {{"acuity.mar", "0.1"}}},
           {"quad", {}},
+          {"kfr3d", {}},
           {"rings", {}},
           {"fixed", {{"fixed.method", "quad"}}}}) {
         // Of samples that move in their cells, edges lie elsewhere.

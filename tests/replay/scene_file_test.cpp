@@ -73,6 +73,27 @@ TEST(SceneFiles, ThatCannotBeUsedEndTheRunWithThree) {
     EXPECT_THAT(result.err, HasSubstr("requires \"KHR_draco_mesh_compression\""));
 }
 
+TEST(SceneFiles, OfLightFieldsAreMadeAndShown) {
+    const TemporaryFolder folder;
+    const std::string out = (folder / "field").string();
+    const ProgramResult made =
+        run_gazeloop({"simulate", "light-field", out, "--views", "3", "--size", "32", "--scene",
+                      "raymarch", "--spacing", "20"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.out, HasSubstr("views.lightfield: 9 views of 32x32 px"));
+    for (const char* method : {"full", "kfr3d"}) {
+        const ProgramResult shown = run_scene(folder / "field" / "views.lightfield", method);
+        EXPECT_EQ(shown.exit_code, 0) << shown.err;
+    }
+    std::filesystem::remove(folder / "field" / "view_01_02.png");
+    const ProgramResult missing = run_scene(folder / "field" / "views.lightfield");
+    EXPECT_EQ(missing.exit_code, 3);
+    EXPECT_THAT(missing.err, HasSubstr("view_01_02.png is missing"));
+    const ProgramResult again = run_gazeloop({"simulate", "light-field", out});
+    EXPECT_EQ(again.exit_code, 3);
+    EXPECT_THAT(again.err, HasSubstr("it holds something already"));
+}
+
 TEST(SceneFiles, NamesThatAreNeitherAreRefused) {
     const ProgramResult result = run_scene("galery");
     EXPECT_EQ(result.exit_code, 2);

@@ -72,6 +72,9 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "kfr.lp_width",
       "kfr.polynomial",
       "kfr.sigma",
+      "kfr3d.growth",
+      "kfr3d.inner",
+      "kfr3d.regions",
       "layers.half_rate",
       "layers.n",
       "layers.outer_weight",
@@ -150,6 +153,9 @@ TEST(ProgramSettings, OfMethodsAreInUseUnderTheirs) {
         if (const auto more = also.find(row.key); more != also.end()) {
             expected.insert(expected.end(), more->second.begin(), more->second.end());
         }
+        if (group == "kfr") {
+            expected.emplace_back("kfr3d");  // whose foveal region it is
+        }
         if (group != "fixed") {
             expected.emplace_back("fixed");  // which may stand for any of them
         }
@@ -194,6 +200,7 @@ TEST(ProgramSettings, GiveEveryMemberARow) {
     expect_all(methods::AcuitySettings());
     expect_all(methods::FixedSettings());
     expect_all(methods::KfrSettings());
+    expect_all(methods::Kfr3dSettings());
     expect_all(methods::LayersSettings());
     expect_all(scene::LightFieldSettings());
     expect_all(methods::QuadSettings());

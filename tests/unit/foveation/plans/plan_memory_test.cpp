@@ -6,6 +6,7 @@
 
 #include "runtime/foveation/plans/acuity_plan.h"
 #include "runtime/foveation/plans/full_plan.h"
+#include "runtime/foveation/plans/kfr3d_plan.h"
 #include "runtime/foveation/plans/kfr_plan.h"
 #include "runtime/foveation/plans/layered_plan.h"
 #include "runtime/foveation/plans/shading_rings.h"
@@ -60,6 +61,14 @@ TEST(PlanMemory, OfFullDoesNotGrowWithTheGaze) {
 TEST(PlanMemory, OfKfrDoesNotGrowWithTheGaze) {
     for (const bool disc : {true, false}) {
         KfrPlan method({.disc = disc, .close_hole = true});
+        expect_memory_of_the_first_plan(method);
+    }
+}
+
+TEST(PlanMemory, Of3dKfrDoesNotGrowWithTheGaze) {
+    for (const double aperture_m : {0.01, 1.0}) {
+        Kfr3dPlan method({.regions = 4}, {.cameras = {.columns = 25, .rows = 25},
+                                          .lens = {.aperture_m = aperture_m}});
         expect_memory_of_the_first_plan(method);
     }
 }

@@ -1,0 +1,260 @@
+// Light fields: what a lens shows of one whose content is known, one that was baked, and 3D-KFR of
+// both.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "runtime/error.h"
+#include "runtime/render/srgb.h"
+#include "runtime/scene/light_field_scene.h"
+#include "sim/light_field_baker.h"
+#include "tests/support/frame_renderer_fixture.h"
+#include "tests/support/method_by_settings.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gazeloop::render {
+namespace {
+
+using Settings = std::vector<NamedValue>;
+
+constexpr double kPlane_m = 2.0;  ///< distance of the known content
+constexpr std::uint32_t kViewSize = 64;
+
+/// Linear radiance of a point of the plane: smooth over a texel, which is 1/16 m there.
+double content(const glm::dvec2& point_m) {
+    return 0.4 + 0.2 * std::sin(4.0 * point_m.x) + 0.15 * std::cos(3.0 * point_m.y + 1.0);
+}
+
+/// Views of the plane from 5 x 5 cameras.
+scene::LightFieldPictures known_views() {
+    scene::LightFieldPictures pictures{.cameras = {.columns = 5, .rows = 5, .spacing_m = 0.05},
+                                       .width_px = kViewSize,
+                                       .height_px = kViewSize,
+                                       .views = {}};
+    for (std::uint32_t view = 0; view < pictures.cameras.count(); ++view) {
+        const glm::dvec2 camera_m = pictures.cameras.camera_m(view % 5, view / 5);
+        std::vector<std::byte>& texels = pictures.views.emplace_back();
+        for (std::uint32_t y = 0; y < kViewSize; ++y) {
+            for (std::uint32_t x = 0; x < kViewSize; ++x) {
+                const glm::dvec2 tangents{(x + 0.5) / kViewSize * 2.0 - 1.0,
+                                          1.0 - (y + 0.5) / kViewSize * 2.0};
+                const double light = content(camera_m + kPlane_m * tangents);
+                const auto code = static_cast<std::byte>(std::lround(255.0 * srgb_encoded(light)));
+                texels.insert(texels.end(), {code, code, code, std::byte{255}});
+            }
+        }
+    }
+    return pictures;
+}
+
+class LightField : public FrameRendererTest {
+  protected:
+    static RendererConfig pictures(std::uint32_t width, std::uint32_t height) {
+        RendererConfig config;
+        config.extents = {vk::Extent2D(width, height), vk::Extent2D(width, height)};
+        config.hash = true;
+        return config;
+    }
+
+    /// Both eyes near `eye_m`, looking straight ahead.
+    static FrameRequest look(const RendererConfig& config, const glm::dvec3& eye_m,
+                             gaze::PixelPosition fovea, double half_rad = 0.6) {
+        FrameRequest request;
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            request.views[e] = {.pose = {.position_m = eye_m},
+                                .fov = {-half_rad, half_rad, half_rad, -half_rad},
+                                .width_px = config.extents[e].width,
+                                .height_px = config.extents[e].height};
+            request.foveae[e] = fovea;
+            request.gaze_directions[e] = gaze::unproject(fovea, request.views[e]);
+        }
+        return request;
+    }
+
+    struct Shown {
+        LinearPicture linear;
+        Picture picture;
+        std::uint64_t hash = 0;
+        frame::SampleCounts counts;
+    };
+    static Shown show(scene::Scene& scene, std::string_view method, const Settings& set,
+                      const RendererConfig& config, const FrameRequest& request) {
+        OffScreen off_screen(context(), scene, tests::passes_by(method, set), config);
+        const auto done = off_screen.render(request, request.fovea());
+        return {off_screen.linear_picture(gaze::Eye::Left), off_screen.picture(gaze::Eye::Left),
+                done.gpu.pixel_hash.value_or(0), done.counts};
+    }
+
+    static std::unique_ptr<scene::Scene> known(const light_field::Lens& lens) {
+        return scene::make_light_field_scene(context(), known_views(), lens);
+    }
+
+    /// The greatest difference from the plane itself.
+    static double error(const LinearPicture& shown, const FrameRequest& request) {
+        double most = 0.0;
+        const gaze::EyeView& view = request.views[0];
+        for (std::uint32_t y = 0; y < shown.height; ++y) {
+            for (std::uint32_t x = 0; x < shown.width; ++x) {
+                const glm::dvec3 ray = gaze::unproject({x + 0.5, y + 0.5}, view);
+                const glm::dvec3 from = view.pose.position_m;
+                const glm::dvec3 hit = from + (kPlane_m + from.z) / -ray.z * ray;
+                const double light = shown.pixels[std::size_t{y} * shown.width + x].g;
+                most = std::max(most, std::abs(light - content(glm::dvec2(hit))));
+            }
+        }
+        return most;
+    }
+};
+
+constexpr double kCodes = 0.012;  ///< two 8-bit codes, of light up to .75
+
+// Focused on what is there, the picture is that of the plane, through any lens and from anywhere.
+TEST_F(LightField, IsSharpOnItsFocalPlane) {
+    const RendererConfig config = pictures(48, 40);
+    for (const double aperture_m : {0.0, 0.03, 1.0}) {
+        const auto scene = known({.focus_m = kPlane_m, .aperture_m = aperture_m});
+        for (const glm::dvec3& eye_m :
+             {glm::dvec3{0.0}, glm::dvec3{0.013, -0.021, 0.0}, glm::dvec3{-0.05, 0.04, 0.3},
+              glm::dvec3{0.02, 0.0, -0.4}}) {
+            const FrameRequest at = look(config, eye_m, {24, 20});
+            EXPECT_LT(error(show(*scene, "full", {}, config, at).linear, at), kCodes)
+                << aperture_m << ' ' << eye_m.x;
+        }
+    }
+}
+
+TEST_F(LightField, IsBlurredElsewhereByAWideLens) {
+    const RendererConfig config = pictures(48, 40);
+    const FrameRequest at = look(config, {}, {24, 20});
+    const auto blurred = known({.focus_m = 0.3, .aperture_m = 1.0});
+    const auto sharp = known({.focus_m = 0.3, .aperture_m = 0.0});
+    EXPECT_GT(error(show(*blurred, "full", {}, config, at).linear, at), 3.0 * kCodes);
+    EXPECT_LT(error(show(*sharp, "full", {}, config, at).linear, at), kCodes);
+}
+
+TEST_F(LightField, IsBlackBeyondItsViewsAndBehind) {
+    const RendererConfig config = pictures(32, 32);
+    const auto scene = known({.focus_m = kPlane_m, .aperture_m = 0.0});
+    const FrameRequest wide = look(config, {}, {16, 16}, 1.2);
+    const Picture shown = show(*scene, "full", {}, config, wide).picture;
+    EXPECT_EQ(shown.pixels[0], (std::array<std::uint8_t, 3>{0, 0, 0}));
+    EXPECT_GT(shown.pixels[16 * 32 + 16][1], 100);
+    FrameRequest behind = look(config, {}, {16, 16});
+    for (gaze::EyeView& view : behind.views) {
+        view.pose.orientation = {0.0, 0.0, 1.0, 0.0};  // half a turn about y
+    }
+    for (const auto& pixel : show(*scene, "full", {}, config, behind).picture.pixels) {
+        ASSERT_EQ(pixel, (std::array<std::uint8_t, 3>{0, 0, 0}));
+    }
+}
+
+TEST_F(LightField, OfNoWeightIsLeftOutWithoutATrace) {
+    const RendererConfig config = pictures(48, 40);
+    const FrameRequest at = look(config, {0.02, 0.01, 0.0}, {30, 20});
+    light_field::Lens lens{.focus_m = 1.0, .aperture_m = 0.04};
+    const auto needed = known(lens);
+    lens.every_view = true;
+    const auto all = known(lens);
+    for (const char* const method : {"full", "kfr", "kfr3d"}) {
+        EXPECT_EQ(largest_difference(show(*needed, method, {}, config, at).picture,
+                                     show(*all, method, {}, config, at).picture),
+                  0)
+            << method;
+    }
+}
+
+TEST_F(LightField, IsShownByEveryMethodOnASmoothPlane) {
+    const RendererConfig config = pictures(96, 80);
+    const auto scene = known({.focus_m = kPlane_m, .aperture_m = 1.0});
+    const FrameRequest at = look(config, {0.01, 0.0, 0.0}, {60, 30});
+    const Picture full = show(*scene, "full", {}, config, at).picture;
+    for (const char* const method : {"kfr", "acuity", "layers", "quad", "kfr3d"}) {
+        EXPECT_LE(largest_difference(show(*scene, method, {}, config, at).picture, full), 6)
+            << method;
+    }
+}
+
+// With one region, 3D-KFR is KFR on every view.
+TEST_F(LightField, ByOneRegionIsKfr) {
+    const RendererConfig config = pictures(96, 80);
+    const auto scene = known({.focus_m = 1.0, .aperture_m = 1.0});
+    for (const gaze::PixelPosition fovea : {gaze::PixelPosition{48, 40}, {90, 5}, {-20, 40}}) {
+        const FrameRequest at = look(config, {}, fovea);
+        const Shown one = show(*scene, "kfr3d", {{"kfr3d.regions", "1"}}, config, at);
+        const Shown kfr = show(*scene, "kfr", {}, config, at);
+        // Sums in another order may round the other way.
+        EXPECT_LE(largest_difference(one.picture, kfr.picture), 1);
+        EXPECT_EQ(one.counts.shaded(), kfr.counts.shaded());
+    }
+}
+
+TEST_F(LightField, By3dKfrReadsNothingThatWasNotShadedAndIsExactInTheDisc) {
+    RendererConfig config = pictures(96, 80);
+    const auto scene = known({.focus_m = 0.7, .aperture_m = 0.08});
+    for (const char* const regions : {"2", "3", "4"}) {
+        const Settings set{{"kfr3d.regions", regions}, {"kfr3d.inner", "0.2"}};
+        for (const gaze::PixelPosition fovea :
+             {gaze::PixelPosition{48, 40}, {95, 79}, {0, 40}, {300, 10}}) {
+            const FrameRequest at = look(config, {0.03, -0.03, 0.0}, fovea);
+            config.unshaded = {0.0F, 0.0F, 0.0F, 1.0F};
+            const Shown on_black = show(*scene, "kfr3d", set, config, at);
+            config.unshaded = {5e4F, 0.0F, 5e4F, 1.0F};
+            EXPECT_EQ(show(*scene, "kfr3d", set, config, at).hash, on_black.hash);
+            if (fovea.x_px < 96) {
+                const auto pixel = static_cast<std::size_t>(std::min(fovea.y_px, 79.0)) * 96 +
+                                   static_cast<std::size_t>(std::min(fovea.x_px, 95.0));
+                const Picture full = show(*scene, "full", {}, config, at).picture;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    EXPECT_NEAR(on_black.picture.pixels[pixel][c], full.pixels[pixel][c], 1);
+                }
+            }
+        }
+    }
+}
+
+// From where a camera stood, a baked light field shows the scene as it is.
+TEST_F(LightField, ThatWasBakedShowsItsScene) {
+    const tests::TemporaryFolder folder;
+    const auto file = sim::bake_light_field(
+        context(), scene(),
+        {.views = 3, .size_px = 48, .spacing_m = 0.02, .field_deg = 90.0, .scene_time_s = 2.5},
+        folder / "field", [](std::uint32_t, std::uint32_t) { return true; });
+    ASSERT_TRUE(file.has_value()) << file.error().message;
+    scene::SceneOptions options;
+    options.light_field.aperture_m = 0.0;
+    const auto baked = scene::make_scene(context(), file->string(), options);
+    const RendererConfig config = pictures(48, 48);
+    for (const glm::dvec3& camera_m : {glm::dvec3{0.0}, glm::dvec3{-0.02, 0.02, 0.0}}) {
+        FrameRequest at = look(config, camera_m, {24, 24}, std::atan(1.0));
+        at.scene_time_s = 2.5;
+        // Filtered in 256 steps of a texel.
+        EXPECT_LE(largest_difference(show(*baked, "full", {}, config, at).picture,
+                                     show(scene(), "full", {}, config, at).picture),
+                  3);
+    }
+    const auto again =
+        sim::bake_light_field(context(), scene(), {.views = 3, .size_px = 48}, folder / "field",
+                              [](std::uint32_t, std::uint32_t) { return true; });
+    ASSERT_FALSE(again.has_value());
+    EXPECT_THAT(again.error().message, testing::HasSubstr("it holds something already"));
+}
+
+TEST_F(LightField, IsBakedUntilItIsInterrupted) {
+    const tests::TemporaryFolder folder;
+    const auto bake = [&](const sim::LightFieldBake& asked) {
+        return sim::bake_light_field(context(), scene(), asked, folder / "field",
+                                     [](std::uint32_t done, std::uint32_t) { return done < 2; });
+    };
+    EXPECT_EQ(bake({.views = 2, .size_px = 8}).error().kind, ErrorKind::Interrupted);
+    for (const sim::LightFieldBake& bad :
+         {sim::LightFieldBake{.views = 0}, sim::LightFieldBake{.views = 65},
+          sim::LightFieldBake{.size_px = 1}, sim::LightFieldBake{.field_deg = 180.0},
+          sim::LightFieldBake{.spacing_m = 0.0}}) {
+        EXPECT_EQ(bake(bad).error().kind, ErrorKind::Usage);
+    }
+}
+
+}  // namespace
+}  // namespace gazeloop::render
