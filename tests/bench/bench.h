@@ -96,6 +96,19 @@ std::vector<Figure> front(const Options& options);
 /// each scene, a plot.
 std::vector<Figure> rivals(const Options& options);
 
+/// Table 1 of Guenter et al. 2012 on the built-in scene of meshes, at 1920x1080 on the paper's
+/// display: content by content (a case each), frames by layers for three eyes and at full
+/// resolution with three antialiasings, as times and as ratios to full resolution.
+std::vector<Figure> layers(const Options& options);
+
+/// What the article on sparse samples leaves open: quality, flicker and speed by placement, number
+/// of neighbours, depth and turning patterns, each at as many samples.
+std::vector<Figure> sparse(const Options& options);
+
+/// Speed of 3D-KFR and of KFR over full resolution of all 25 x 25 views of a light field, and their
+/// error, by sigma; through a lens that takes every view and through one that asks for some.
+std::vector<Figure> lightfield(const Options& options);
+
 /// How fast traces are read: MB of CSV per second of CPU time, of the whole reader and of its
 /// parts.
 std::vector<Figure> traces(const Options& options);

@@ -35,6 +35,9 @@ constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
                               Named{"rivals", rivals},
                               Named{"headline", headline},
                               Named{"front", front},
+                              Named{"layers", layers},
+                              Named{"sparse", sparse},
+                              Named{"lightfield", lightfield},
                               Named{"traces", traces}};
 
 /// Preload libraries count from a program's start: it begins once more, under umockdev's.

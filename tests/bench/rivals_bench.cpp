@@ -8,17 +8,16 @@
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <numbers>
-#include <numeric>
 
 #include "drivers/trace/read_trace.h"
 #include "runtime/error.h"
 #include "runtime/methods/registry.h"
 #include "runtime/profiles/profiles.h"
-#include "runtime/render/off_screen.h"
 #include "runtime/report/line_chart.h"
 #include "runtime/scene/scenes.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/raycast_setup.h"
+#include "tests/bench/timed_method.h"
 #include "tests/support/method_by_settings.h"
 
 namespace gazeloop::bench {
@@ -58,78 +57,13 @@ std::vector<Gaze> gazes(const Options& options) {
     return all;
 }
 
-/// One method on one scene, frame after frame.
-class Rival {
-  public:
-    Rival(const vulkan::Context& context, const methods::Method& method, std::string_view scene,
-          const render::RendererConfig& config)
-        : name_(method.name),
-          scene_(scene::make_scene(context, scene)),
-          targets_(context, config.extents, config.format),
-          renderer_(std::make_unique<render::FrameRenderer>(context, *scene_,
-                                                            tests::passes_by(method.name), config)),
-          frame_ms_(kFrames) {}
-
-    void warm_up(const vulkan::Context& context, const gaze::StereoView& views) {
-        render::warm_up(context, *renderer_, views);
-    }
-
-    void frame(std::size_t index, render::FrameView view, const gaze::FrameFovea& fovea) {
-        view.targets = targets_.targets();
-        renderer_->wait_for_slot();
-        renderer_->begin(view);
-        samples_ += static_cast<double>(renderer_->finish(fovea).shaded());
-        ++frames_;
-        renderer_->wait_idle();
-        while (const auto finished = renderer_->next_finished()) {
-            double total_ms = 0.0;
-            for (std::size_t pass = 0; pass < renderer_->passes().size(); ++pass) {
-                const double ms = static_cast<double>(finished->passes[pass].value_or(0)) * 1e-6;
-                pass_ms_.at(pass) += ms;
-                total_ms += ms;
-            }
-            frame_ms_.at(index).push_back(total_ms);
-        }
-    }
-
-    [[nodiscard]] const std::string& name() const { return name_; }
-    /// Per frame, both eyes.
-    [[nodiscard]] double samples() const { return samples_ / static_cast<double>(frames_); }
-    /// The median of each frame's rounds.
-    [[nodiscard]] std::vector<double> frame_ms() const {
-        std::vector<double> medians;
-        for (const std::vector<double>& rounds : frame_ms_) {
-            medians.push_back(median(rounds));
-        }
-        return medians;
-    }
-    [[nodiscard]] double ms() const {
-        const std::vector<double> all = frame_ms();
-        return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
-    }
-    [[nodiscard]] const frame::PassList& passes() const { return renderer_->passes(); }
-    /// Mean of all frames.
-    [[nodiscard]] double pass_ms(std::size_t pass) const {
-        return pass_ms_.at(pass) / static_cast<double>(frames_);
-    }
-
-  private:
-    std::string name_;
-    std::unique_ptr<scene::Scene> scene_;
-    render::OffScreenTargets targets_;
-    std::unique_ptr<render::FrameRenderer> renderer_;
-    double samples_ = 0.0;
-    std::size_t frames_ = 0;
-    std::vector<std::vector<double>> frame_ms_;
-    std::array<double, frame::kMostPasses> pass_ms_{};
-};
-
 /// All methods on one scene.
 class Measurement {
   public:
     Measurement(const vulkan::Context& context, std::string_view scene, const Options& options)
         : context_(context),
-          scene_(scene),
+          scene_name_(scene),
+          scene_(scene::make_scene(context, scene)),
           display_(value_or_throw(profiles::load_display(kDisplay))),
           gazes_(gazes(options)) {
         config_.samples = options.samples.value_or(kSamples);
@@ -138,7 +72,9 @@ class Measurement {
         config_.extents = {extent, extent};
         for (const methods::Method& method : methods::all_methods()) {
             if (method.passes != nullptr) {
-                rivals_.push_back(std::make_unique<Rival>(context, method, scene, config_));
+                rivals_.push_back(
+                    std::make_unique<TimedMethod>(context, std::string(method.name), *scene_,
+                                                  tests::passes_by(method.name), config_, kFrames));
                 rivals_.back()->warm_up(context, views(0));
             }
         }
@@ -150,12 +86,13 @@ class Measurement {
     }
 
     void add_figures(std::vector<Figure>& figures) const {
-        const Rival& full = *rivals_.front();
+        const TimedMethod& full = *rivals_.front();
         for (const auto& rival : rivals_) {
             const auto add = [&](std::string_view metric, double value, const char* unit,
                                  const char* better) {
-                figures.push_back({"rivals", scene_, fmt::format("{} {}", rival->name(), metric),
-                                   value, unit, better});
+                figures.push_back({"rivals", scene_name_,
+                                   fmt::format("{} {}", rival->name(), metric), value, unit,
+                                   better});
             };
             add("speedup", full.ms() / rival->ms(), "x", "higher");
             add("fewer samples", full.samples() / rival->samples(), "x", "higher");
@@ -167,12 +104,12 @@ class Measurement {
 
     /// A line for each method, and for each of its passes.
     void write_csv(std::ostream& out) const {
-        const Rival& full = *rivals_.front();
+        const TimedMethod& full = *rivals_.front();
         for (const auto& rival : rivals_) {
-            out << fmt::format("{},{},all,{:.3f},{:.0f},{:.3f}\n", scene_, rival->name(),
+            out << fmt::format("{},{},all,{:.3f},{:.0f},{:.3f}\n", scene_name_, rival->name(),
                                rival->ms(), rival->samples(), full.ms() / rival->ms());
             for (std::size_t pass = 0; pass < rival->passes().size(); ++pass) {
-                out << fmt::format("{},{},{},{:.3f},,\n", scene_, rival->name(),
+                out << fmt::format("{},{},{},{:.3f},,\n", scene_name_, rival->name(),
                                    rival->passes()[pass], rival->pass_ms(pass));
             }
         }
@@ -180,7 +117,7 @@ class Measurement {
 
     void write_plot(const std::filesystem::path& file) const {
         report::LineChart chart{
-            .title = fmt::format("Frames of every method: {}", scene_),
+            .title = fmt::format("Frames of every method: {}", scene_name_),
             .subtitle =
                 fmt::format("{} at {}x{} an eye, {} samples per cell, in turns", kDisplay,
                             config_.extents[0].width, config_.extents[0].height, config_.samples),
@@ -235,11 +172,12 @@ class Measurement {
     }
 
     const vulkan::Context& context_;
-    std::string scene_;
+    std::string scene_name_;
+    std::unique_ptr<scene::Scene> scene_;
     display::DisplayProfile display_;
     std::vector<Gaze> gazes_;
     render::RendererConfig config_;
-    std::vector<std::unique_ptr<Rival>> rivals_;
+    std::vector<std::unique_ptr<TimedMethod>> rivals_;
 };
 
 }  // namespace

@@ -1,0 +1,203 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/error.h"
+#include "runtime/foveation/plans/kfr3d_plan.h"
+#include "runtime/scene/light_field_file.h"
+#include "runtime/scene/scenes.h"
+#include "sim/light_field_baker.h"
+#include "tests/bench/bench.h"
+#include "tests/bench/timed_method.h"
+#include "tests/support/method_by_settings.h"
+
+namespace gazeloop::bench {
+namespace {
+
+/// The paper has 25 x 25 views of 1024 x 1024; views and picture are smaller here, which changes no
+/// ratio of samples but for the texels that bands round up to.
+constexpr std::uint32_t kViews = 25;
+constexpr std::uint32_t kViewSize_px = 256;
+constexpr std::uint32_t kPictureSize_px = 512;
+constexpr double kField_deg = 90.0;
+/// A lens that takes all views, as the paper does, and one that asks for some of them.
+constexpr double kWideLens_m = 1.0;
+constexpr double kNarrowLens_m = 0.025;
+
+struct Case {
+    const char* name;
+    const char* sigma;
+    std::optional<double> target;         ///< of the published speed-up
+    std::optional<double> narrow_target;  ///< where views are left out
+};
+constexpr Case kCases[] = {{"sigma1.2", "1.2", std::nullopt, std::nullopt},
+                           {"sigma2", "2.0", 3.47, 12.0},
+                           {"sigma3", "3.0", 7.28, 12.0}};
+
+/// A light field of the ray-marched scene, made once.
+std::filesystem::path light_field(const vulkan::Context& context) {
+    const std::filesystem::path folder = std::filesystem::path(GAZELOOP_BINARY_DIR) /
+                                         fmt::format("light-field-{}-{}", kViews, kViewSize_px);
+    const std::filesystem::path file = folder / fmt::format("views{}", scene::kLightFieldExtension);
+    if (!std::filesystem::exists(file)) {
+        std::filesystem::remove_all(folder);
+        const auto scene = scene::make_scene(context, "raymarch");
+        return value_or_throw(sim::bake_light_field(
+            context, *scene,
+            {.views = kViews, .size_px = kViewSize_px, .field_deg = kField_deg, .samples = 4},
+            folder, [](std::uint32_t, std::uint32_t) { return true; }));
+    }
+    return file;
+}
+
+/// Texture samples of the left eye's picture, by counting: texels times the views of their region,
+/// pixels of the disc times all views, and what the resolve reads.
+double counted_samples(const foveation::EyePlan& plan, std::uint32_t regions) {
+    double samples = 0.0;
+    double views = 0.0;
+    for (std::uint32_t region = 0; region < regions; ++region) {
+        const double in_region = foveation::Kfr3dPlan::views_in(plan.table, region);
+        samples += in_region * static_cast<double>(plan.grids.at(region).counts.shaded);
+        views += in_region;
+    }
+    return samples + views * static_cast<double>(plan.grids.at(regions).counts.shaded) +
+           (regions + 1.0) * kPictureSize_px * kPictureSize_px;
+}
+
+/// By Eq. 14, with the N + 1 reads of pass II.
+double samples_by_formula(const foveation::EyePlan& plan, std::uint32_t regions, double sigma,
+                          double growth) {
+    double per_pixel = regions;
+    for (std::uint32_t region = 0; region < regions; ++region) {
+        const double coarser = sigma * std::pow(growth, region);
+        per_pixel += foveation::Kfr3dPlan::views_in(plan.table, region) / (coarser * coarser);
+    }
+    return per_pixel * kPictureSize_px * kPictureSize_px;
+}
+
+/// The root of the mean squared difference in linear light.
+double difference(const render::LinearPicture& a, const render::LinearPicture& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const glm::vec3 apart = a.pixels[i] - b.pixels[i];
+        sum += glm::dot(apart, apart) / 3.0;
+    }
+    return std::sqrt(sum / static_cast<double>(a.pixels.size()));
+}
+
+/// One lens: full resolution of all views, and what KFR and 3D-KFR make of it.
+class Measurement {
+  public:
+    Measurement(const vulkan::Context& context, const std::filesystem::path& file,
+                double aperture_m, const Case& at)
+        : context_(context), case_(at) {
+        scene::SceneOptions options;
+        options.light_field.aperture_m = aperture_m;
+        needed_ = scene::make_scene(context, file.string(), options);
+        options.require_all = true;
+        all_ = scene::make_scene(context, file.string(), options);
+        config_.extents = {vk::Extent2D(kPictureSize_px, kPictureSize_px), vk::Extent2D(8, 8)};
+        add("full", *all_, "full");
+        add("full, needed views", *needed_, "full");
+        add("kfr", *needed_, "kfr");
+        add("kfr3d, all views", *all_, "kfr3d");
+        add("kfr3d", *needed_, "kfr3d");
+    }
+
+    void run(unsigned rounds) {
+        const render::FrameView view = frame();
+        gaze::FrameFovea fovea = render::fovea_ahead(view.views);
+        for (const auto& method : methods_) {
+            method->warm_up(context_, view.views);
+        }
+        for (unsigned round = 0; round < rounds; ++round) {
+            for (const auto& method : methods_) {
+                method->frame(0, view, fovea);
+            }
+        }
+    }
+
+    void add_figures(const std::string& lens, std::optional<double> target,
+                     std::vector<Figure>& figures) const {
+        const TimedMethod& full = *methods_.front();
+        const render::LinearPicture reference = full.picture(context_, gaze::Eye::Left);
+        const auto put = [&](const std::string& metric, double value, const char* unit,
+                             const char* better) -> Figure& {
+            return figures.emplace_back(
+                Figure{"lightfield", case_.name, lens + metric, value, unit, better});
+        };
+        put("full", full.ms(), "ms", "lower");
+        for (std::size_t i = 1; i < methods_.size(); ++i) {
+            const TimedMethod& method = *methods_[i];
+            const std::string name = method.name() == "kfr3d" ? "" : method.name() + " ";
+            Figure& speedup = put(name + "speedup", full.ms() / method.ms(), "x", "higher");
+            if (name.empty()) {
+                speedup.target = target;
+            }
+            put(name + "error", difference(method.picture(context_, gaze::Eye::Left), reference),
+                "", "lower");
+        }
+        const foveation::EyePlan& plan = methods_.back()->plan(gaze::Eye::Left);
+        const methods::Kfr3dSettings set;
+        const auto regions = static_cast<std::uint32_t>(set.regions);
+        const double pixels = double{kPictureSize_px} * kPictureSize_px;
+        put("fewer samples, counted", kViews * kViews * pixels / counted_samples(plan, regions),
+            "x", "higher");
+        put("fewer samples, Eq. 14",
+            kViews * kViews * pixels /
+                samples_by_formula(plan, regions, std::stod(case_.sigma), set.growth),
+            "x", "higher");
+    }
+
+  private:
+    void add(const char* name, scene::Scene& scene, const char* method) {
+        const std::vector<NamedValue> set{{"kfr.sigma", case_.sigma}};
+        methods_.push_back(std::make_unique<TimedMethod>(
+            context_, name, scene, tests::passes_by(method, set), config_, 1));
+    }
+
+    [[nodiscard]] render::FrameView frame() const {
+        render::FrameView frame;
+        const double half_rad = std::atan(1.0) * kField_deg / 90.0;
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            frame.views[e] = {.fov = {-half_rad, half_rad, half_rad, -half_rad},
+                              .width_px = config_.extents[e].width,
+                              .height_px = config_.extents[e].height};
+        }
+        return frame;
+    }
+
+    const vulkan::Context& context_;
+    const Case& case_;
+    std::unique_ptr<scene::Scene> needed_;
+    std::unique_ptr<scene::Scene> all_;
+    render::RendererConfig config_;
+    std::vector<std::unique_ptr<TimedMethod>> methods_;
+};
+
+}  // namespace
+
+std::vector<Figure> lightfield(const Options& options) {
+    const vulkan::Context context({}, nullptr);
+    const std::filesystem::path file = light_field(context);
+    std::vector<Figure> figures;
+    for (const Case& at : kCases) {
+        if (!options.wants(at.name)) {
+            continue;
+        }
+        Measurement wide(context, file, kWideLens_m, at);
+        wide.run(options.rounds);
+        wide.add_figures("", at.target, figures);
+        Measurement narrow(context, file, kNarrowLens_m, at);
+        narrow.run(options.rounds);
+        narrow.add_figures("lens ", at.narrow_target, figures);
+    }
+    return figures;
+}
+
+}  // namespace gazeloop::bench

@@ -1,0 +1,122 @@
+#include <fmt/core.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "runtime/error.h"
+#include "runtime/profiles/profiles.h"
+#include "runtime/run/program_settings.h"
+#include "runtime/trade/sweep.h"
+#include "tests/bench/bench.h"
+
+namespace gazeloop::bench {
+namespace {
+
+constexpr const char* kDisplay = "fove0";
+constexpr double kScale = 0.25;  ///< of its pictures' sides
+constexpr std::size_t kFrames = 8;
+
+using Settings = std::vector<NamedValue>;
+
+/// What the article leaves open, each against the same pattern of as many samples: blue noise, the
+/// number of neighbours, depth, and patterns that turn.
+struct Choice {
+    const char* name;
+    Settings set;
+};
+const std::array kChoices{
+    Choice{"gaussian k=4", {}},
+    Choice{"gaussian k=1", {{"sparse.k", "1"}}},
+    Choice{"gaussian k=8", {{"sparse.k", "8"}}},
+    Choice{"gaussian k=4 depth", {{"sparse.depth_guided", "true"}}},
+    Choice{"blue k=1", {{"sparse.placement", "blue_noise"}, {"sparse.k", "1"}}},
+    Choice{"blue k=4", {{"sparse.placement", "blue_noise"}}},
+    Choice{"blue k=4 depth", {{"sparse.placement", "blue_noise"}, {"sparse.depth_guided", "true"}}},
+    Choice{"blue k=4 turn", {{"sparse.placement", "blue_noise"}, {"sparse.turn", "true"}}},
+    Choice{"blue k=4 turn mixed",
+           {{"sparse.placement", "blue_noise"},
+            {"sparse.turn", "true"},
+            {"sparse.accumulate", "true"}}}};
+constexpr std::array kShares{"0.1", "0.2"};  // those of the article
+
+Settings with_share(Settings set, const char* share) {
+    set.emplace_back("sparse.share", share);
+    return set;
+}
+
+/// A still gaze at a still scene: then a frame that differs from the one before flickers.
+trade::SweepQuestion question_of(const char* scene, const Options& options) {
+    const display::DisplayProfile display = value_or_throw(profiles::load_display(kDisplay));
+    trade::SweepQuestion question{.views = {},
+                                  .scene = scene,
+                                  .samples = options.samples.value_or(1),
+                                  .frame_seconds = 1.0 / 90.0,
+                                  .rounds = options.rounds};
+    for (const gaze::Eye eye : gaze::kEyes) {
+        question.views[gaze::index(eye)] = display::profile_view(
+            display, eye, static_cast<std::uint32_t>(display.width_px * kScale),
+            static_cast<std::uint32_t>(display.height_px * kScale));
+    }
+    const glm::dvec3 ahead{0.0, 0.0, -1.0};
+    question.gaze.assign(kFrames, {ahead, ahead});
+    question.comparison.view = question.views[0];
+    question.comparison.metrics = {true, true, false, false};  // contrast and FLIP
+    question.comparison.frame_seconds = question.frame_seconds;
+    question.comparison.contrast.threads = 2;
+    return question;
+}
+
+void measure(const vulkan::Context& context, const char* scene_name, const Options& options,
+             std::vector<Figure>& figures) {
+    const trade::SweepQuestion question = question_of(scene_name, options);
+    std::vector<trade::SweepPoint> points;
+    std::vector<std::string> names;
+    for (const char* const share : kShares) {
+        for (const Choice& choice : kChoices) {
+            trade::SweepPoint& point = points.emplace_back(trade::SweepPoint{.method = "sparse"});
+            for (const auto& [key, value] : with_share(choice.set, share)) {
+                point.settings.emplace_back(key, value);
+            }
+            names.push_back(fmt::format("{} {}", share, choice.name));
+        }
+    }
+    run::ProgramSettings settings;
+    const auto rows = value_or_throw(
+        trade::sweep(context, question, points, settings.values().methods, settings,
+                     {.progress = [](const std::string& said) { fmt::print(stderr, "{}\n", said); },
+                      .interrupted = [] { return false; }}));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const trade::SweepRow& row = rows.at(i + 1);  // the first one is full resolution
+        if (!row.error.empty()) {
+            throw SetupError(ErrorKind::BadInput, row.error);
+        }
+        const auto put = [&](const std::string& metric, double value, const char* unit,
+                             const char* better) {
+            figures.push_back({"sparse", scene_name, names[i] + " " + metric, value, unit, better});
+        };
+        put("fewer samples", row.fewer_cells, "x", "higher");
+        put("speedup", row.speedup, "x", "higher");
+        for (const quality::QualityFigure& figure : row.figures) {
+            if (figure.key == "contrast" || figure.key == "contrast_flicker" ||
+                figure.key == "flip") {
+                put(figure.key, figure.mean, "", figure.lower_is_better ? "lower" : "higher");
+            }
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Figure> sparse(const Options& options) {
+    const vulkan::Context context({}, nullptr);
+    std::vector<Figure> figures;
+    for (const char* const scene : {"raymarch", "gallery"}) {
+        if (options.wants(scene)) {
+            measure(context, scene, options, figures);
+        }
+    }
+    return figures;
+}
+
+}  // namespace gazeloop::bench
