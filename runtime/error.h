@@ -9,7 +9,7 @@
 
 namespace gazeloop {
 
-/// What went wrong, for whoever has to act on it. runtime/cli/exit_code.h has the program's codes.
+/// What went wrong, for whoever has to act on it. command_line/exit_code.h has the program's codes.
 enum class ErrorKind : std::uint8_t {
     GateFailed,           ///< a budget, a quality gate or a replay comparison failed
     Usage,                ///< command line or configuration

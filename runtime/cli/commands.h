@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "runtime/cli/command_line.h"
+#include "runtime/command_line/command_line.h"
 
 namespace gazeloop::cli {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/cli/command_line.h"
+#include "runtime/command_line/command_line.h"
 #include "runtime/quality/comparison.h"
 
 namespace gazeloop::cli {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "drivers/trace/read_options.h"
-#include "runtime/cli/command_line.h"
+#include "runtime/command_line/command_line.h"
 
 namespace gazeloop::cli {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/cli/command_line.h"
+#include "runtime/command_line/command_line.h"
 #include "runtime/run/program_settings.h"
 
 namespace gazeloop::run {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/cli/command_line.h"
+#include "runtime/command_line/command_line.h"
 #include "runtime/cli/quality_options.h"
 #include "runtime/trade/trade_off.h"
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "runtime/cli/command_line.h"
+#include "runtime/command_line/command_line.h"
 #include "tests/bench/bench.h"
 
 namespace gazeloop::bench {

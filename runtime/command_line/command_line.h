@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/cli/exit_code.h"
+#include "runtime/command_line/exit_code.h"
 
 // CLI11 takes ten seconds per file to compile: its header stays in command_line.cpp.
 namespace CLI {

@@ -1,4 +1,4 @@
-#include "runtime/cli/command_line.h"
+#include "runtime/command_line/command_line.h"
 
 #include <fmt/core.h>
 
