@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "runtime/gaze/direction.h"
-#include "runtime/gaze/saccade_detector.h"
+#include "runtime/gaze/direction.h"
 #include "runtime/gaze/usable_direction.h"
 #include "runtime/gaze/usable_pose.h"
 
@@ -98,7 +98,7 @@ void RecordedEvents::close() {
         const double scatter = 1.0 - glm::dot(sum_, sum_) / (count * count);
         event.deviation_deg = glm::degrees(std::sqrt(std::max(scatter, 0.0)));
         if (event.from != kNowhere) {
-            event.amplitude_deg = angle_between_deg(event.from, event.to);
+            event.amplitude_deg = glm::degrees(angle_between(event.from, event.to));
         }
     }
     events_.push_back(event);
