@@ -24,9 +24,9 @@ struct LagRule {
 /// holds speaks; of Unknown all do.
 enum class LagSubject : std::uint8_t {
     Standing,  ///< how late the gaze is, or why that cannot be said
-    Loss,      ///< that it is lost so often that this matters more
     Cost,      ///< the stage that costs most
     Budget,    ///< whether the budget is kept
+    Loss,      ///< that it is lost so often that this matters more
     Remedy,    ///< the one thing to try
     Unknown,   ///< what is unknown, why, and what would make it known
 };

@@ -424,7 +424,7 @@ TEST(LagReasons, SpeakOfLossFirstWhereItIsNoBlinks) {
     lost.report.verdict = Verdict::NotRealTime;
     lost.facts.device = kSoftware;
     EXPECT_THAT(lost.rules(),
-                ElementsAre("not-in-time", "often-lost", "cost-tracker", "try-finding-the-eye"));
+                ElementsAre("not-in-time", "cost-tracker", "often-lost", "try-finding-the-eye"));
 }
 
 TEST(LagReasons, AreSilentOnABudgetWithoutATotal) {
