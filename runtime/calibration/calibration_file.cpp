@@ -114,12 +114,6 @@ Expected<CalibrationFile> read_calibration(const std::filesystem::path& file) {
     if (text.size() > kLargestFile) {
         return bad(file, "is larger than any calibration (64 KiB)");
     }
-    // Every line is ended as it is written: a file that was cut inside a number would still be
-    // read.
-    if (!text.ends_with('\n')) {
-        return bad(file,
-                   "is cut short: its last line has no end; copy it again, or calibrate anew");
-    }
     toml::table table;
     try {
         table = toml::parse(text, file.string());
@@ -132,6 +126,12 @@ Expected<CalibrationFile> read_calibration(const std::filesystem::path& file) {
         return bad(file, fmt::format("is no calibration: format = \"{}\" and version = {} are "
                                      "missing",
                                      kFormat, kVersion));
+    }
+    // Every line is ended as it is written: a file that was cut inside a number would still be
+    // read.
+    if (!text.ends_with('\n')) {
+        return bad(file,
+                   "is cut short: its last line has no end; copy it again, or calibrate anew");
     }
     CalibrationFile result{.user = table["user"].value_or(std::string()),
                            .device = table["device"].value_or(std::string()),
