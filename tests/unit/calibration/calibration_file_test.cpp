@@ -96,7 +96,8 @@ TEST_F(CalibrationFiles, CutShortAnywhereAreRefused) {
     std::stringstream text;
     text << std::ifstream(path_).rdbuf();
     const std::string whole = text.str();
-    for (std::size_t size = 0; size < whole.size(); ++size) {
+    // Every byte of the last table, and some of what is before.
+    for (std::size_t size = 0; size < whole.size(); size += size + 250 < whole.size() ? 7 : 1) {
         EXPECT_NE(refusal(whole.substr(0, size)), "") << size;
     }
     EXPECT_NE(refusal(whole.substr(0, whole.size() - 3)).find("is cut short"), std::string::npos);
