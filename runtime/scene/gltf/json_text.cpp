@@ -18,9 +18,10 @@ constexpr std::size_t kMostText = std::size_t{1} << 30U;
 
 void check_nesting(std::string_view text) {
     if (const auto at = nested_deeper_at(text, kMostNesting)) {
-        refuse("", fmt::format("its JSON is nested deeper than {} at byte {}: this is no scene that "
-                               "a program writes",
-                               kMostNesting, *at));
+        refuse("",
+               fmt::format("its JSON is nested deeper than {} at byte {}: this is no scene that "
+                           "a program writes",
+                           kMostNesting, *at));
     }
 }
 
