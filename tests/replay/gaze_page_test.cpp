@@ -21,7 +21,7 @@ std::string text_of(const std::string& file) {
     return text.str();
 }
 
-class GazeCommand : public testing::Test {
+class RecordedGazePage : public testing::Test {
   protected:
     std::string simulated(const std::string& name) {
         const std::string file = folder_.file(name);
@@ -34,7 +34,7 @@ class GazeCommand : public testing::Test {
     ScratchFolder folder_;
 };
 
-TEST_F(GazeCommand, WritesEveryEventOnceAndCountsThem) {
+TEST_F(RecordedGazePage, WritesEveryEventOnceAndCountsThem) {
     const std::string events = folder_.file("events.csv");
     const ProgramResult result =
         run_gazeloop({"gaze", simulated("g.csv"), "--events", events, "--json"});
@@ -61,7 +61,7 @@ TEST_F(GazeCommand, WritesEveryEventOnceAndCountsThem) {
     EXPECT_NEAR(found["main_sequence"]["peak_over_published"], 1.0, 0.15);
 }
 
-TEST_F(GazeCommand, RefusesOutputsThatAreOne) {
+TEST_F(RecordedGazePage, RefusesOutputsThatAreOne) {
     const std::string trace = simulated("g.csv");
     EXPECT_EQ(run_gazeloop({"gaze", trace, "--html", trace}).exit_code, 2);
     EXPECT_EQ(run_gazeloop({"gaze", trace, "--html", "-", "--json"}).exit_code, 2);
@@ -92,7 +92,7 @@ look();
 </script>
 </body>)js";
 
-TEST_F(GazeCommand, DrawsAPageOfOneRecordingAndOfTwo) {
+TEST_F(RecordedGazePage, DrawsAPageOfOneRecordingAndOfTwo) {
     if (run_program({"chromium", "--version"}).exit_code != 0) {
         GTEST_SKIP() << "there is no chromium here";
     }
