@@ -46,6 +46,30 @@ TEST(SimulatedGaze, IsReplayedBitForBit) {
     }
 }
 
+/// What is made of the gaze learns from it as it goes: a replay must learn the same.
+TEST(SimulatedGaze, IsReplayedBitForBitWhatIsMadeOfIt) {
+    const ScratchFolder folder;
+    for (const std::vector<std::string>& made :
+         {std::vector<std::string>{"gaze.prediction=true"},
+          {"gaze.filter=fixation", "gaze.events=true"},
+          {"gaze.filter=one-euro", "gaze.prediction=true", "gaze.widen=true"}}) {
+        const std::string session = folder.file(made.front() + ".gaze");
+        std::vector<std::string> command{
+            "run",      "--gaze",   "sim",  "--clock", "virtual",           "--target",
+            "headless", "--set",    kSmall, "--set",   "sim.noise_deg=0.1", "--frames",
+            "250",      "--record", session};
+        for (const std::string& setting : made) {
+            command.insert(command.end(), {"--set", setting});
+        }
+        const ProgramResult run = run_gazeloop(command);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const ProgramResult replayed = run_gazeloop({"replay", session});
+        EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+        EXPECT_NE(replayed.out.find("foveae bit-equal in 250 of 250"), std::string::npos)
+            << made.front() << replayed.out;
+    }
+}
+
 TEST(SimulatedGaze, RunsInAStandingHeadAndWithoutASample) {
     const ProgramResult still = run_gazeloop(
         simulated({"--set", "sim.head.sway_deg=0", "--set", "sim.head.turn_percent=0"}));
