@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "runtime/statistics/draw_below.h"
+
 namespace gazeloop::statistics {
 namespace {
 
@@ -106,20 +108,13 @@ class Resampler {
     [[nodiscard]] double draw() {
         double sum = 0.0;
         for (std::size_t block = 0; block < blocks_; ++block) {
-            const std::size_t from = below(count_);
+            const std::size_t from = draw_below(random_, count_);
             sum += sums_[from + length_] - sums_[from];
         }
         return mean_ + sum / static_cast<double>(blocks_ * length_);
     }
 
   private:
-    /// Uniform in [0, end), by the upper bits of a product (Lemire 2019), whose bias of end / 2^64
-    /// is nothing here.
-    [[nodiscard]] std::size_t below(std::size_t end) {
-        __extension__ using Wide = unsigned __int128;
-        return static_cast<std::size_t>((static_cast<Wide>(random_()) * end) >> 64U);
-    }
-
     std::size_t count_;
     std::size_t length_;
     std::size_t blocks_ = 0;

@@ -1,0 +1,108 @@
+#include "runtime/statistics/psychometric_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "runtime/statistics/distributions.h"
+#include "runtime/statistics/draw_below.h"
+#include "runtime/statistics/people_posterior.h"
+
+namespace gazeloop::statistics {
+namespace {
+
+/// Deviation of the threshold over resamples, each of which `draw` makes of how often each subject
+/// counts, or of the counts.
+template <typename Resample>
+double deviation_over(const Resample& resample, const FitOptions& options) {
+    const std::uint32_t resamples = std::max<std::uint32_t>(options.resamples, 50);
+    double mean = 0.0;
+    double squares = 0.0;
+    for (std::uint32_t i = 0; i < resamples; ++i) {
+        const double x = resample();
+        const double off = x - mean;
+        mean += off / (i + 1.0);
+        squares += off * (x - mean);
+    }
+    return std::sqrt(squares / (resamples - 1.0));
+}
+
+std::vector<double> once_each(std::size_t count) { return std::vector<double>(count, 1.0); }
+
+}  // namespace
+
+double PsychometricFunction::at(double x) const {
+    const double z = (rising ? 1.0 : -1.0) * (x - threshold) / spread;
+    return lowest + (1.0 - lowest - highest) * normal_share(z);
+}
+
+double PsychometricFunction::x_where(double yes) const {
+    constexpr double kEnd = 1e-3;
+    const double decided = std::clamp((yes - lowest) / (1.0 - lowest - highest), kEnd, 1.0 - kEnd);
+    return threshold + (rising ? 1.0 : -1.0) * spread * normal_quantile(decided);
+}
+
+PsychometricFunction FittedPeople::together() const {
+    PsychometricFunction all = function;
+    all.spread = std::hypot(function.spread, people);
+    return all;
+}
+
+FittedPeople fit_people(std::span<const std::vector<LevelCount>> subjects,
+                        const FitOptions& options) {
+    const PeoplePosterior posterior(subjects, options.rising, options.adaptive);
+    return posterior.function_of(
+        posterior.most_probable(posterior.start(), once_each(posterior.subjects())));
+}
+
+FittedThreshold fit_threshold(std::span<const std::vector<LevelCount>> subjects,
+                              const FitOptions& options) {
+    const PeoplePosterior posterior(subjects, options.rising, options.adaptive);
+    const std::size_t n = posterior.subjects();
+    const PeoplePosterior::Parameters best =
+        posterior.most_probable(posterior.start(), once_each(n));
+    FittedThreshold result{.people = posterior.function_of(best)};
+    result.x = result.people.together().x_where(options.criterion);
+    result.outside = result.x < posterior.least() || result.x > posterior.most();
+    std::mt19937_64 random(options.seed);
+    double factor = 0.0;
+    if (n > 1) {
+        result.deviation = deviation_over(
+            [&] {
+                std::vector<double> times(n, 0.0);
+                for (std::size_t i = 0; i < n; ++i) {
+                    times[draw_below(random, n)] += 1.0;
+                }
+                return posterior.function_of(posterior.most_probable(best, times))
+                    .together()
+                    .x_where(options.criterion);
+            },
+            options);
+        factor = student_quantile(0.5 * (1.0 + options.level), static_cast<unsigned>(n - 1)) *
+                 std::sqrt(static_cast<double>(n) / static_cast<double>(n - 1));
+    } else {
+        std::vector<std::vector<LevelCount>> drawn{posterior.counts(0)};
+        result.deviation = deviation_over(
+            [&] {
+                for (LevelCount& count : drawn.front()) {
+                    const double p = result.people.function.at(count.x);
+                    count.yes = 0;
+                    for (std::uint32_t trial = 0; trial < count.trials; ++trial) {
+                        count.yes += static_cast<double>(random() >> 11U) * 0x1p-53 < p ? 1 : 0;
+                    }
+                }
+                const PeoplePosterior of_drawn(drawn, options.rising, options.adaptive);
+                return of_drawn.function_of(of_drawn.most_probable(best, once_each(1)))
+                    .together()
+                    .x_where(options.criterion);
+            },
+            options);
+        factor = normal_quantile(0.5 * (1.0 + options.level));
+    }
+    result.low = result.x - factor * result.deviation;
+    result.high = result.x + factor * result.deviation;
+    return result;
+}
+
+}  // namespace gazeloop::statistics
