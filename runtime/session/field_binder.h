@@ -24,6 +24,10 @@ class FieldBinder {
   private:
     void bind(double value) { statement_.bind(parameter_, value); }
     void bind(std::string_view text) { statement_.bind(parameter_, text); }
+    template <std::size_t Capacity>
+    void bind(const FixedText<Capacity>& text) {
+        statement_.bind(parameter_, text.view());
+    }
     template <typename T>
         requires(std::is_integral_v<T> || std::is_enum_v<T>)
     void bind(T value) {

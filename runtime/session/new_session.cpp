@@ -99,6 +99,9 @@ void write_header(const std::filesystem::path& file, const SessionHeader& header
     // A file that was left under its temporary name is never rolled back.
     database.execute("PRAGMA journal_mode = MEMORY; BEGIN");
     database.execute(kCreateTables);
+    if (header.study) {
+        database.execute(kCreateStudyTables);
+    }
     insert_named_values(database, "meta",
                         {{std::string(kMetaSchemaVersion), std::to_string(kSchemaVersion)},
                          {std::string(kMetaRecordsDropped), "0"},

@@ -8,6 +8,7 @@
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/hidden_mesh.h"
 #include "runtime/gaze/origin_change.h"
+#include "runtime/session/study_rows.h"
 
 namespace gazeloop::session {
 
@@ -31,6 +32,6 @@ struct HiddenRecord {
 
 /// What the loop hands to the recorder's thread.
 using Record = std::variant<SampleRecord, frame::FrameRecord, frame::FrameGpuRecord, EventRecord,
-                            HiddenRecord, gaze::OriginChange>;
+                            HiddenRecord, gaze::OriginChange, TrialRecord, ResponseRecord>;
 
 }  // namespace gazeloop::session

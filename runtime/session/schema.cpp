@@ -265,4 +265,35 @@ CREATE TABLE event (
 ) STRICT;
 )sql";
 
+const char* const kCreateStudyTables = R"sql(
+CREATE TABLE trial (
+    position     INTEGER PRIMARY KEY,
+    first_frame  INTEGER NOT NULL,
+    subject      INTEGER NOT NULL,
+    trial        INTEGER NOT NULL,
+    attempt      INTEGER NOT NULL,
+    part         INTEGER NOT NULL,
+    screen       TEXT NOT NULL,
+    follows_gaze INTEGER NOT NULL,
+    method       TEXT NOT NULL,
+    settings     TEXT NOT NULL
+) STRICT;
+
+CREATE TABLE response (
+    position        INTEGER PRIMARY KEY,
+    frame           INTEGER NOT NULL,
+    subject         INTEGER NOT NULL,
+    trial           INTEGER NOT NULL,
+    attempt         INTEGER NOT NULL,
+    session         INTEGER NOT NULL,
+    kind            TEXT NOT NULL,
+    reference_first INTEGER NOT NULL,
+    levels          TEXT NOT NULL,
+    answer          TEXT NOT NULL,
+    after_s         ANY,
+    settled         ANY,
+    fault           TEXT NOT NULL
+) STRICT;
+)sql";
+
 }  // namespace gazeloop::session

@@ -14,6 +14,9 @@ inline constexpr int kOldestSchemaVersion = 1;
 /// Creates the tables in an empty database. SCHEMA.md says what their columns mean.
 extern const char* const kCreateTables;
 
+/// Creates those of a study, which other sessions do not have.
+extern const char* const kCreateStudyTables;
+
 /// Columns that the first files of version 1 lack, in whichever table; then a table that they lack.
 inline constexpr auto kLaterColumns = std::to_array<std::string_view>({"texels_hidden",
                                                                        "pixels_hidden",
@@ -56,6 +59,8 @@ inline constexpr auto kLaterColumns = std::to_array<std::string_view>({"texels_h
                                                                        "event",
                                                                        "horizon_ns",
                                                                        "filter_delay_ns"});
+inline constexpr std::string_view kTrialTable = "trial";
+inline constexpr std::string_view kResponseTable = "response";
 inline constexpr std::string_view kHiddenTable = "hidden_area";
 inline constexpr std::string_view kOriginTable =
     "origin";  ///< the first files of version 2 lack it

@@ -15,6 +15,7 @@ struct SessionHeader {
     frame::GridList grids{};           ///< names of their grids
     SessionMeta meta{};                ///< what ran, when, by which clock, for which display
     std::vector<NamedValue> config{};  ///< every setting in force, by key
+    bool study = false;                ///< it has the tables of a study
     std::vector<NamedValue> device{};  ///< Vulkan device and driver, OpenXR runtime, gaze source
 };
 

@@ -230,6 +230,10 @@ void SessionRecorder::add(const gaze::HiddenChange& change) {
 
 void SessionRecorder::add(const gaze::OriginChange& change) { impl_->add(change); }
 
+void SessionRecorder::add(const TrialRecord& record) { impl_->add(record); }
+
+void SessionRecorder::add(const ResponseRecord& record) { impl_->add(record); }
+
 void SessionRecorder::event(time::Stamp time, std::string_view kind, std::string_view text) {
     impl_->add(EventRecord{time, FixedText<32>(kind), FixedText<240>(text)});
 }

@@ -12,6 +12,7 @@
 #include "runtime/gaze/hidden_mesh.h"
 #include "runtime/gaze/origin_change.h"
 #include "runtime/session/session_header.h"
+#include "runtime/session/study_rows.h"
 
 namespace gazeloop::session {
 
@@ -62,6 +63,9 @@ class SessionRecorder {
     void add(const gaze::HiddenChange& change);
     /// One for a frame at most.
     void add(const gaze::OriginChange& change);
+    /// Of a study. Precondition: the header said that it is one.
+    void add(const TrialRecord& record);
+    void add(const ResponseRecord& record);
     /// `kind` is one word of at most 32 bytes, e.g. "session-state", "gaze-lost", "interrupted";
     /// `text` is cut after 240 bytes, between characters.
     void event(time::Stamp time, std::string_view kind, std::string_view text);

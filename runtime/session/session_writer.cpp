@@ -7,6 +7,7 @@
 #include "runtime/session/column_names.h"
 #include "runtime/session/field_binder.h"
 #include "runtime/session/schema.h"
+#include "runtime/session/table_reader.h"
 
 namespace gazeloop::session {
 namespace {
@@ -32,7 +33,18 @@ SessionWriter::SessionWriter(const std::filesystem::path& file)
       insert_event_(database_, event_columns().insert_into("event")),
       insert_hidden_(database_, hidden_columns().insert_into(kHiddenTable)),
       insert_origin_(database_, origin_columns().insert_into(kOriginTable)),
-      set_meta_(database_, kSetMeta) {}
+      set_meta_(database_, kSetMeta) {
+    if (has_table(database_, kTrialTable)) {
+        ColumnNames trial;
+        ColumnNames response;
+        const TrialRow of_trial;
+        const ResponseRow of_response;
+        visit_trial(trial, of_trial);
+        visit_response(response, of_response);
+        insert_trial_.emplace(database_, trial.insert_into(kTrialTable));
+        insert_response_.emplace(database_, response.insert_into(kResponseTable));
+    }
+}
 
 void SessionWriter::begin() { database_.execute("BEGIN IMMEDIATE"); }
 
@@ -111,6 +123,18 @@ void SessionWriter::write_one(const gaze::OriginChange& record) {
     visit_origin(binder, record);
     insert_origin_.run();
     gaze_.move_origin(record.new_in_old);
+}
+
+void SessionWriter::write_one(const TrialRecord& record) {
+    FieldBinder binder(*insert_trial_);
+    visit_trial(binder, record);
+    insert_trial_->run();
+}
+
+void SessionWriter::write_one(const ResponseRecord& record) {
+    FieldBinder binder(*insert_response_);
+    visit_response(binder, record);
+    insert_response_->run();
 }
 
 void SessionWriter::set_meta(std::string_view name, std::string_view value) {

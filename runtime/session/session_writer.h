@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "runtime/session/database.h"
@@ -40,6 +41,8 @@ class SessionWriter {
     void write_one(const EventRecord& record);
     void write_one(const HiddenRecord& record);
     void write_one(const gaze::OriginChange& record);
+    void write_one(const TrialRecord& record);
+    void write_one(const ResponseRecord& record);
     void write_decided_errors();
     void set_meta(std::string_view name, std::string_view value);
 
@@ -53,6 +56,8 @@ class SessionWriter {
     Statement insert_event_;
     Statement insert_hidden_;
     Statement insert_origin_;
+    std::optional<Statement> insert_trial_;  ///< in sessions of studies, as the next one
+    std::optional<Statement> insert_response_;
     Statement set_meta_;
     GazeLedger gaze_;
     std::uint64_t dropped_written_ = 0;
