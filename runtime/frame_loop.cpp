@@ -21,7 +21,7 @@ constexpr std::size_t kSamplesAtOnce = 1000;
 class FrameLoop {
   public:
     FrameLoop(const LoopParts& parts, const LoopOptions& options)
-        : parts_(parts), options_(options) {
+        : parts_(parts), options_(options), renderer_(&parts.renderer) {
         samples_.reserve(kSamplesAtOnce);
         if (parts.renderer.config().depth_format != vk::Format::eUndefined) {
             target_frame_.depth = {.near_m = std::numeric_limits<float>::infinity(),
@@ -32,7 +32,7 @@ class FrameLoop {
     LoopResult run() {
         try {
             follow_target();
-            parts_.renderer.wait_idle();
+            renderer_->wait_idle();
             report_finished_frames();
         } catch (...) {
             tell_the_rest();
@@ -68,7 +68,7 @@ class FrameLoop {
     void tell_the_rest() {
         try {
             report_target_events();
-            parts_.renderer.wait_idle();
+            renderer_->wait_idle();
             report_finished_frames();
         } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch)
             // It failed again after its failure; the first one is reported.
@@ -138,6 +138,7 @@ class FrameLoop {
         timeline_->plan(target_frame_, source_->head_track(), planned_);
         record.stamps.display = planned_.display;
         record.period_ns = planned_.period_ns;
+        choose_renderer(record.index);
         record.should_render = planned_.should_render;
         record.scene_time_s = planned_.scene_time_s;
         record.head = planned_.head;
@@ -148,7 +149,7 @@ class FrameLoop {
         // A frame that is not drawn still takes the gaze, so that the next one gets no old gaze.
         if (planned_.should_render) {
             view_.targets = parts_.target.acquire();
-            parts_.renderer.prepare(planned_.views);
+            renderer_->prepare(planned_.views);
             wait_for_gpu();
             report_finished_frames();
             begin(record.index);
@@ -171,6 +172,25 @@ class FrameLoop {
             observer->on_frame(record);
         }
         ++result_.frames;
+    }
+
+    /// Where a chooser decides by whom a frame is drawn. No renderer is left with frames under way.
+    void choose_renderer(std::uint64_t frame) {
+        if (parts_.chooser == nullptr) {
+            return;
+        }
+        render::FrameRenderer* const chosen = parts_.chooser->choose(
+            {.index = frame,
+             .shown_ns = planned_.display.known() ? planned_.display.ns : timeline_->now().ns,
+             .should_render = planned_.should_render});
+        if (chosen == nullptr) {
+            planned_.should_render = false;
+        } else if (chosen != renderer_) {
+            renderer_->wait_idle();
+            report_finished_frames();
+            renderer_ = chosen;
+            last_gpu_ns_ = 0;
+        }
     }
 
     /// Another mask, or other fields of view for it. This is rare, so it may take its time.
@@ -269,17 +289,25 @@ class FrameLoop {
         view_.scene_time_s = planned_.scene_time_s;
         view_.views = planned_.views;
         view_.hidden = hidden_areas_;
-        parts_.renderer.begin(view_);
+        renderer_->begin(view_);
         if (options_.wait_before_latch) {
-            parts_.renderer.wait_for_begun();
+            renderer_->wait_for_begun();
         }
     }
 
     void finish(frame::FrameRecord& record) {
-        record.samples = parts_.renderer.finish(record.fovea);
+        gaze::FrameFovea drawn;
+        if (parts_.chooser != nullptr) {
+            drawn = parts_.chooser->drawn(record.fovea, record.views);
+        }
+        const gaze::FrameFovea& fovea = parts_.chooser != nullptr ? drawn : record.fovea;
+        record.samples = renderer_->finish(fovea);
+        if (parts_.chooser != nullptr) {
+            record.samples = parts_.chooser->in_run(*renderer_, record.samples);
+        }
         record.stamps.submit = timeline_->now();
         for (frame::FrameObserver* const observer : parts_.observers) {
-            observer->on_rendered(view_, record.fovea);
+            observer->on_rendered(view_, fovea);
         }
     }
 
@@ -287,14 +315,17 @@ class FrameLoop {
     /// gaze would age by whole frames between latch and display.
     void wait_for_gpu() {
         if (last_gpu_ns_ > planned_.period_ns) {
-            parts_.renderer.wait_for_slot(1);
+            renderer_->wait_for_slot(1);
         } else {
-            parts_.renderer.wait_for_slot();
+            renderer_->wait_for_slot();
         }
     }
 
     void report_finished_frames() {
-        while (auto finished = parts_.renderer.next_finished()) {
+        while (auto finished = renderer_->next_finished()) {
+            if (parts_.chooser != nullptr) {
+                finished = parts_.chooser->in_run(*renderer_, *finished);
+            }
             if (finished->gpu_begin.known() && finished->gpu_end.known()) {
                 last_gpu_ns_ = finished->gpu_end.ns - finished->gpu_begin.ns;
             }
@@ -303,7 +334,7 @@ class FrameLoop {
                 observer->on_gpu(*finished);
             }
             if (finished->index >= first_in_this_world_) {
-                source_->take_seen_depth(parts_.renderer.seen_depth());
+                source_->take_seen_depth(renderer_->seen_depth());
             }
         }
     }
@@ -373,6 +404,7 @@ class FrameLoop {
 
     const LoopParts& parts_;
     const LoopOptions& options_;
+    render::FrameRenderer* renderer_;  ///< of the present frame
     std::unique_ptr<FrameTimeline> timeline_;
     std::unique_ptr<drivers::GazeSource> source_;
     std::int64_t start_ns_ = 0;

@@ -11,6 +11,7 @@
 #include "runtime/frame_timeline.h"
 #include "runtime/gaze/gaze_to_fovea.h"
 #include "runtime/present/frame_target.h"
+#include "runtime/render/frame_chooser.h"
 #include "runtime/render/frame_renderer.h"
 
 namespace gazeloop {
@@ -52,6 +53,7 @@ struct LoopParts {
     std::function<std::unique_ptr<FrameTimeline>()> make_timeline;
     std::function<std::unique_ptr<drivers::GazeSource>(std::int64_t start_ns)> make_source;
     std::vector<frame::FrameObserver*> observers;
+    render::FrameChooser* chooser = nullptr;  ///< null: `renderer` draws all frames
 };
 
 /// The gaze-contingent frame loop: wait, begin, locate, wait for the GPU, read the gaze as late as

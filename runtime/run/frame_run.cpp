@@ -134,6 +134,7 @@ class FrameRun {
             // What a method refuses, it refuses before there is a recording.
             renderer.prepare(profile_views(display_, target_->extents()));
         }
+        prepare_chooser();
         open_recording(renderer);
         if (!display_.assumed.empty()) {
             spdlog::info("display {}: assumed, not published: {}", display_.name,
@@ -141,8 +142,8 @@ class FrameRun {
         }
 
         latency::SummaryConfig config = report::summary_config(display_, loop_clock());
-        config.passes = renderer.passes();
-        config.grids = renderer.grids();
+        config.passes = passes_of(renderer);
+        config.grids = grids_of(renderer);
         latency::LatencySummary summary(config);
         monitor_.open(monitor_options(config));
         run_loop(renderer, summary);
@@ -194,8 +195,9 @@ class FrameRun {
             return;
         }
         session::SessionHeader header;
-        header.passes = renderer.passes();
-        header.grids = renderer.grids();
+        header.passes = passes_of(renderer);
+        header.grids = grids_of(renderer);
+        header.study = static_cast<bool>(request_.record_study);
         header.meta = {.program = fmt::format("gazeloop {}", kVersion),
                        .command_line = request_.command_line,
                        .started_utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
@@ -217,6 +219,39 @@ class FrameRun {
             *request_.record, header,
             request_.clock == RunClock::Wall ? session::WhenFull::Drop : session::WhenFull::Wait));
         recording_ = std::make_unique<RecordingObserver>(*recorder_);
+        if (request_.record_study) {
+            request_.record_study(*recorder_);
+        }
+    }
+
+    /// A chooser's renderers go before the device that made them, however the run ends.
+    struct Release {
+        void operator()(render::FrameChooser* chooser) const { chooser->release(); }
+    };
+
+    void prepare_chooser() {
+        if (request_.chooser == nullptr) {
+            return;
+        }
+        chooser_.reset(request_.chooser);
+        request_.prepare_chooser([this](const render::MakePasses& passes) {
+            auto renderer =
+                std::make_unique<render::FrameRenderer>(*context_, *scene_, passes, config_);
+            const gaze::StereoView views = profile_views(display_, target_->extents());
+            if (request_.clock == RunClock::Wall) {
+                render::warm_up(*context_, *renderer, views);
+            } else if (request_.clock == RunClock::Virtual) {
+                renderer->prepare(views);
+            }
+            return renderer;
+        });
+    }
+
+    [[nodiscard]] frame::PassList passes_of(const render::FrameRenderer& renderer) const {
+        return chooser_ != nullptr ? chooser_->passes() : renderer.passes();
+    }
+    [[nodiscard]] frame::GridList grids_of(const render::FrameRenderer& renderer) const {
+        return chooser_ != nullptr ? chooser_->grids() : renderer.grids();
     }
 
     [[nodiscard]] RunMonitor::Options monitor_options(const latency::SummaryConfig& display) const {
@@ -286,7 +321,11 @@ class FrameRun {
                     }
                     return source;
                 },
-            .observers = {&summing, &logging, &tracing, &lag_}};
+            .observers = {&summing, &logging, &tracing, &lag_},
+            .chooser = chooser_.get()};
+        if (request_.observer != nullptr) {
+            parts.observers.push_back(request_.observer);
+        }
         if (recording_ != nullptr) {
             parts.observers.push_back(recording_.get());
         }
@@ -370,7 +409,7 @@ class FrameRun {
                 .display = {.period_ns = display_.period_ns(),
                             .switching_ns = display_.switching_ns,
                             .rolling_ns = display_.rolling_ns()},
-                .passes = renderer.passes(),
+                .passes = passes_of(renderer),
                 .ring_radius_px =
                     [&renderer](gaze::Eye eye) { return renderer.last_plan(eye).ring_px; }},
             window_->memory());
@@ -566,6 +605,7 @@ class FrameRun {
     bool window_broken_ = false;
     render::RendererConfig config_;
     std::unique_ptr<scene::Scene> scene_;
+    std::unique_ptr<render::FrameChooser, Release> chooser_;
     std::unique_ptr<frame::FrameObserver> overlay_;
     std::unique_ptr<render::Snapshot> snapshot_;
     std::unique_ptr<session::SessionRecorder> recorder_;

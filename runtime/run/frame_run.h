@@ -14,6 +14,7 @@
 #include "runtime/report/output_file.h"
 #include "runtime/run/program_settings.h"
 #include "runtime/session/open_session.h"
+#include "runtime/session/session_recorder.h"
 
 namespace gazeloop::run {
 
@@ -49,6 +50,15 @@ struct FrameRunRequest {
     std::function<std::unique_ptr<frame::FrameObserver>(const vulkan::Context&,
                                                         const render::RendererConfig&)>
         make_overlay{};
+    /// Decides by whom each frame is drawn; null: by render.method. Must outlive the run.
+    render::FrameChooser* chooser = nullptr;
+    using MakeRenderer =
+        std::function<std::unique_ptr<render::FrameRenderer>(const render::MakePasses&)>;
+    /// Called before the first frame, with what makes the chooser's renderers.
+    std::function<void(const MakeRenderer&)> prepare_chooser{};
+    /// Called with the recording, which then has a study's tables.
+    std::function<void(session::SessionRecorder&)> record_study{};
+    frame::FrameObserver* observer = nullptr;  ///< is told what the loop does, unless null
     LoopOptions loop;  ///< its `stop` is asked beside what else ends a run
     bool hash = false;
     bool mark_fovea = false;

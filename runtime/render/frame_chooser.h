@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/frame/frame_record.h"
+#include "runtime/frame/passes.h"
+#include "runtime/frame/sample_counts.h"
+#include "runtime/gaze/fovea_point.h"
+#include "runtime/gaze/view.h"
+
+namespace gazeloop::render {
+
+class FrameRenderer;
+
+/// A frame that is about to be drawn.
+struct FrameToChoose {
+    std::uint64_t index = 0;
+    std::int64_t shown_ns = 0;  ///< when the display shows it, or when it began where nobody knows
+    bool should_render = true;  ///< the target wants its pictures: somebody can see them
+};
+
+/// Decides by whom each frame is drawn, where that changes during a run. Used on the loop's thread.
+class FrameChooser {
+  public:
+    FrameChooser() = default;
+    FrameChooser(const FrameChooser&) = delete;
+    FrameChooser& operator=(const FrameChooser&) = delete;
+    virtual ~FrameChooser() = default;
+
+    /// Null: by nobody. The frame is handed over without pictures, and the display is black.
+    virtual FrameRenderer* choose(const FrameToChoose& frame) = 0;
+
+    /// Where the foveae of the chosen frame are drawn that the gaze has at `latched`.
+    [[nodiscard]] virtual gaze::FrameFovea drawn(const gaze::FrameFovea& latched,
+                                                 const gaze::StereoView& views) const = 0;
+
+    /// Lists of the run, which hold those of every renderer.
+    [[nodiscard]] virtual const frame::PassList& passes() const = 0;
+    [[nodiscard]] virtual const frame::GridList& grids() const = 0;
+    /// What a renderer counted and timed, in the places that its grids and passes have in those.
+    [[nodiscard]] virtual frame::SampleCounts in_run(const FrameRenderer& renderer,
+                                                     const frame::SampleCounts& counts) const = 0;
+    [[nodiscard]] virtual frame::FrameGpuRecord in_run(
+        const FrameRenderer& renderer, const frame::FrameGpuRecord& record) const = 0;
+
+    /// The device goes after this: nothing of it may be kept.
+    virtual void release() = 0;
+};
+
+}  // namespace gazeloop::render
