@@ -25,6 +25,10 @@ enum class Stream : std::uint64_t {
     Jitter,
     Dropouts,
     EyeLosses,
+    ObserverPeople,
+    ObserverNoise,
+    ObserverLapses,
+    StudyOrder,
 };
 
 /// Random numbers that are the same with every standard library: SplitMix64 (Steele, Lea and Flood

@@ -1,0 +1,164 @@
+#include "runtime/run/study_request.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "runtime/methods/registry.h"
+#include "runtime/settings/nearest_name.h"
+
+namespace gazeloop::run {
+namespace {
+
+constexpr std::string_view kOrigin = "the study's plan";
+constexpr std::size_t kLongestSettings = 240;  // what a session's row holds
+
+/// Settings that are others for a while.
+class SettingsForNow {
+  public:
+    explicit SettingsForNow(ProgramSettings& settings) : settings_(settings) {}
+    SettingsForNow(const SettingsForNow&) = delete;
+    SettingsForNow& operator=(const SettingsForNow&) = delete;
+    ~SettingsForNow() {
+        for (auto kept = before_.rbegin(); kept != before_.rend(); ++kept) {
+            (void)settings_.set(kept->key, kept->text, kept->origin);
+        }
+    }
+    Expected<void> set(const std::string& key, const std::string& text) {
+        for (const settings::SettingRow& row : settings_.rows()) {
+            if (row.key == key) {
+                before_.push_back({key, settings::text_of(row), settings_.origin(key)});
+            }
+        }
+        return settings_.set(key, text, kOrigin);
+    }
+
+  private:
+    struct Kept {
+        std::string key;
+        std::string text;
+        std::string origin;
+    };
+    ProgramSettings& settings_;
+    std::vector<Kept> before_;
+};
+
+/// The passes of a stimulus. Errors: as Settings::set() and the method's.
+Expected<render::MakePasses> passes_of(const study::Stimulus& stimulus, ProgramSettings& settings) {
+    SettingsForNow now(settings);
+    if (auto set = now.set("render.method", stimulus.method); !set) {
+        return std::unexpected(set.error());
+    }
+    for (const auto& [key, value] : stimulus.settings) {
+        if (auto set = now.set(key, value); !set) {
+            return std::unexpected(set.error());
+        }
+    }
+    return methods::find_method(stimulus.method)->passes(settings.values().methods, settings);
+}
+
+/// Whether a factor's setting is one of the method's.
+Expected<void> check_factor(const study::Plan& plan, const study::Factor& factor,
+                            ProgramSettings& settings) {
+    SettingsForNow now(settings);
+    if (auto set = now.set("render.method", plan.method); !set) {
+        return set;
+    }
+    methods::MethodSettings any;
+    std::vector<std::string> known;
+    for (const settings::SettingRow& row : methods::rows_of(any)) {
+        if (settings.is_in_use(row)) {
+            known.push_back(row.key);
+        }
+    }
+    if (std::ranges::find(known, factor.key) == known.end()) {
+        return std::unexpected(Error{
+            ErrorKind::Usage, fmt::format("{}: factor {}: the method {} has no such setting: {}",
+                                          plan.name, factor.name, plan.method,
+                                          settings::unknown_name("setting", factor.key, known))});
+    }
+    return {};
+}
+
+template <typename Study>
+void show(Study& study, ProgramSettings& settings, FrameRunRequest& request) {
+    if (request.snapshot) {
+        throw SetupError(ErrorKind::Usage,
+                         "--snapshot: a study's pictures are drawn by several methods: leave it "
+                         "out, or look at one with gazeloop run");
+    }
+    request.chooser = &study;
+    request.prepare_chooser = [&](const FrameRunRequest::MakeRenderer& make) {
+        study.set_stimuli(std::make_unique<study::Stimuli>(
+            [make, &settings](const study::Stimulus& stimulus) {
+                return make(value_or_throw(passes_of(stimulus, settings)));
+            },
+            study.samples()));
+    };
+}
+
+}  // namespace
+
+Expected<void> take_plan(const study::Plan& plan, ProgramSettings& settings) {
+    if (!plan.scenes.empty()) {
+        return std::unexpected(
+            Error{ErrorKind::Usage, fmt::format("{}: scenes: a run draws one scene: leave the key "
+                                                "out, and name each sitting's with --scene",
+                                                plan.name)});
+    }
+    for (const study::Factor& factor : plan.factors) {
+        if (factor.key.empty() && factor.levels.size() > 1) {
+            return std::unexpected(
+                Error{ErrorKind::Usage,
+                      fmt::format("{}: factor {}: key is empty, and what its levels mean is "
+                                  "nothing that this program can show: name a setting, or leave "
+                                  "one level",
+                                  plan.name, factor.name)});
+        }
+        if (factor.key.empty()) {
+            continue;
+        }
+        if (auto checked = check_factor(plan, factor, settings); !checked) {
+            return checked;
+        }
+    }
+    for (std::size_t cell = 0; cell < plan.cells(); ++cell) {
+        const study::Trial trial{.levels = plan.levels_of(cell)};
+        for (const study::Stimulus& stimulus :
+             {study::reference_stimulus(plan, trial),
+              study::test_stimulus(plan, trial, trial.levels.front())}) {
+            if (auto passes = passes_of(stimulus, settings); !passes) {
+                return std::unexpected(passes.error());
+            }
+            const std::string text = stimulus.settings_text();
+            const auto blank = [](const auto& one) { return one.second.contains(' '); };
+            if (text.size() > kLongestSettings || std::ranges::any_of(stimulus.settings, blank)) {
+                return std::unexpected(
+                    Error{ErrorKind::Usage,
+                          fmt::format("{}: settings of a picture that are longer than {} bytes, or "
+                                      "have blanks, cannot be recorded with it: {}",
+                                      plan.name, kLongestSettings, text)});
+            }
+        }
+    }
+    return settings.set("render.method", plan.reference_method, kOrigin);
+}
+
+void show_study(study::StudyRun& study, ProgramSettings& settings, FrameRunRequest& request) {
+    show(study, settings, request);
+    request.observer = &study;
+    request.record_study = [&study](session::SessionRecorder& recorder) {
+        study.set_recorder(&recorder);
+    };
+    request.loop.end_with_source = false;
+    request.loop.stop = [&study]() -> std::optional<LoopEnd> {
+        return study.over() || study.too_slow() ? std::optional(LoopEnd::Limit) : std::nullopt;
+    };
+}
+
+void show_study(study::ReplayedStudy& study, ProgramSettings& settings, FrameRunRequest& request) {
+    show(study, settings, request);
+}
+
+}  // namespace gazeloop::run
