@@ -60,6 +60,7 @@ int gazeloop_main(int count, char** arguments) {
         gazeloop::cli::add_compare_command(program);
         gazeloop::cli::add_trade_command(program, command_line);
         gazeloop::cli::add_simulate_command(program);
+        gazeloop::cli::add_study_command(program, command_line);
         gazeloop::cli::add_devices_command(program);
         gazeloop::cli::add_doctor_command(program);
         gazeloop::cli::add_preview_window_command(program);

@@ -12,7 +12,9 @@
 #include "runtime/recordings/trace_of_session.h"
 #include "runtime/run/gaze_sources.h"
 #include "runtime/run/replayable_frames.h"
+#include "runtime/run/study_request.h"
 #include "runtime/session/playback.h"
+#include "runtime/session/study_rows.h"
 #include "runtime/settings/recorded_values.h"
 
 namespace gazeloop::run {
@@ -52,7 +54,7 @@ session::OpenSession open_for_replay(const std::string& file, ProgramSettings& s
 }
 
 std::optional<ErrorKind> replay_session(const Replay& replay, const session::OpenSession& session,
-                                        const ProgramSettings& settings, FrameRunRequest& request) {
+                                        ProgramSettings& settings, FrameRunRequest& request) {
     if (replay.wall_clock) {
         return play_gaze(replay, recordings::trace_of_session(session), settings, request);
     }
@@ -73,6 +75,11 @@ std::optional<ErrorKind> replay_session(const Replay& replay, const session::Ope
     };
     request.same_gaze = as_recorded(settings::Concerns::Foveae);
     request.same_rendering = as_recorded(settings::Concerns::Picture);
+    std::unique_ptr<study::ReplayedStudy> study;
+    if (const auto trials = value_or_throw(session::read_trials(session)); !trials.empty()) {
+        study = value_or_throw(study::ReplayedStudy::create(trials));
+        show_study(*study, settings, request);
+    }
     return frame_run(request);
 }
 

@@ -20,11 +20,12 @@ struct Replay {
 [[nodiscard]] session::OpenSession open_for_replay(const std::string& file,
                                                    ProgramSettings& settings);
 
-/// Run again with `settings`; `request` holds what else is asked for, and refers to `settings`. In
-/// real time only the session's gaze is played. @throws SetupError as frame_run(); BadInput for a
-/// damaged recording; Usage for a speed that a session's own time line cannot have
+/// Run again with `settings`, which a recorded study varies; `request` holds what else is asked
+/// for, and refers to `settings`. In real time only the session's gaze is played. @throws
+/// SetupError as frame_run(); BadInput for a damaged recording; Usage for a speed that a session's
+/// own time line cannot have
 std::optional<ErrorKind> replay_session(const Replay& replay, const session::OpenSession& session,
-                                        const ProgramSettings& settings, FrameRunRequest& request);
+                                        ProgramSettings& settings, FrameRunRequest& request);
 
 /// The same of a trace. @throws SetupError as frame_run(); BadInput for a trace that is refused
 std::optional<ErrorKind> replay_trace(const Replay& replay, const ProgramSettings& settings,
