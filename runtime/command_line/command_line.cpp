@@ -144,7 +144,8 @@ template <typename Value>
 Option Command::option(const std::string& name, Value& value, const std::string& meaning) {
     CLI::Option* const option = app_->add_option(name, value, meaning);
     if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
-        option->allow_extra_args(false);  // one each time
+        // An option takes one each time; a positional all that are left.
+        option->allow_extra_args(!name.starts_with('-'));
     }
     return Option(option);
 }
