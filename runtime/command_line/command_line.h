@@ -61,8 +61,9 @@ class Command {
     Command command(const std::string& name, const std::string& meaning);
     /// `name`: --NAME, or NAME alone for a positional. `value` keeps what it is if the option is
     /// not given, and must live until the command line is parsed. A vector: the option may be
-    /// repeated; a positional takes all words that are left. Value: std::string, double, unsigned, std::uint64_t, std::vector<std::string>, or
-    /// std::optional of std::string, std::int64_t, unsigned or double.
+    /// repeated; a positional takes all words that are left. Value: std::string, double, unsigned,
+    /// std::uint64_t, std::vector<std::string>, or std::optional of std::string, std::int64_t,
+    /// unsigned or double.
     template <typename Value>
     Option option(const std::string& name, Value& value, const std::string& meaning);
     Option flag(const std::string& name, bool& value, const std::string& meaning);
