@@ -27,6 +27,7 @@ void add_simulate_light_field_command(Command simulate);
 void add_study_command(Command program, const std::string& command_line);
 void add_devices_command(Command program);
 void add_doctor_command(Command program);
+void add_layer_command(Command program);
 /// Hidden: what --preview starts.
 void add_preview_window_command(Command program);
 

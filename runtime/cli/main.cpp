@@ -63,6 +63,7 @@ int gazeloop_main(int count, char** arguments) {
         gazeloop::cli::add_study_command(program, command_line);
         gazeloop::cli::add_devices_command(program);
         gazeloop::cli::add_doctor_command(program);
+        gazeloop::cli::add_layer_command(program);
         gazeloop::cli::add_preview_window_command(program);
         const auto action =
             line.parse(std::vector<std::string>(arguments + std::min(count, 1), arguments + count));

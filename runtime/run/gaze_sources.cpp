@@ -37,7 +37,7 @@ bool is_device(std::string_view gaze) {
 }
 
 drivers::hid::HidOptions hid_options(const profiles::TrackerProfile& tracker,
-                                     const ProgramValues& values) {
+                                     const SourceValues& values) {
     return {.path = "",
             .delay = {tracker.delay_ns, tracker.delay_uncertainty_ns},
             .geometry = {values.hid.screen_width_m, values.hid.screen_height_m,
@@ -49,7 +49,7 @@ drivers::psvr2::Psvr2Options psvr2_options(const profiles::TrackerProfile& track
 }
 
 drivers::steam_frame::SteamFrameOptions steam_frame_options(const profiles::TrackerProfile& tracker,
-                                                            const ProgramValues& values) {
+                                                            const SourceValues& values) {
     return drivers::steam_frame::options_of(
         values.steam_frame,
         {.least_ns = tracker.delay_ns, .uncertainty_ns = tracker.delay_uncertainty_ns});
@@ -90,7 +90,7 @@ Expected<void> default_widening(const profiles::TrackerProfile& tracker,
 
 Expected<MakeSource> gaze_source_named(std::string_view text,
                                        const profiles::TrackerProfile& tracker,
-                                       const ProgramValues& values) {
+                                       const SourceValues& values) {
     const std::size_t colon = text.find(':');
     const std::string_view kind = kind_of(text);
     const std::string_view argument =

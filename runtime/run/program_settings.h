@@ -6,6 +6,7 @@
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_settings.h"
 #include "runtime/methods/method_settings.h"
+#include "runtime/openxr_layer/layer_settings.h"
 #include "runtime/present/openxr/openxr_settings.h"
 #include "runtime/profiles/profile_settings.h"
 #include "runtime/render/render_settings.h"
@@ -23,6 +24,7 @@ namespace gazeloop::run {
 struct ProgramValues {
     gaze::GazeSettings gaze;
     drivers::hid::HidSettings hid;
+    openxr_layer::LayerSettings layer;
     scene::LightFieldSettings light_field;
     methods::MethodSettings methods;
     MonitorSettings monitor;

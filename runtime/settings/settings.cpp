@@ -112,6 +112,14 @@ std::string quoted(const std::string& text) {
     return out.str();
 }
 
+std::string toml_value(const SettingRow& row) {
+    // A seed may be above what TOML's numbers hold.
+    const bool bare = std::holds_alternative<Number>(row.slot) ||
+                      std::holds_alternative<Whole>(row.slot) ||
+                      std::holds_alternative<bool*>(row.slot);
+    return bare ? text_of(row) : quoted(text_of(row));
+}
+
 }  // namespace
 
 bool Choice::is_file(std::string_view text) const {
@@ -135,6 +143,12 @@ std::vector<std::string> Settings::keys() const {
     return keys;
 }
 
+bool Settings::has_group(std::string_view group) const {
+    return std::ranges::any_of(rows(), [&](const SettingRow& row) {
+        return row.key.starts_with(std::string(group) + ".");
+    });
+}
+
 Expected<void> Settings::set(std::string_view key, std::string_view text, std::string_view origin) {
     return assign(key, text, Written::Bare, origin, "");
 }
@@ -143,11 +157,12 @@ Expected<void> Settings::assign(std::string_view key, std::string_view text, Wri
                                 std::string_view origin, const std::filesystem::path& folder) {
     const auto found = entries_.find(key);
     if (found == entries_.end()) {
-        const bool group =
-            written == Written::Group && std::ranges::any_of(rows(), [&](const SettingRow& row) {
-                return row.key.starts_with(std::string(key) + ".");
-            });
-        return group ? Expected<void>{} : refuse(origin, unknown_key(key, keys()));
+        const bool group = written == Written::Group && has_group(key);
+        const std::size_t point = std::min(key.find('.'), key.size());
+        const bool another = other_groups_pass_ &&
+                             (point < key.size() || written == Written::Group) &&
+                             !has_group(key.substr(0, point));
+        return group || another ? Expected<void>{} : refuse(origin, unknown_key(key, keys()));
     }
     auto& [row, entry_origin] = found->second;
     const auto wrong_kind = [&](std::string_view wanted) {
@@ -333,15 +348,15 @@ std::vector<NamedValue> Settings::list() const {
     return values;
 }
 
+std::string toml_line(const SettingRow& row) {
+    return fmt::format("{} = {}", row.key, toml_value(row));
+}
+
 std::string Settings::describe() const {
     std::string table;
     for (const auto& [row, origin] : entries_ | std::views::values) {
-        // A seed may be above what TOML's numbers hold.
-        const bool bare = std::holds_alternative<Number>(row.slot) ||
-                          std::holds_alternative<Whole>(row.slot) ||
-                          std::holds_alternative<bool*>(row.slot);
-        table += fmt::format("{:28} = {:12} # {:9} {}\n", row.key,
-                             bare ? text_of(row) : quoted(text_of(row)), origin, row.meaning);
+        table +=
+            fmt::format("{:28} = {:12} # {:9} {}\n", row.key, toml_value(row), origin, row.meaning);
     }
     return table;
 }

@@ -30,6 +30,10 @@ class Settings {
     /// there twice; the setting that a row depends on is there before is_in_use() is called.
     void add(const std::vector<SettingRow>& rows);
 
+    /// From here on, keys of groups of which there is no setting are another program's: set() and
+    /// load() pass them over. Unknown keys of known groups stay errors.
+    void pass_over_other_groups() { other_groups_pass_ = true; }
+
     /// All of them, in the order of the keys.
     [[nodiscard]] auto rows() const {
         return entries_ | std::views::values | std::views::transform(&Entry::row);
@@ -101,8 +105,15 @@ class Settings {
     [[nodiscard]] Error at_origin(std::string_view key, const Error& error) const;
     [[nodiscard]] std::vector<std::string> keys() const;
 
+    /// Whether there is a setting GROUP.NAME.
+    [[nodiscard]] bool has_group(std::string_view group) const;
+
     std::map<std::string, Entry, std::less<>> entries_;
+    bool other_groups_pass_ = false;
 };
+
+/// "KEY = VALUE" as TOML writes it: a line of a configuration.
+[[nodiscard]] std::string toml_line(const SettingRow& row);
 
 /// A setting's value, as set() takes it.
 [[nodiscard]] std::string text_of(const SettingRow& row);

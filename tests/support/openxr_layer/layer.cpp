@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tests/support/openxr_layer/negotiation.h"
+#include "runtime/openxr_layer/loader_interface.h"
 
 namespace gazeloop::tests {
 
@@ -49,7 +49,7 @@ XRAPI_ATTR XrResult XRAPI_CALL get_instance_proc_addr(XrInstance instance, const
 }
 
 XRAPI_ATTR XrResult XRAPI_CALL create_instance(const XrInstanceCreateInfo* info,
-                                               const XrApiLayerCreateInfo* layer_info,
+                                               const openxr_layer::XrApiLayerCreateInfo* layer_info,
                                                XrInstance* instance) {
     XrInstanceCreateInfo passed_on = *info;
     std::vector<const char*> extensions(info->enabledExtensionNames,
@@ -61,7 +61,7 @@ XRAPI_ATTR XrResult XRAPI_CALL create_instance(const XrInstanceCreateInfo* info,
         passed_on.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
         passed_on.enabledExtensionNames = extensions.data();
     }
-    XrApiLayerCreateInfo below = *layer_info;
+    openxr_layer::XrApiLayerCreateInfo below = *layer_info;
     below.nextInfo = layer_info->nextInfo->next;
     const XrResult result =
         layer_info->nextInfo->nextCreateApiLayerInstance(&passed_on, &below, instance);
@@ -74,9 +74,9 @@ XRAPI_ATTR XrResult XRAPI_CALL create_instance(const XrInstanceCreateInfo* info,
 }  // namespace gazeloop::tests
 
 extern "C" XRAPI_ATTR XrResult XRAPI_CALL xrNegotiateLoaderApiLayerInterface(
-    const gazeloop::tests::XrNegotiateLoaderInfo* loader, const char*,
-    gazeloop::tests::XrNegotiateApiLayerRequest* request) {
-    using namespace gazeloop::tests;
+    const gazeloop::openxr_layer::XrNegotiateLoaderInfo* loader, const char*,
+    gazeloop::openxr_layer::XrNegotiateApiLayerRequest* request) {
+    using namespace gazeloop::openxr_layer;
     if (loader == nullptr || request == nullptr ||
         loader->structType != XrLoaderStruct::LoaderInfo ||
         request->structType != XrLoaderStruct::ApiLayerRequest ||
@@ -85,7 +85,7 @@ extern "C" XRAPI_ATTR XrResult XRAPI_CALL xrNegotiateLoaderApiLayerInterface(
     }
     request->layerInterfaceVersion = kLoaderInterfaceVersion;
     request->layerApiVersion = XR_CURRENT_API_VERSION;
-    request->getInstanceProcAddr = &get_instance_proc_addr;
-    request->createApiLayerInstance = &create_instance;
+    request->getInstanceProcAddr = &gazeloop::tests::get_instance_proc_addr;
+    request->createApiLayerInstance = &gazeloop::tests::create_instance;
     return XR_SUCCESS;
 }

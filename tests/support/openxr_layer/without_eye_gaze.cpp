@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/support/openxr_layer/negotiation.h"
+#include "runtime/openxr_layer/loader_interface.h"
 
 namespace gazeloop::tests {
 namespace {
@@ -57,15 +57,15 @@ XRAPI_ATTR XrResult XRAPI_CALL get_instance_proc_addr(XrInstance instance, const
 }  // namespace gazeloop::tests
 
 extern "C" XRAPI_ATTR XrResult XRAPI_CALL
-xrNegotiateLoaderRuntimeInterface(const gazeloop::tests::XrNegotiateLoaderInfo* loader,
-                                  gazeloop::tests::XrNegotiateRuntimeRequest* request) {
+xrNegotiateLoaderRuntimeInterface(const gazeloop::openxr_layer::XrNegotiateLoaderInfo* loader,
+                                  gazeloop::openxr_layer::XrNegotiateRuntimeRequest* request) {
     const char* const library = std::getenv("GAZELOOP_REAL_RUNTIME");
     void* const real = library != nullptr ? dlopen(library, RTLD_NOW) : nullptr;
     if (real == nullptr) {
         return XR_ERROR_INITIALIZATION_FAILED;
     }
-    using Negotiate = XrResult(XRAPI_PTR*)(const gazeloop::tests::XrNegotiateLoaderInfo*,
-                                           gazeloop::tests::XrNegotiateRuntimeRequest*);
+    using Negotiate = XrResult(XRAPI_PTR*)(const gazeloop::openxr_layer::XrNegotiateLoaderInfo*,
+                                           gazeloop::openxr_layer::XrNegotiateRuntimeRequest*);
     const auto negotiate =
         reinterpret_cast<Negotiate>(dlsym(real, "xrNegotiateLoaderRuntimeInterface"));
     const XrResult result = negotiate(loader, request);

@@ -107,7 +107,8 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
      {"acuity.luminance_cd_m2", "acuity.nasal", "render.depth", "render.frames_in_flight",
       "render.profile", "render.require", "render.wait_before_latch"}},
     {Concerns::Machine,
-     {"lightfield.memory_mib", "monitor.interval_s", "monitor.window_s", "openxr.patience_s",
+     {"layer.eye_gaze", "layer.gaze", "layer.record", "layer.unknown_applications",
+      "lightfield.memory_mib", "monitor.interval_s", "monitor.window_s", "openxr.patience_s",
       "profile.budget", "target.name", "target.validation", "vulkan.device", "vulkan.validation"}}};
 
 TEST(ProgramSettings, EachConcernsWhatItShould) {
@@ -196,6 +197,7 @@ TEST(ProgramSettings, GiveEveryMemberARow) {
     };
     expect_all(gaze::GazeSettings());
     expect_all(drivers::hid::HidSettings());
+    expect_all(openxr_layer::LayerSettings());
     expect_all(drivers::steam_frame::SteamFrameSettings());
     expect_all(methods::AcuitySettings());
     expect_all(methods::FixedSettings());

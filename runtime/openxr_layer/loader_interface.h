@@ -8,7 +8,7 @@
 /// What the OpenXR loader and an API layer or a runtime say to each other when it is loaded. Debian
 /// 12's headers (1.0.20) lack openxr_loader_negotiation.h; names and values are that header's, from
 /// the OpenXR loader's specification (loader interface version 1).
-namespace gazeloop::tests {
+namespace gazeloop::openxr_layer {
 
 enum class XrLoaderStruct : std::uint32_t {
     LoaderInfo = 1,
@@ -72,4 +72,4 @@ struct XrApiLayerCreateInfo {
 
 inline constexpr std::uint32_t kLoaderInterfaceVersion = 1;
 
-}  // namespace gazeloop::tests
+}  // namespace gazeloop::openxr_layer

@@ -1,0 +1,197 @@
+// Frames and views: what a recording is made of, and views as seen from the gaze.
+#include <algorithm>
+#include <array>
+#include <glm/gtc/quaternion.hpp>
+
+#include "runtime/openxr_layer/gaze_reading.h"
+#include "runtime/time/clock.h"
+
+namespace gazeloop::openxr_layer {
+namespace {
+
+using Next = NextFunctions;
+using Sizes = gaze::PerEye<std::array<std::uint32_t, 2>>;
+
+/// Calls `use(LayeredSession&)` where the session is recorded, under the instance's lock.
+template <typename Use>
+void if_recorded(LayeredInstance& layered, XrSession session, Use&& use) {
+    const std::lock_guard lock(layered.mutex);
+    LayeredSession* const known = layered.session(session);
+    if (known != nullptr && known->tap != nullptr) {
+        use(*known);
+    }
+}
+
+XrResult wait_frame(Call<&Next::WaitFrame>& call, XrSession session, const XrFrameWaitInfo* info,
+                    XrFrameState* state) {
+    const XrResult result = call.down(session, info, state);
+    if (XR_FAILED(result)) {
+        return result;
+    }
+    LayeredInstance& layered = call.instance();
+    const std::int64_t now_ns = time::monotonic_ns();
+    const std::lock_guard lock(layered.mutex);
+    layered.times.see_announced(state->predictedDisplayTime, now_ns);
+    LayeredSession* const known = layered.session(session);
+    if (known != nullptr && known->tap != nullptr) {
+        known->tap->waited(state->predictedDisplayTime, now_ns,
+                           {.display_ns = layered.times.host_ns(state->predictedDisplayTime),
+                            .period_ns = state->predictedDisplayPeriod,
+                            .should_render = state->shouldRender == XR_TRUE});
+    }
+    return result;
+}
+
+XrResult begin_frame(Call<&Next::BeginFrame>& call, XrSession session,
+                     const XrFrameBeginInfo* info) {
+    const XrResult result = call.down(session, info);
+    if (XR_SUCCEEDED(result)) {
+        if_recorded(call.instance(), session,
+                    [](LayeredSession& known) { known.tap->begun(time::monotonic_ns()); });
+    }
+    return result;
+}
+
+/// The head that two views belong to: midway between them.
+gaze::Pose head_of(const gaze::StereoView& views) {
+    return {glm::slerp(views[0].pose.orientation, views[1].pose.orientation, 0.5),
+            0.5 * (views[0].pose.position_m + views[1].pose.position_m)};
+}
+
+/// None where the runtime gave what is no view.
+std::optional<gaze::StereoView> stereo_of(const XrView* views) {
+    gaze::StereoView stereo;
+    for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
+        const auto pose = openxr::from_xr(views[eye].pose);
+        if (!pose) {
+            return std::nullopt;
+        }
+        const XrFovf& fov = views[eye].fov;
+        stereo[eye].pose = *pose;
+        stereo[eye].fov = {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown};
+    }
+    return stereo;
+}
+
+constexpr XrViewStateFlags kViewsKnown =
+    XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
+
+/// Recorded views are in a space that stands still: where the application asks in one that is fixed
+/// to its head, they are asked for once more.
+void record_views(LayeredInstance& layered, XrSession session, const XrViewLocateInfo& info,
+                  XrViewStateFlags flags, const XrView* views) {
+    if_recorded(layered, session, [&](LayeredSession& known) {
+        XrViewLocateInfo still = info;
+        std::array<XrView, gaze::kEyeCount> again{};
+        if (std::ranges::find(known.view_spaces, info.space) != known.view_spaces.end()) {
+            still.next = nullptr;
+            still.space = known.local_space;
+            again.fill({.type = XR_TYPE_VIEW, .next = nullptr, .pose = {}, .fov = {}});
+            XrViewState state{};
+            state.type = XR_TYPE_VIEW_STATE;
+            std::uint32_t count = 0;
+            if (known.local_space == XR_NULL_HANDLE ||
+                XR_FAILED(layered.next.LocateViews(session, &still, &state, gaze::kEyeCount, &count,
+                                                   again.data())) ||
+                count != gaze::kEyeCount) {
+                return;
+            }
+            flags = state.viewStateFlags;
+            views = again.data();
+        }
+        const auto stereo = stereo_of(views);
+        if ((flags & kViewsKnown) != kViewsKnown || !stereo) {
+            return;
+        }
+        known.views_in = still.space;
+        const auto tell = [&](FrameTap& tap) {
+            tap.located(info.displayTime, time::monotonic_ns(), *stereo, head_of(*stereo));
+        };
+        tell_tap(layered, known, tell);
+    });
+}
+
+XrResult locate_views(Call<&Next::LocateViews>& call, XrSession session,
+                      const XrViewLocateInfo* info, XrViewState* state, std::uint32_t capacity,
+                      std::uint32_t* count, XrView* views) {
+    LayeredInstance& layered = call.instance();
+    const auto locate =
+        info != nullptr ? locating(layered, XR_NULL_HANDLE, info->space) : std::nullopt;
+    if (!locate || !locate->base->gives_gaze) {
+        const XrResult result = call.down(session, info, state, capacity, count, views);
+        if (XR_SUCCEEDED(result) && capacity >= gaze::kEyeCount && *count == gaze::kEyeCount &&
+            info->viewConfigurationType == XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO) {
+            record_views(layered, session, *info, state->viewStateFlags, views);
+        }
+        return result;
+    }
+    // From the gaze: the views in the head, and the head from the gaze.
+    XrViewLocateInfo from_head = *info;
+    from_head.space = locate->view_space;
+    const XrViewLocateInfo* const passed = &from_head;
+    const XrResult result = call.down(session, passed, state, capacity, count, views);
+    if (XR_FAILED(result) || capacity == 0) {
+        return result;
+    }
+    const auto gaze = gaze_at(*locate, info->displayTime);
+    if (!gaze) {
+        state->viewStateFlags = 0;
+        return result;
+    }
+    const gaze::Pose back =
+        gaze::inverse(gaze::compose(gaze->in_head.pose, locate->base->space.pose_in_gaze));
+    for (std::uint32_t i = 0; i < *count; ++i) {
+        if (const auto pose = openxr::from_xr(views[i].pose)) {
+            views[i].pose = openxr::to_xr(gaze::compose(back, *pose));
+        }
+    }
+    note_gaze_read(layered, locate->session);
+    return result;
+}
+
+/// Of the first layer that is a stereo picture; 0 where there is none.
+Sizes sizes_of(const XrFrameEndInfo& info) {
+    Sizes sizes{};
+    for (std::uint32_t i = 0; i < info.layerCount && info.layers != nullptr; ++i) {
+        const XrCompositionLayerBaseHeader* const layer = info.layers[i];
+        if (layer == nullptr || layer->type != XR_TYPE_COMPOSITION_LAYER_PROJECTION) {
+            continue;
+        }
+        const auto& projection = *reinterpret_cast<const XrCompositionLayerProjection*>(layer);
+        if (projection.viewCount < gaze::kEyeCount || projection.views == nullptr) {
+            continue;
+        }
+        for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
+            const XrExtent2Di& extent = projection.views[eye].subImage.imageRect.extent;
+            sizes[eye] = {static_cast<std::uint32_t>(std::max(extent.width, 0)),
+                          static_cast<std::uint32_t>(std::max(extent.height, 0))};
+        }
+        return sizes;
+    }
+    return sizes;
+}
+
+XrResult end_frame(Call<&Next::EndFrame>& call, XrSession session, const XrFrameEndInfo* info) {
+    const std::int64_t before_ns = time::monotonic_ns();
+    const XrResult result = call.down(session, info);
+    if (XR_SUCCEEDED(result)) {
+        if_recorded(call.instance(), session, [&](LayeredSession& known) {
+            known.tap->ended(info->displayTime, before_ns, time::monotonic_ns(), sizes_of(*info));
+        });
+    }
+    return result;
+}
+
+}  // namespace
+
+std::span<const Hook> frame_hooks() {
+    static const std::array kHooks{
+        hook<&Next::WaitFrame, &wait_frame>("xrWaitFrame"),
+        hook<&Next::BeginFrame, &begin_frame>("xrBeginFrame"),
+        hook<&Next::LocateViews, &locate_views>("xrLocateViews"),
+        hook<&Next::EndFrame, &end_frame>("xrEndFrame"),
+    };
+    return kHooks;
+}
+
+}  // namespace gazeloop::openxr_layer

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "runtime/frame/frame_record.h"
+#include "runtime/gaze/gaze_to_fovea.h"
+#include "runtime/openxr_layer/gaze_history.h"
+#include "runtime/session/session_recorder.h"
+
+namespace gazeloop::openxr_layer {
+
+/// What is seen of an application's frames at the API, written as a session. Its calls may come
+/// from several threads, and a frame be waited for before the one before it has ended. Nothing is
+/// allocated after construction.
+///
+/// A frame's latch is the last time that the application read the gaze for it; where it reads none,
+/// when it asked for its views, which is the last moment at which anybody could have aimed its
+/// picture. What its GPU did is not known.
+class FrameTap {
+  public:
+    /// Errors: as SessionRecorder::create().
+    static Expected<std::unique_ptr<FrameTap>> open(const std::filesystem::path& file,
+                                                    const session::SessionHeader& header,
+                                                    const gaze::FoveaPolicy& policy);
+
+    struct Announced {
+        std::optional<std::int64_t> display_ns;  ///< host time; none: not known
+        std::int64_t period_ns = 0;
+        bool should_render = true;
+    };
+
+    // As the application does them. Times are host time. `key`: the frame's predicted display time
+    // as the runtime gave it.
+
+    void waited(std::int64_t key, std::int64_t now_ns, const Announced& announced);
+    void begun(std::int64_t now_ns);
+    /// Views in a space that stands still, for the display time `key`. Sizes are ignored.
+    void located(std::int64_t key, std::int64_t now_ns, const gaze::StereoView& views,
+                 const gaze::Pose& head);
+    void read_gaze(std::int64_t now_ns);
+    /// The frame was handed over between two times, with pictures of these sizes (0: none).
+    void ended(std::int64_t key, std::int64_t before_ns, std::int64_t now_ns,
+               const gaze::PerEye<std::array<std::uint32_t, 2>>& sizes_px);
+
+    /// The samples that came since the last call; `head_at` gives the head in the views' space at a
+    /// host time, where it is known, and is asked for the newest only.
+    template <typename HeadAt>
+    void take(const GazeHistory& history, HeadAt&& head_at) {
+        const std::lock_guard lock(mutex_);
+        const std::uint64_t from = std::max(taken_, history.first());
+        if (from == history.count()) {
+            return;
+        }
+        const SeenGaze& newest = history[history.count() - 1];
+        const std::optional<gaze::Pose> head =
+            newest.sample.sampled.known() ? head_at(newest.time_ns) : std::nullopt;
+        for (std::uint64_t number = from; number < history.count(); ++number) {
+            add(history[number], newest, head);
+        }
+        taken_ = history.count();
+        last_head_ = head ? std::optional(Placed{newest.time_ns, *head}) : std::nullopt;
+    }
+
+    void event(std::string_view kind, std::string_view text);
+    /// Writes what is left. What went wrong; empty: nothing.
+    std::string close();
+
+  private:
+    struct Frame {
+        std::int64_t key = 0;
+        frame::FrameRecord record;
+        bool waited = false;
+        bool gaze_read = false;
+        bool viewed = false;
+    };
+    struct Placed {
+        std::int64_t time_ns;
+        gaze::Pose head;
+    };
+
+    FrameTap(std::unique_ptr<session::SessionRecorder> recorder, const gaze::FoveaPolicy& policy);
+    [[nodiscard]] Frame* frame_of(std::int64_t key);
+    void add(const SeenGaze& seen, const SeenGaze& newest, const std::optional<gaze::Pose>& head);
+
+    /// More frames are not waited for at a time by any application of sense.
+    static constexpr std::size_t kMostFrames = 4;
+
+    std::mutex mutex_;
+    std::unique_ptr<session::SessionRecorder> recorder_;
+    gaze::GazeToFovea gaze_;
+    std::array<Frame, kMostFrames> frames_;  ///< by the order of waiting, modulo size
+    std::uint64_t waited_ = 0;
+    std::uint64_t begun_ = 0;
+    std::uint64_t index_ = 0;
+    std::uint64_t taken_ = 0;
+    std::optional<std::int64_t> first_display_ns_;
+    std::optional<Placed> last_head_;
+};
+
+}  // namespace gazeloop::openxr_layer

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/settings/setting_row.h"
+
+namespace gazeloop::openxr_layer {
+
+/// The settings layer.*: what the OpenXR API layer does for applications that are not gazeloop.
+struct LayerSettings {
+    std::string eye_gaze = "where-lacking";  ///< when XR_EXT_eye_gaze_interaction is the layer's
+    std::string gaze;                        ///< a source, as run's --gaze; empty: none
+    std::string record;                      ///< a session, or the folder for them; empty: none
+    std::string unknown_applications = "allow";
+};
+
+[[nodiscard]] std::vector<settings::SettingRow> rows_of(LayerSettings& layer);
+
+}  // namespace gazeloop::openxr_layer

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/openxr_layer/eye_bindings.h"
+#include "runtime/openxr_layer/frame_tap.h"
+#include "runtime/openxr_layer/gaze_feed.h"
+#include "runtime/openxr_layer/layer_configuration.h"
+#include "runtime/openxr_layer/next_functions.h"
+#include "runtime/openxr_layer/permissions.h"
+#include "runtime/openxr_layer/sightings.h"
+#include "runtime/openxr_layer/time_line.h"
+
+namespace gazeloop::openxr_layer {
+
+/// A space of the application's that follows the gaze.
+struct GazeSpace {
+    XrAction action = XR_NULL_HANDLE;
+    bool eyes_alone = false;  ///< made for the eyes' path
+    gaze::Pose pose_in_gaze;  ///< poseInActionSpace
+};
+
+/// What the layer knows of a session.
+struct LayeredSession {
+    XrSession handle = XR_NULL_HANDLE;
+    // The layer's own; null where the runtime gave none.
+    XrSpace view_space = XR_NULL_HANDLE;
+    XrSpace local_space = XR_NULL_HANDLE;
+    std::shared_ptr<GazeFeed> feed;  ///< null: there is no gaze
+    std::unique_ptr<FrameTap> tap;   ///< null: nothing is recorded
+    std::vector<XrActionSet> attached;
+    bool profile_told = false;      ///< that the eye gaze profile is bound
+    std::vector<XrAction> active;   ///< driven by the eyes since the last xrSyncActions
+    std::vector<SyncedSet> synced;  ///< of the last xrSyncActions
+    std::map<XrSpace, GazeSpace> gaze_spaces;
+    std::vector<XrSpace> view_spaces;   ///< the application's own that are fixed to the head
+    XrSpace views_in = XR_NULL_HANDLE;  ///< the space that the recorded views are in
+    bool gaze_was_read = false;
+};
+
+/// Who provides XR_EXT_eye_gaze_interaction to an instance that has enabled it.
+enum class EyeGazeBy : std::uint8_t {
+    Nobody,   ///< the application has not enabled it
+    Runtime,  ///< the layer keeps out of it
+    Layer,
+};
+
+/// What the layer knows of an instance. Whoever reads or changes what is below `mutex` holds it;
+/// the rest stays as it was made.
+struct LayeredInstance {
+    XrInstance handle = XR_NULL_HANDLE;
+    PFN_xrGetInstanceProcAddr next_proc = nullptr;
+    NextFunctions next;
+    bool passes_through = false;  ///< nothing is hooked: the layer could not work
+    LayerConfiguration configuration;
+    std::string application;
+    std::string runtime;
+    EyeGazeBy eye_gaze = EyeGazeBy::Nobody;
+    bool tells_samples = false;  ///< XR_GAZELOOP_gaze_sample is enabled
+    XrPath eyes = XR_NULL_PATH;  ///< /user/eyes_ext
+    XrPath gaze_pose = XR_NULL_PATH;
+    XrPath profile = XR_NULL_PATH;
+    std::shared_ptr<GazeFeed> feed;  ///< null: there is no gaze
+
+    std::mutex mutex;
+    TimeLine times;
+    std::optional<GazePermission> permission;
+    EyeBindings bindings;
+    std::map<XrSession, LayeredSession> sessions;
+    std::deque<XrEventDataBuffer> events;  ///< of the layer, to be polled before the runtime's
+    Sighting sighting;
+
+    /// Null: it is none of this instance's.
+    [[nodiscard]] LayeredSession* session(XrSession session) {
+        const auto found = sessions.find(session);
+        return found != sessions.end() ? &found->second : nullptr;
+    }
+    [[nodiscard]] bool provides_eye_gaze() const { return eye_gaze == EyeGazeBy::Layer; }
+
+    /// Whether the application may have gaze now; tells of what changes. Under `mutex`.
+    [[nodiscard]] bool permits_gaze(std::int64_t now_ns);
+    /// The application was given gaze: the first time is told. Under `mutex`.
+    void note_gaze_read(LayeredSession& session);
+};
+
+}  // namespace gazeloop::openxr_layer

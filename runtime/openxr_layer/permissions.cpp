@@ -1,0 +1,127 @@
+#include "runtime/openxr_layer/permissions.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "runtime/openxr_layer/layer_log.h"
+#include "runtime/openxr_layer/private_file.h"
+#include "runtime/openxr_layer/user_folders.h"
+
+namespace gazeloop::openxr_layer {
+namespace {
+
+constexpr std::size_t kMostBytes = 1'000'000;
+constexpr std::int64_t kLookAgain_ns = 1'000'000'000;
+
+}  // namespace
+
+std::optional<std::filesystem::path> Permissions::file() {
+    auto folder = user_config();
+    return folder ? std::optional(*folder / "gazeloop/layer-applications.toml") : std::nullopt;
+}
+
+Expected<Permissions> Permissions::read(const std::filesystem::path& file) {
+    std::error_code failure;
+    if (!std::filesystem::exists(file, failure) && !failure) {
+        return Permissions{};
+    }
+    const auto text = read_small(file, kMostBytes);
+    if (!text) {
+        return std::unexpected(
+            Error{ErrorKind::BadInput,
+                  fmt::format("{}: cannot be read, or is larger than 1 MB", file.string())});
+    }
+    return parse(*text, file.string());
+}
+
+Expected<Permissions> Permissions::parse(std::string_view text, std::string_view name) {
+    const auto refuse = [&](const toml::source_region& where, std::string_view why) {
+        return std::unexpected(
+            Error{ErrorKind::BadInput, fmt::format("{}:{}: {}", name, where.begin.line, why)});
+    };
+    Permissions permissions;
+    try {
+        for (const auto& [key, node] : toml::parse(text, name)) {
+            const auto answer = node.value<std::string_view>();
+            if (answer != "allow" && answer != "deny") {
+                return refuse(node.source(), "\"EXECUTABLE\" = \"allow\" or \"deny\" is expected");
+            }
+            permissions.set(std::string(key.str()),
+                            answer == "allow" ? Answer::Allowed : Answer::Denied);
+        }
+    } catch (const toml::parse_error& error) {
+        return refuse(error.source(), error.description());
+    }
+    return permissions;
+}
+
+Permissions::Answer Permissions::of(std::string_view executable) const {
+    const auto found = answers_.find(executable);
+    return found != answers_.end() ? found->second : Answer::Unknown;
+}
+
+void Permissions::set(const std::string& executable, Answer answer) {
+    if (answer == Answer::Unknown) {
+        answers_.erase(executable);
+    } else {
+        answers_[executable] = answer;
+    }
+}
+
+std::string Permissions::text() const {
+    toml::table table;
+    for (const auto& [executable, answer] : answers_) {
+        table.insert(executable, answer == Answer::Allowed ? "allow" : "deny");
+    }
+    std::ostringstream out;
+    out << table << '\n';
+    return out.str();
+}
+
+GazePermission::GazePermission(std::string executable, std::string_view unknown)
+    : executable_(std::move(executable)),
+      unknown_(unknown == "allow" ? Verdict::Allowed
+               : unknown == "ask" ? Verdict::Asked
+                                  : Verdict::Denied),
+      file_(Permissions::file()) {}
+
+GazePermission::Verdict GazePermission::verdict(std::int64_t now_ns) {
+    if (!looked_ns_ || now_ns - *looked_ns_ >= kLookAgain_ns) {
+        look();
+        looked_ns_ = now_ns;
+    }
+    return verdict_;
+}
+
+void GazePermission::look() {
+    std::error_code absent;
+    const auto changed = file_ ? std::filesystem::last_write_time(*file_, absent)
+                               : std::filesystem::file_time_type::min();
+    if (looked_ns_ && seen_ == changed) {
+        return;
+    }
+    seen_ = changed;
+    const auto permissions = file_ ? Permissions::read(*file_) : Permissions{};
+    if (!permissions) {
+        say(LogLevel::Warning, permissions.error().message + ": no application gets gaze");
+        verdict_ = Verdict::Denied;
+        return;
+    }
+    switch (permissions->of(executable_)) {
+        case Permissions::Answer::Unknown:
+            verdict_ = unknown_;
+            return;
+        case Permissions::Answer::Allowed:
+            verdict_ = Verdict::Allowed;
+            return;
+        case Permissions::Answer::Denied:
+            verdict_ = Verdict::Denied;
+            return;
+    }
+}
+
+}  // namespace gazeloop::openxr_layer
