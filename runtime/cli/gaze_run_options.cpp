@@ -6,10 +6,10 @@ namespace gazeloop::cli {
 
 void GazeRunOptions::add_to(Command command) {
     command
-        .option(
-            "--gaze", gaze,
-            "hid, psvr2, steam-frame[:FILE], openxr, trace:FILE, fixed:AZ,EL (degrees, right, up), "
-            "or sim")
+        .option("--gaze", gaze,
+                "hid, psvr2, steam-frame[:FILE], osc:PORT, openxr, trace:FILE, fixed:AZ,EL "
+                "(degrees, right, up), "
+                "or sim")
         .type("SOURCE");
     command.option("--clock", clock, "wall: in real time; virtual: the same result on every run")
         .one_of({"wall", "virtual"});

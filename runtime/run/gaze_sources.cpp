@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/datagram/datagram_source.h"
 #include "drivers/fixed/fixed_source.h"
 #include "drivers/hid/hid_source.h"
 #include "drivers/psvr2/psvr2_source.h"
@@ -33,7 +34,7 @@ std::string_view certain_tracker(std::string_view gaze) {
 
 bool is_device(std::string_view gaze) {
     return gaze == "openxr" || gaze == "psvr2" || kind_of(gaze) == "hid" ||
-           kind_of(gaze) == kSteamFrame;
+           kind_of(gaze) == "osc" || kind_of(gaze) == kSteamFrame;
 }
 
 drivers::hid::HidOptions hid_options(const profiles::TrackerProfile& tracker,
@@ -144,8 +145,18 @@ Expected<MakeSource> gaze_source_named(std::string_view text,
             return std::make_unique<drivers::steam_frame::SteamFrameSource>(options);
         };
     }
-    const std::vector<std::string> known{"hid",    "hid:/dev/hidrawN", "psvr2",       "steam-frame",
-                                         "openxr", "trace:FILE",       "fixed:AZ,EL", "sim"};
+    if (kind == "osc" && !argument.empty()) {
+        const auto endpoint = drivers::datagram::parse_endpoint(argument);
+        if (!endpoint) {
+            return std::unexpected(endpoint.error());
+        }
+        return [endpoint = *endpoint](std::int64_t) {
+            return std::make_unique<drivers::datagram::DatagramSource>(endpoint);
+        };
+    }
+    const std::vector<std::string> known{"hid",         "hid:/dev/hidrawN", "psvr2",
+                                         "steam-frame", "osc:PORT",         "openxr",
+                                         "trace:FILE",  "fixed:AZ,EL",      "sim"};
     return std::unexpected(
         Error{ErrorKind::Usage, "--gaze: " + settings::unknown_name("source", text, known)});
 }

@@ -24,7 +24,7 @@ gaze::Pose any_pose() {
 /// The pose after a short time of steady motion about its own place.
 gaze::Pose later(const gaze::Pose& pose, const glm::dvec3& linear, const glm::dvec3& angular,
                  double seconds) {
-    const double angle = glm::length(angular) * seconds;
+    const double speed = glm::length(angular);
     const glm::dquat turned = angle > 0.0 ? glm::angleAxis(angle, glm::normalize(angular))
                                           : glm::dquat(1.0, 0.0, 0.0, 0.0);
     return {turned * pose.orientation, pose.position_m + seconds * linear};
