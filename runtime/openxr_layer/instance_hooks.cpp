@@ -52,7 +52,7 @@ XrResult get_system_properties(Call<&Next::GetSystemProperties>& call, XrInstanc
     return result;
 }
 
-/// FOLDER/NAME-20250131-123456-PID.gaze where a folder is named, else the file itself.
+/// FOLDER/NAME-20250131-123456-PID[-2].gaze where a folder is named, else the file itself.
 std::filesystem::path session_file(const LayeredInstance& layered) {
     const std::filesystem::path named = layered.configuration.values.layer.record;
     std::error_code failure;
@@ -64,7 +64,14 @@ std::filesystem::path session_file(const LayeredInstance& layered) {
         letter = std::isalnum(static_cast<unsigned char>(letter)) != 0 ? letter : '_';
     }
     const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    return named / fmt::format("{}-{:%Y%m%d-%H%M%S}-{}.gaze", name, fmt::gmtime(now), ::getpid());
+    const std::string stem =
+        fmt::format("{}-{:%Y%m%d-%H%M%S}-{}", name, fmt::gmtime(now), ::getpid());
+    std::filesystem::path file = named / (stem + ".gaze");
+    // A program may make one session after another.
+    for (int again = 2; std::filesystem::exists(file, failure); ++again) {
+        file = named / fmt::format("{}-{}.gaze", stem, again);
+    }
+    return file;
 }
 
 session::SessionHeader header_of(const LayeredInstance& layered) {

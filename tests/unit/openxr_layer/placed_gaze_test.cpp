@@ -25,7 +25,7 @@ gaze::Pose any_pose() {
 gaze::Pose later(const gaze::Pose& pose, const glm::dvec3& linear, const glm::dvec3& angular,
                  double seconds) {
     const double speed = glm::length(angular);
-    const glm::dquat turned = angle > 0.0 ? glm::angleAxis(angle, glm::normalize(angular))
+    const glm::dquat turned = speed > 0.0 ? glm::angleAxis(speed * seconds, angular / speed)
                                           : glm::dquat(1.0, 0.0, 0.0, 0.0);
     return {turned * pose.orientation, pose.position_m + seconds * linear};
 }

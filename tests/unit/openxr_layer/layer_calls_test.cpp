@@ -1,0 +1,373 @@
+// The layer above a mock runtime: calls in any order that an application may make them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runtime/openxr_layer/gazeloop_gaze_sample.h"
+#include "runtime/openxr_layer/sightings.h"
+#include "runtime/time/clock.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/openxr_layer/mock_runtime.h"
+
+namespace gazeloop::openxr_layer {
+namespace {
+
+using openxr::typed;
+
+constexpr XrSpaceLocationFlags kAll = 0xF;
+
+void set_settings(const std::string& lines) { setenv("GAZELOOP_LAYER_SETTINGS", lines.c_str(), 1); }
+
+/// Files of the layer go into a folder of the test's.
+struct Home {
+    Home() {
+        for (const char* const name : {"XDG_CONFIG_HOME", "XDG_STATE_HOME", "XDG_DATA_HOME"}) {
+            setenv(name, folder.path().c_str(), 1);
+        }
+    }
+    tests::TemporaryFolder folder;
+};
+
+/// What an application holds, and the functions it calls.
+class Application {
+  public:
+    explicit Application(const std::vector<const char*>& extensions = {
+                             XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME,
+                             XR_GAZELOOP_GAZE_SAMPLE_EXTENSION_NAME}) {
+        if (XR_FAILED(MockRuntime::the().create_through_layer(extensions, instance))) {
+            throw std::runtime_error("no instance");
+        }
+    }
+    Application(const Application&) = delete;
+    Application& operator=(const Application&) = delete;
+    ~Application() { call<PFN_xrDestroyInstance>("xrDestroyInstance")(instance); }
+
+    template <typename Function>
+    [[nodiscard]] Function call(const char* name) const {
+        return MockRuntime::through_layer<Function>(instance, name);
+    }
+    [[nodiscard]] XrPath path(const char* text) const {
+        XrPath path = XR_NULL_PATH;
+        call<PFN_xrStringToPath>("xrStringToPath")(instance, text, &path);
+        return path;
+    }
+
+    XrResult make_session() {
+        const auto info = typed<XrSessionCreateInfo>(XR_TYPE_SESSION_CREATE_INFO);
+        return call<PFN_xrCreateSession>("xrCreateSession")(instance, &info, &session);
+    }
+    XrResult make_set(std::uint32_t priority = 0) {
+        auto info = typed<XrActionSetCreateInfo>(XR_TYPE_ACTION_SET_CREATE_INFO);
+        info.priority = priority;
+        XrActionSet set = XR_NULL_HANDLE;
+        const XrResult result =
+            call<PFN_xrCreateActionSet>("xrCreateActionSet")(instance, &info, &set);
+        if (XR_SUCCEEDED(result)) {
+            sets.push_back(set);
+        }
+        return result;
+    }
+    XrResult make_action(XrActionSet set, bool for_eyes) {
+        auto info = typed<XrActionCreateInfo>(XR_TYPE_ACTION_CREATE_INFO);
+        info.actionType = XR_ACTION_TYPE_POSE_INPUT;
+        const XrPath eyes = path("/user/eyes_ext");
+        info.countSubactionPaths = for_eyes ? 1 : 0;
+        info.subactionPaths = for_eyes ? &eyes : nullptr;
+        XrAction action = XR_NULL_HANDLE;
+        const XrResult result = call<PFN_xrCreateAction>("xrCreateAction")(set, &info, &action);
+        if (XR_SUCCEEDED(result)) {
+            actions.push_back(action);
+        }
+        return result;
+    }
+    XrResult suggest(const std::vector<XrAction>& bound) {
+        std::vector<XrActionSuggestedBinding> bindings;
+        for (const XrAction action : bound) {
+            bindings.push_back({action, path("/user/eyes_ext/input/gaze_ext/pose")});
+        }
+        auto info = typed<XrInteractionProfileSuggestedBinding>(
+            XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
+        info.interactionProfile = path("/interaction_profiles/ext/eye_gaze_interaction");
+        info.countSuggestedBindings = static_cast<std::uint32_t>(bindings.size());
+        info.suggestedBindings = bindings.data();
+        return call<PFN_xrSuggestInteractionProfileBindings>("xrSuggestInteractionProfileBindings")(
+            instance, &info);
+    }
+    XrResult attach() {
+        auto info = typed<XrSessionActionSetsAttachInfo>(XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO);
+        info.countActionSets = static_cast<std::uint32_t>(sets.size());
+        info.actionSets = sets.data();
+        return call<PFN_xrAttachSessionActionSets>("xrAttachSessionActionSets")(session, &info);
+    }
+    XrResult sync(XrPath user = XR_NULL_PATH) {
+        synced.clear();
+        for (const XrActionSet set : sets) {
+            synced.push_back({set, user});
+        }
+        auto info = typed<XrActionsSyncInfo>(XR_TYPE_ACTIONS_SYNC_INFO);
+        info.countActiveActionSets = static_cast<std::uint32_t>(synced.size());
+        info.activeActionSets = synced.data();
+        return call<PFN_xrSyncActions>("xrSyncActions")(session, &info);
+    }
+    [[nodiscard]] bool active(XrAction action, XrPath user = XR_NULL_PATH) const {
+        auto info = typed<XrActionStateGetInfo>(XR_TYPE_ACTION_STATE_GET_INFO);
+        info.action = action;
+        info.subactionPath = user;
+        auto state = typed<XrActionStatePose>(XR_TYPE_ACTION_STATE_POSE);
+        return XR_SUCCEEDED(call<PFN_xrGetActionStatePose>("xrGetActionStatePose")(session, &info,
+                                                                                   &state)) &&
+               state.isActive == XR_TRUE;
+    }
+    XrResult make_gaze_space(XrAction action, XrPath user = XR_NULL_PATH) {
+        auto info = typed<XrActionSpaceCreateInfo>(XR_TYPE_ACTION_SPACE_CREATE_INFO);
+        info.action = action;
+        info.subactionPath = user;
+        info.poseInActionSpace = openxr::to_xr({});
+        return keep_space([&](XrSpace* space) {
+            return call<PFN_xrCreateActionSpace>("xrCreateActionSpace")(session, &info, space);
+        });
+    }
+    XrResult make_reference_space(XrReferenceSpaceType type) {
+        auto info = typed<XrReferenceSpaceCreateInfo>(XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
+        info.referenceSpaceType = type;
+        info.poseInReferenceSpace = openxr::to_xr({});
+        return keep_space([&](XrSpace* space) {
+            return call<PFN_xrCreateReferenceSpace>("xrCreateReferenceSpace")(session, &info,
+                                                                              space);
+        });
+    }
+    XrSpaceLocation locate(XrSpace space, XrSpace base, XrTime time, XrResult& result) const {
+        auto sample = typed<XrGazeSampleGAZELOOP>(XR_TYPE_GAZE_SAMPLE_GAZELOOP);
+        auto velocity = typed<XrSpaceVelocity>(XR_TYPE_SPACE_VELOCITY);
+        velocity.next = &sample;
+        auto location = typed<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
+        location.next = &velocity;
+        result = call<PFN_xrLocateSpace>("xrLocateSpace")(space, base, time, &location);
+        location.next = nullptr;
+        return location;
+    }
+    /// Waited for, begun, seen from, ended.
+    void frame(XrSpace views_in) {
+        auto state = typed<XrFrameState>(XR_TYPE_FRAME_STATE);
+        call<PFN_xrWaitFrame>("xrWaitFrame")(session, nullptr, &state);
+        call<PFN_xrBeginFrame>("xrBeginFrame")(session, nullptr);
+        auto info = typed<XrViewLocateInfo>(XR_TYPE_VIEW_LOCATE_INFO);
+        info.viewConfigurationType = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+        info.displayTime = state.predictedDisplayTime;
+        info.space = views_in;
+        auto view_state = typed<XrViewState>(XR_TYPE_VIEW_STATE);
+        std::array<XrView, 2> views{typed<XrView>(XR_TYPE_VIEW), typed<XrView>(XR_TYPE_VIEW)};
+        std::uint32_t count = 0;
+        call<PFN_xrLocateViews>("xrLocateViews")(session, &info, &view_state, 2, &count,
+                                                 views.data());
+        auto end = typed<XrFrameEndInfo>(XR_TYPE_FRAME_END_INFO);
+        end.displayTime = state.predictedDisplayTime;
+        call<PFN_xrEndFrame>("xrEndFrame")(session, &end);
+    }
+
+    XrInstance instance = XR_NULL_HANDLE;
+    XrSession session = XR_NULL_HANDLE;
+    std::vector<XrActionSet> sets;
+    std::vector<XrAction> actions;
+    std::vector<XrSpace> spaces;
+    std::vector<XrActiveActionSet> synced;
+
+  private:
+    template <typename Make>
+    XrResult keep_space(const Make& make_it) {
+        XrSpace space = XR_NULL_HANDLE;
+        const XrResult result = make_it(&space);
+        if (XR_SUCCEEDED(result)) {
+            spaces.push_back(space);
+        }
+        return result;
+    }
+};
+
+/// An application that reads gaze: one action, its space, VIEW and LOCAL.
+void set_up(Application& application) {
+    ASSERT_EQ(application.make_session(), XR_SUCCESS);
+    ASSERT_EQ(application.make_set(), XR_SUCCESS);
+    ASSERT_EQ(application.make_action(application.sets[0], true), XR_SUCCESS);
+    ASSERT_EQ(application.suggest(application.actions), XR_SUCCESS);
+    ASSERT_EQ(application.attach(), XR_SUCCESS);
+    ASSERT_EQ(application.make_gaze_space(application.actions[0]), XR_SUCCESS);
+    ASSERT_EQ(application.make_reference_space(XR_REFERENCE_SPACE_TYPE_VIEW), XR_SUCCESS);
+    ASSERT_EQ(application.make_reference_space(XR_REFERENCE_SPACE_TYPE_LOCAL), XR_SUCCESS);
+    ASSERT_EQ(application.sync(), XR_SUCCESS);
+    ASSERT_EQ(application.sync(), XR_SUCCESS);
+}
+
+TEST(LayerCalls, GiveGazeThatTheRuntimeHasNeverHeardOf) {
+    const Home home;
+    set_settings("layer.gaze=fixed:0,0");
+    Application application;
+    set_up(application);
+    EXPECT_TRUE(application.active(application.actions[0]));
+    EXPECT_TRUE(application.active(application.actions[0], application.path("/user/eyes_ext")));
+    EXPECT_FALSE(MockRuntime::the().saw_eyes());
+    XrResult result = XR_SUCCESS;
+    const XrTime now = MockRuntime::now();
+    EXPECT_EQ(
+        application.locate(application.spaces[0], application.spaces[1], now, result).locationFlags,
+        kAll);
+    // Without focus nothing is active, and the gaze is nowhere.
+    MockRuntime::the().set_focused(false);
+    EXPECT_EQ(application.sync(), XR_SESSION_NOT_FOCUSED);
+    EXPECT_FALSE(application.active(application.actions[0]));
+    MockRuntime::the().set_focused(true);
+    EXPECT_EQ(application.sync(), XR_SUCCESS);
+    EXPECT_TRUE(application.active(application.actions[0]));
+    // A session that is lost: the error is the runtime's, and nothing is active.
+    MockRuntime::the().fail_next("xrSyncActions", XR_ERROR_SESSION_LOST);
+    EXPECT_EQ(application.sync(), XR_ERROR_SESSION_LOST);
+    EXPECT_FALSE(application.active(application.actions[0]));
+    MockRuntime::the().fail_next("xrLocateSpace", XR_ERROR_SESSION_LOST);
+    EXPECT_EQ(application.sync(), XR_SUCCESS);
+    MockRuntime::the().fail_next("xrLocateSpace", XR_ERROR_SESSION_LOST);
+    application.locate(application.spaces[0], application.spaces[1], now, result);
+    EXPECT_EQ(result, XR_ERROR_SESSION_LOST);
+}
+
+TEST(LayerCalls, KeepTwoInstancesApart) {
+    const Home home;
+    set_settings("layer.gaze=fixed:0,0");
+    Application one;
+    set_up(one);
+    XrInstance other = XR_NULL_HANDLE;
+    ASSERT_EQ(MockRuntime::the().create_through_layer({}, other), XR_SUCCESS);
+    ASSERT_NE(other, one.instance);
+    // It has not asked for gaze: nothing but its end is the layer's.
+    const auto sync = MockRuntime::through_layer<PFN_xrSyncActions>(other, "xrSyncActions");
+    EXPECT_NE(sync, one.call<PFN_xrSyncActions>("xrSyncActions"));
+    EXPECT_TRUE(one.active(one.actions[0]));
+    MockRuntime::through_layer<PFN_xrDestroyInstance>(other, "xrDestroyInstance")(other);
+}
+
+TEST(LayerCalls, AllocateNothingInSteadyState) {
+    const Home home;
+    const std::string session = home.folder.path() / "session.gaze";
+    set_settings("layer.gaze=fixed:3,4\nlayer.record=" + session);
+    Application application;
+    set_up(application);
+    std::size_t before = 0;
+    std::vector<std::int64_t> own_ns;
+    own_ns.reserve(600);
+    for (int frame = 0; frame < 600; ++frame) {
+        if (frame == 100) {
+            before = tests::allocations_of_this_thread();
+        }
+        const std::int64_t start_ns = time::monotonic_ns();
+        application.sync();
+        XrResult result = XR_SUCCESS;
+        application.frame(application.spaces[2]);
+        application.locate(application.spaces[0], application.spaces[2], MockRuntime::now(),
+                           result);
+        own_ns.push_back(time::monotonic_ns() - start_ns);
+    }
+    EXPECT_EQ(tests::allocations_of_this_thread() - before, 0U);
+    std::ranges::sort(own_ns);
+    RecordProperty("frame_p50_ns", std::to_string(own_ns[300]));
+    RecordProperty("frame_p99_ns", std::to_string(own_ns[594]));
+}
+
+/// One call that an application may make at any time, with what it holds.
+void any_call(Application& application) {
+    const auto any = [](auto& list) {
+        using Handle = std::decay_t<decltype(list[0])>;
+        return list.empty() || *rc::gen::inRange(0, 30) == 0
+                   ? Handle{}
+                   : list[*rc::gen::inRange<std::size_t>(0, list.size())];
+    };
+    const XrPath eyes = application.path("/user/eyes_ext");
+    const XrPath user = *rc::gen::element(XrPath{XR_NULL_PATH}, eyes);
+    XrResult result = XR_SUCCESS;
+    switch (*rc::gen::inRange(0, 16)) {
+        case 0:
+            application.make_set(*rc::gen::inRange(0U, 3U));
+            break;
+        case 1:
+            application.make_action(any(application.sets), *rc::gen::arbitrary<bool>());
+            break;
+        case 2:
+            application.suggest(application.actions);
+            break;
+        case 3:
+            application.attach();
+            break;
+        case 4:
+            application.make_gaze_space(any(application.actions), user);
+            break;
+        case 5:
+            application.make_reference_space(
+                *rc::gen::element(XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL));
+            break;
+        case 6:
+            application.call<PFN_xrDestroySpace>("xrDestroySpace")(any(application.spaces));
+            break;
+        case 7:
+            application.call<PFN_xrDestroyAction>("xrDestroyAction")(any(application.actions));
+            break;
+        case 8:
+            application.call<PFN_xrDestroyActionSet>("xrDestroyActionSet")(any(application.sets));
+            break;
+        case 9:
+            application.frame(any(application.spaces));
+            break;
+        case 10:
+            MockRuntime::the().set_focused(*rc::gen::arbitrary<bool>());
+            break;
+        case 11:
+            MockRuntime::the().fail_next(
+                *rc::gen::element<std::string>("xrLocateSpace", "xrSyncActions", "xrWaitFrame",
+                                               "xrCreateSession", "xrLocateViews"),
+                *rc::gen::element(XR_ERROR_SESSION_LOST, XR_ERROR_RUNTIME_FAILURE));
+            break;
+        case 12:
+            application.call<PFN_xrDestroySession>("xrDestroySession")(application.session);
+            application.make_session();
+            break;
+        case 13:
+        case 14:
+            application.sync(user);
+            break;
+        default: {
+            const XrTime time =
+                *rc::gen::element<XrTime>(0, -1, 1, std::numeric_limits<XrTime>::max(),
+                                          MockRuntime::now(), MockRuntime::now() - 50'000'000);
+            const XrSpaceLocation location =
+                application.locate(any(application.spaces), any(application.spaces), time, result);
+            if (XR_SUCCEEDED(result) && location.locationFlags != 0) {
+                const auto pose = openxr::from_xr(location.pose);
+                RC_ASSERT(pose.has_value());
+            }
+        }
+    }
+}
+
+RC_GTEST_PROP(LayerCalls, ComeInAnyOrder, ()) {
+    const Home home;
+    set_settings(*rc::gen::element<std::string>(
+        "layer.gaze=fixed:1,2", "layer.gaze=sim", "", "layer.gaze=fixed:0,0\nlayer.eye_gaze=always",
+        "layer.gaze=fixed:0,0\nlayer.unknown_applications=deny",
+        "layer.gaze=sim\nlayer.record=" + home.folder.path().string()));
+    Application application;
+    application.make_session();
+    const int calls = *rc::gen::inRange(0, 150);
+    for (int call = 0; call < calls; ++call) {
+        any_call(application);
+    }
+    RC_ASSERT(!MockRuntime::the().saw_eyes());
+}
+
+}  // namespace
+}  // namespace gazeloop::openxr_layer
