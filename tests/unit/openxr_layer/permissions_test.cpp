@@ -10,16 +10,16 @@ using Answer = Permissions::Answer;
 
 TEST(Permissions, AreReadAsTheyAreWritten) {
     Permissions permissions;
-    permissions.set("/usr/bin/one", Answer::Allowed);
+    permissions.set("/opt/one", Answer::Allowed);
     permissions.set("/opt/a \"game\"/b.x86_64", Answer::Denied);
-    permissions.set("/usr/bin/three", Answer::Denied);
-    permissions.set("/usr/bin/three", Answer::Unknown);
+    permissions.set("/opt/three", Answer::Denied);
+    permissions.set("/opt/three", Answer::Unknown);
     const auto read = Permissions::parse(permissions.text(), "file");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->all(), permissions.all());
-    EXPECT_EQ(read->of("/usr/bin/one"), Answer::Allowed);
+    EXPECT_EQ(read->of("/opt/one"), Answer::Allowed);
     EXPECT_EQ(read->of("/opt/a \"game\"/b.x86_64"), Answer::Denied);
-    EXPECT_EQ(read->of("/usr/bin/three"), Answer::Unknown);
+    EXPECT_EQ(read->of("/opt/three"), Answer::Unknown);
 }
 
 TEST(Permissions, NameTheLineThatIsWrong) {
