@@ -36,22 +36,20 @@ struct LayerCommand {
     }
     [[nodiscard]] std::vector<std::string> settings() const {
         std::vector<std::string> all = assignments;
-        for (const auto& [key, value] : {std::pair{"layer.gaze", gaze}, {"layer.record", record}}) {
-            if (!value.empty()) {
-                all.push_back(fmt::format("{}={}", key, value));
-            }
+        if (!gaze.empty()) {
+            all.push_back("layer.gaze=" + gaze);
+        }
+        if (!record.empty()) {
+            all.push_back("layer.record=" + record);
         }
         return all;
     }
 };
 
-ExitCode status(const LayerCommand& command) {
-    if (command.json.empty()) {
-        fmt::print("{}", layer::layer_status_text());
-    } else {
-        value_or_throw(
-            report::write_text(command.json, report::json_text(layer::layer_status_json())));
-    }
+ExitCode status(const std::string& json) {
+    value_or_throw(json.empty()
+                       ? report::write_text("-", layer::layer_status_text())
+                       : report::write_text(json, report::json_text(layer::layer_status_json())));
     return ExitCode::Ok;
 }
 
@@ -61,25 +59,21 @@ void add_layer_command(Command program) {
     Command app = program.command("layer", "give other OpenXR applications gaze, and record them");
     app.require_command();
     const auto command = std::make_shared<LayerCommand>();
-
     Command shown = app.command("status", "whether it is on, and which applications saw it last");
     shown.option("--json", command->json, "write it as JSON; without a file, to stdout")
         .value_optional("-")
         .type("[FILE]");
-    shown.does([=] { return status(*command); });
-
+    shown.does([=] { return status(command->json); });
     Command enabled = app.command("enable", "switch it on in every OpenXR application of yours");
     command->add_settings_to(enabled);
     enabled.does([=] {
         value_or_throw(layer::enable(command->settings()));
-        return status(*command);
+        return status("");
     });
-
     app.command("disable", "switch it off again; settings and decisions stay").does([=] {
         fmt::print("{}\n", value_or_throw(layer::disable()) ? "switched off" : "it was off");
         return ExitCode::Ok;
     });
-
     using Answer = layer::Permissions::Answer;
     const auto decides = [&](const char* name, Answer answer, const char* meaning) {
         Command decided = app.command(name, meaning);
@@ -92,7 +86,6 @@ void add_layer_command(Command program) {
     decides("allow", Answer::Allowed, "let an application have gaze");
     decides("deny", Answer::Denied, "let an application have no gaze");
     decides("forget", Answer::Unknown, "decide no more on an application");
-
     Command run = app.command("run", "run one application with it: gazeloop layer run -- PROGRAM");
     command->add_settings_to(run);
     run.option("program", command->program, "the application and its words, after --")
