@@ -180,14 +180,17 @@ class PassedSets {
 XrResult sync_actions(Call<&Next::SyncActions>& call, XrSession session,
                       const XrActionsSyncInfo* info) {
     LayeredInstance& layered = call.instance();
-    if (!layered.provides_eye_gaze() || info == nullptr || info->activeActionSets == nullptr) {
+    if (!layered.provides_eye_gaze() || info == nullptr) {
         return call.down(session, info);
     }
-    const std::span sets(info->activeActionSets, info->countActiveActionSets);
+    const std::span sets(info->activeActionSets,
+                         info->activeActionSets != nullptr ? info->countActiveActionSets : 0);
     PassedSets passed_sets(sets, layered.eyes);
     XrActionsSyncInfo passed_on = *info;
-    passed_on.countActiveActionSets = passed_sets.count();
-    passed_on.activeActionSets = passed_sets.data();
+    if (!sets.empty()) {
+        passed_on.countActiveActionSets = passed_sets.count();
+        passed_on.activeActionSets = passed_sets.data();
+    }
     const XrActionsSyncInfo* const passed = &passed_on;
     const XrResult result = call.down(session, passed);
     const std::lock_guard lock(layered.mutex);

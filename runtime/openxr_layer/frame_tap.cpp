@@ -1,9 +1,12 @@
 #include "runtime/openxr_layer/frame_tap.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <limits>
 #include <utility>
 
 #include "runtime/time/clock.h"
+#include "runtime/time/span.h"
 
 namespace gazeloop::openxr_layer {
 namespace {
@@ -30,9 +33,16 @@ FrameTap::FrameTap(std::unique_ptr<session::SessionRecorder> recorder,
     : recorder_(std::move(recorder)), gaze_(policy) {}
 
 FrameTap::Frame* FrameTap::frame_of(std::int64_t key) {
-    const auto found = std::ranges::find_if(
-        frames_, [key](const Frame& frame) { return frame.waited && frame.key == key; });
-    return found != frames_.end() ? &*found : nullptr;
+    // Some applications move the time that they were told by a little.
+    constexpr std::int64_t kSameFrame_ns = 20'000'000;
+    const auto apart = [key](const Frame& frame) {
+        const std::int64_t ns = time::saturated(static_cast<__int128>(frame.key) - key);
+        return !frame.waited || ns == std::numeric_limits<std::int64_t>::min()
+                   ? std::numeric_limits<std::int64_t>::max()
+                   : std::abs(ns);
+    };
+    Frame& nearest = *std::ranges::min_element(frames_, {}, apart);
+    return apart(nearest) <= kSameFrame_ns ? &nearest : nullptr;
 }
 
 void FrameTap::waited(std::int64_t key, std::int64_t now_ns, const Announced& announced) {

@@ -9,6 +9,7 @@
 #include "runtime/session/session_file.h"
 #include "tests/support/cache_folder.h"
 #include "tests/support/openxr_validation.h"
+#include "tests/support/preload.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::tests {
