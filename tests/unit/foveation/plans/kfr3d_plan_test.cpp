@@ -50,7 +50,7 @@ float number(const EyePlan& plan, std::size_t listed, std::size_t of) {
 }
 
 TEST(Kfr3dPlan, PutsViewsIntoRegionsByDistance) {
-    const Kfr3dParameters three{.regions = 3, .inner = 0.4};
+    const Kfr3dParameters three{.kfr = {}, .regions = 3, .inner = 0.4};
     // r_0 is .4 of the reach, r_1 .7, and the last region has everything beyond.
     EXPECT_EQ(region_of(three, 0.0, 1.0), 0U);
     EXPECT_EQ(region_of(three, 0.39, 1.0), 0U);
@@ -59,15 +59,16 @@ TEST(Kfr3dPlan, PutsViewsIntoRegionsByDistance) {
     EXPECT_EQ(region_of(three, 0.71, 1.0), 2U);
     EXPECT_EQ(region_of(three, 2.0, 1.0), 2U);
     EXPECT_EQ(region_of(three, 0.0, 0.0), 0U) << "one view";
-    EXPECT_EQ(region_of({.regions = 1}, 5.0, 1.0), 0U);
-    EXPECT_EQ(region_of({.regions = 4, .inner = 1.0}, 1.5, 1.0), 3U) << "no room between";
-    EXPECT_EQ(region_of({.regions = 2, .inner = 0.0}, 0.1, 1.0), 1U);
+    EXPECT_EQ(region_of({.kfr = {}, .regions = 1}, 5.0, 1.0), 0U);
+    EXPECT_EQ(region_of({.kfr = {}, .regions = 4, .inner = 1.0}, 1.5, 1.0), 3U)
+        << "no room between";
+    EXPECT_EQ(region_of({.kfr = {}, .regions = 2, .inner = 0.0}, 0.1, 1.0), 1U);
 }
 
 TEST(Kfr3dPlan, ListsEveryViewOfTheLensOnceRegionByRegion) {
     for (const double aperture_m : {0.0, 0.008, 1.0}) {
         for (std::uint32_t regions = 1; regions <= Kfr3dParameters::kMostRegions; ++regions) {
-            const Kfr3dParameters parameters{.regions = regions};
+            const Kfr3dParameters parameters{.kfr = {}, .regions = regions};
             Kfr3dPlan method(parameters, field(aperture_m));
             const light_field::ViewsInLens lens(field(aperture_m), view().pose.position_m);
             for (const gaze::FoveaPoint& fovea : kGazes) {

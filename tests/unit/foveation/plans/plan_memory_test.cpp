@@ -67,8 +67,8 @@ TEST(PlanMemory, OfKfrDoesNotGrowWithTheGaze) {
 
 TEST(PlanMemory, Of3dKfrDoesNotGrowWithTheGaze) {
     for (const double aperture_m : {0.01, 1.0}) {
-        Kfr3dPlan method({.regions = 4}, {.cameras = {.columns = 25, .rows = 25},
-                                          .lens = {.aperture_m = aperture_m}});
+        Kfr3dPlan method({.kfr = {}, .regions = 4}, {.cameras = {.columns = 25, .rows = 25},
+                                                     .lens = {.aperture_m = aperture_m}});
         expect_memory_of_the_first_plan(method);
     }
 }
