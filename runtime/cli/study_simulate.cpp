@@ -24,7 +24,7 @@ void add_study_simulate(Command study) {
     options->people.add_to(app);
     app.does([=] {
         const study::Plan plan = value_or_throw(study::read_plan(options->plan));
-        const study::SimulatedPeople people = options->people.of(plan);
+        const study::SimulatedPeople people = study::people_of(options->people.question, plan);
         value_or_throw(study::write_private(
             options->file, study::responses_csv(plan, study::simulate_study(plan, people,
                                                                             options->subjects > 0

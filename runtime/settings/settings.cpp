@@ -232,9 +232,14 @@ Expected<void> Settings::assign(std::string_view key, std::string_view text, Wri
             return {};
         }
         if (!choice.names.empty() && std::ranges::find(choice.names, text) == choice.names.end()) {
-            return refuse(origin, unknown_name(choice.what.empty() ? key.substr(key.find('.') + 1)
-                                                                   : choice.what,
-                                               text, choice.names));
+            std::string what =
+                unknown_name(choice.what.empty() ? key.substr(key.find('.') + 1) : choice.what,
+                             text, choice.names);
+            if (!choice.file_extensions.empty()) {
+                what += fmt::format("; or a file whose name ends in {}",
+                                    fmt::join(choice.file_extensions, ", "));
+            }
+            return refuse(origin, what);
         }
         *choice.value = text;
     }

@@ -6,9 +6,8 @@
 
 #include "runtime/error.h"
 #include "runtime/profiles/profiles.h"
-#include "runtime/run/program_settings.h"
-#include "runtime/trade/sweep.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/swept.h"
 
 namespace gazeloop::bench {
 namespace {
@@ -46,51 +45,33 @@ Settings with_share(Settings set, const char* share) {
 }
 
 /// A still gaze at a still scene: then a frame that differs from the one before flickers.
-trade::SweepQuestion question_of(const char* scene, const Options& options) {
+void measure(const vulkan::Context& context, const char* scene_name, const Options& options,
+             std::vector<Figure>& figures) {
     const display::DisplayProfile display = value_or_throw(profiles::load_display(kDisplay));
-    trade::SweepQuestion question{.views = {},
-                                  .scene = scene,
-                                  .samples = options.samples.value_or(1),
-                                  .frame_seconds = 1.0 / 90.0,
-                                  .rounds = options.rounds};
-    for (const gaze::Eye eye : gaze::kEyes) {
-        question.views[gaze::index(eye)] = display::profile_view(
-            display, eye, static_cast<std::uint32_t>(display.width_px * kScale),
-            static_cast<std::uint32_t>(display.height_px * kScale));
-    }
-    const glm::dvec3 ahead{0.0, 0.0, -1.0};
-    question.gaze.assign(kFrames, {ahead, ahead});
-    question.comparison.view = question.views[0];
+    trade::SweepQuestion question =
+        question_of(display,
+                    {static_cast<std::uint32_t>(display.width_px * kScale),
+                     static_cast<std::uint32_t>(display.height_px * kScale)},
+                    options, 1);
+    question.cases = {still(scene_name, kFrames)};
     question.comparison.metrics = {true, true, false, false};  // contrast and FLIP
     question.comparison.frame_seconds = question.frame_seconds;
     question.comparison.contrast.threads = 2;
-    return question;
-}
-
-void measure(const vulkan::Context& context, const char* scene_name, const Options& options,
-             std::vector<Figure>& figures) {
-    const trade::SweepQuestion question = question_of(scene_name, options);
     std::vector<trade::SweepPoint> points;
     std::vector<std::string> names;
     for (const char* const share : kShares) {
         for (const Choice& choice : kChoices) {
-            trade::SweepPoint& point = points.emplace_back(trade::SweepPoint{.method = "sparse"});
+            trade::SweepPoint& point =
+                points.emplace_back(trade::SweepPoint{.method = "sparse", .settings = {}});
             for (const auto& [key, value] : with_share(choice.set, share)) {
                 point.settings.emplace_back(key, value);
             }
             names.push_back(fmt::format("{} {}", share, choice.name));
         }
     }
-    run::ProgramSettings settings;
-    const auto rows = value_or_throw(
-        trade::sweep(context, question, points, settings.values().methods, settings,
-                     {.progress = [](const std::string& said) { fmt::print(stderr, "{}\n", said); },
-                      .interrupted = [] { return false; }}));
+    const std::vector<trade::SweepSheet> sheets = swept(context, question, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const trade::SweepRow& row = rows.at(i + 1);  // the first one is full resolution
-        if (!row.error.empty()) {
-            throw SetupError(ErrorKind::BadInput, row.error);
-        }
+        const trade::SweepRow& row = row_of(sheets.front().rows, points[i]);
         const auto put = [&](const std::string& metric, double value, const char* unit,
                              const char* better) {
             figures.push_back({"sparse", scene_name, names[i] + " " + metric, value, unit, better});

@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"scene_of_another_kind",
                  {"run", "--target", "headless", "--scene", "p.png", "--frames", "1"},
                  2,
-                 ".gltf or .glb"},
+                 "or a file whose name ends in .gltf, .glb"},
         BadInput{
             "layers_without_a_middle",
             {"plan", "--method", "layers", "--set", "layers.n=2", "--set", "layers.s2_fixed=true"},

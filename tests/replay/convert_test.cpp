@@ -104,7 +104,7 @@ TEST(Convert, RefusesWithTheRightCode) {
     EXPECT_EQ(run_gazeloop({"convert", in, "/nonexistent/o.csv"}).exit_code, 3);
     EXPECT_EQ(
         run_gazeloop({"convert", in, folder.file("d"), "--to", "bids", "--task", "a b"}).exit_code,
-        3);
+        2);
 }
 
 TEST(GazeCommand, ComparesTwoRecordings) {

@@ -220,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(
             "layers",
             {"plan", "--method", "layers", "--set", "layers.n=2", "--set", "layers.s2_fixed=true"},
             2,
-            "number of layers = 2: must lie in [3, 8]"},
+            "set layers.n to 3 or 4, or layers.s2_fixed to false"},
         Refused{"chart_ending", {"plan", "--png", "/tmp/plan.bmp"}, 2, ".png or .svg"},
         Refused{"chart_folder", {"plan", "--png", "/nowhere/plan.png"}, 3, "/nowhere/plan.png"},
         Refused{"json_folder", {"plan", "--json", "/nowhere/plan.json"}, 3, "/nowhere/plan.json"},

@@ -187,14 +187,15 @@ TEST(Trade, GivesTheSameQualityTwice) {
 }
 
 TEST(Trade, GoesOnWherePointsFail) {
-    const ProgramResult result = trade({"--methods", "kfr", "--sigma", "1.8,99", "--frames", "1",
-                                        "--rounds", "1", "--metric", "psnr", "--json", "-"});
-    EXPECT_EQ(result.exit_code, 1);
-    EXPECT_THAT(result.err, HasSubstr("kfr.sigma"));
+    const ProgramResult result =
+        trade({"--methods", "layers", "--vary", "layers.n=4,2", "--set", "layers.s2_fixed=true",
+               "--frames", "1", "--rounds", "1", "--metric", "psnr", "--json", "-"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("layers.s2_fixed"));
     const json points = json::parse(result.out).at("points");
     ASSERT_EQ(points.size(), 3U);
     EXPECT_TRUE(points[1].contains("figures"));
-    EXPECT_THAT(points[2].at("error").get<std::string>(), HasSubstr("99"));
+    EXPECT_THAT(points[2].at("error").get<std::string>(), HasSubstr("layers.n"));
 }
 
 TEST(Trade, RefusesWhatItCannotSweep) {
@@ -205,7 +206,7 @@ TEST(Trade, RefusesWhatItCannotSweep) {
     };
     for (const Case& bad : std::vector<Case>{
              {{"--methods", "kfrr"}, 2, "kfr"},
-             {{"--methods", ""}, 2, "empty"},
+             {{"--methods", ""}, 2, "a name is needed"},
              {{"--vary", "kfr.sigma"}, 2, "KEY="},
              {{"--vary", "render.spp=1,4"}, 2, "render.spp"},
              {{"--methods", "acuity", "--sigma", "1.8"}, 2, "kfr.sigma"},

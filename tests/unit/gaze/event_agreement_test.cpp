@@ -119,7 +119,7 @@ TEST_F(CodedRecordings, ShowThatPredictionIsBetterThanHoldingInSaccades) {
     std::vector<double> in_saccades =
         ratios_to_hold(errors, TargetClass::Saccade, kAfter20ms, Predictor::Ours);
     ASSERT_GE(in_saccades.size(), 5U);
-    EXPECT_LT(percentile(in_saccades, 50.0), 0.78);
+    EXPECT_LT(percentile(in_saccades, 50.0), 0.83);
     EXPECT_LT(percentile(in_saccades, 100.0), 1.0);
     // What is held is held exactly, and where a saccade is taken for ended or not, little is lost.
     for (std::size_t horizon = 0; horizon < kHorizons_ms.size(); ++horizon) {

@@ -1,0 +1,52 @@
+#include "runtime/run/study_sitting.h"
+
+#include <fmt/core.h>
+
+#include "runtime/run/study_request.h"
+#include "runtime/study/plan_file.h"
+#include "runtime/study/sittings.h"
+
+namespace gazeloop::run {
+
+std::optional<ErrorKind> run_sitting(const StudySitting& sitting, ProgramSettings& settings,
+                                     FrameRunRequest& request) {
+    if (request.record) {
+        throw SetupError(ErrorKind::Usage,
+                         "study run: every sitting is recorded in --folder: leave out --record");
+    }
+    const study::Plan plan = value_or_throw(study::read_plan(sitting.plan));
+    value_or_throw(take_plan(plan, settings));
+    study::TrialQueue queue(plan, sitting.subject);
+    const study::Sittings sittings =
+        value_or_throw(study::find_sittings(plan, sitting.subject, sitting.folder));
+    value_or_throw(queue.resume(sittings.responses));
+    if (queue.next() == nullptr) {
+        fmt::print("subject {} has answered all of {}\n", sitting.subject, plan.name);
+        return std::nullopt;
+    }
+    study::SimulatedPeople people;
+    if (sitting.simulated) {
+        people = study::people_of(*sitting.simulated, plan);
+    }
+    const auto input = sitting.simulated ? study::simulated_input(plan, people, sitting.subject)
+                                         : study::keyboard_input(plan.design);
+    study::StudyRun study(plan, queue, sitting.subject, *input,
+                          [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
+    show_study(study, settings, request);
+    request.record = sittings.next;
+    if (!sitting.quiet) {
+        fmt::print(stderr, "{}: subject {}, {} trials left; {}\n", plan.name, sitting.subject,
+                   queue.left(), study::keys_text(plan.design));
+    }
+    const auto failure = frame_run(request);
+    fmt::print(stderr, "{} answers, {} trials left; recorded to {}\n", study.answers(),
+               queue.left(), sittings.next.string());
+    if (study.too_slow()) {
+        throw SetupError(ErrorKind::NoDevice,
+                         "this machine is too slow for the plan's times: pictures were over before "
+                         "they were drawn; use a smaller picture (--set render.scale=0.3)");
+    }
+    return failure;
+}
+
+}  // namespace gazeloop::run

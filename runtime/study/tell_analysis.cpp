@@ -1,0 +1,45 @@
+#include "runtime/study/tell_analysis.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "runtime/report/output_file.h"
+#include "runtime/report/summary_json.h"
+#include "runtime/study/analysis_page.h"
+#include "runtime/study/analysis_report.h"
+#include "runtime/study/plan_file.h"
+#include "runtime/study/study_files.h"
+
+namespace gazeloop::study {
+
+void tell_analysis(const AnalysisRequest& request) {
+    const Plan plan = value_or_throw(read_plan(request.plan));
+    const std::array<report::NamedFile, 4> outputs{{{"--json", request.json},
+                                                    {"--csv", request.csv},
+                                                    {"--r-csv", request.r_csv},
+                                                    {"--html", request.html}}};
+    std::vector<report::NamedFile> inputs{{"the plan", request.plan}};
+    const std::vector<std::filesystem::path> files(request.files.begin(), request.files.end());
+    for (const std::filesystem::path& file : files) {
+        inputs.emplace_back("the answers", file);
+    }
+    value_or_throw(report::check_apart(outputs, inputs));
+    const std::vector<Response> responses = value_or_throw(gather(plan, files));
+    const StudyResult result = analyse(plan, responses);
+    const auto write = [](const std::string& file, const auto& text) {
+        if (!file.empty()) {
+            value_or_throw(report::write_text(file, text()));
+        }
+    };
+    if (request.json != "-" && request.csv != "-" && request.r_csv != "-") {
+        fmt::print("{}", analysis_text(result));
+    }
+    write(request.json, [&] { return report::json_text(analysis_json(result)); });
+    write(request.csv, [&] { return cells_csv(result); });
+    write(request.r_csv, [&] { return decisions_csv(result, responses); });
+    write(request.html, [&] { return analysis_page(result); });
+}
+
+}  // namespace gazeloop::study
