@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/command_line/command_line.h"
 #include "runtime/cli/quality_options.h"
+#include "runtime/command_line/command_line.h"
 #include "runtime/trade/trade_off.h"
 
 namespace gazeloop::cli {

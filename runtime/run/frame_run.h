@@ -59,7 +59,7 @@ struct FrameRunRequest {
     /// Called with the recording, which then has a study's tables.
     std::function<void(session::SessionRecorder&)> record_study{};
     frame::FrameObserver* observer = nullptr;  ///< is told what the loop does, unless null
-    LoopOptions loop;  ///< its `stop` is asked beside what else ends a run
+    LoopOptions loop;                          ///< its `stop` is asked beside what else ends a run
     bool hash = false;
     bool mark_fovea = false;
     bool quiet = false;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "runtime/gaze/direction.h"
-#include "runtime/gaze/direction.h"
 #include "runtime/gaze/usable_direction.h"
 #include "runtime/gaze/usable_pose.h"
 
