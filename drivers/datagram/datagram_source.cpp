@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <ctime>
 #include <utility>
 
 #include "runtime/time/clock.h"
@@ -62,8 +62,9 @@ Expected<Endpoint> parse_endpoint(std::string_view text) {
     return endpoint;
 }
 
-DatagramSource::DatagramSource(const Endpoint& endpoint) : endpoint_(endpoint) {
-    socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+DatagramSource::DatagramSource(const Endpoint& endpoint)
+    : endpoint_(endpoint),
+      socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(endpoint.port);

@@ -32,6 +32,8 @@ class DatagramSource final : public GazeSource {
     /// Throws SetupError (NoDevice) where the port cannot be had.
     explicit DatagramSource(const Endpoint& endpoint);
     ~DatagramSource() override;
+    DatagramSource(const DatagramSource&) = delete;
+    DatagramSource& operator=(const DatagramSource&) = delete;
 
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;
     [[nodiscard]] std::vector<SourceEvent> take_events() override;
@@ -39,7 +41,7 @@ class DatagramSource final : public GazeSource {
 
   private:
     Endpoint endpoint_;
-    int socket_ = -1;
+    int socket_;
     OscGaze gaze_;
     std::array<std::uint8_t, kLargest> packet_{};
     bool told_first_ = false;

@@ -103,6 +103,7 @@ std::optional<MainSequenceFit> fit_main_sequence(std::span<const SaccadePoint> s
     constexpr double kBesideTheEnd = 0.9;
     fit.saturates = fit.bend_deg < kBesideTheEnd * kMostBend_deg;
     std::vector<double> ratios;
+    ratios.reserve(points.size());
     for (const SaccadePoint& point : points) {
         ratios.push_back(point.peak_deg_per_s / main_sequence(point.amplitude_deg).peak_deg_per_s);
     }

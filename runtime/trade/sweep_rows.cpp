@@ -82,7 +82,10 @@ void add_times(SweepRow& row, const JudgedPoint& judged, const Rounds& rounds,
     row.time = {median(round_ms), std::ranges::min(round_ms), std::ranges::max(round_ms)};
     row.speedup = median(ratios);
     for (std::size_t pass = 0; pass < pass_ms.size(); ++pass) {
-        row.pass_ms.emplace_back(judged.passes[pass], median(pass_ms[pass]));
+        // One that never ran took no time that could be told.
+        if (std::ranges::max(pass_ms[pass]) > 0.0) {
+            row.pass_ms.emplace_back(judged.passes[pass], median(pass_ms[pass]));
+        }
     }
 }
 

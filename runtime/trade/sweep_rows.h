@@ -27,7 +27,8 @@ struct SweepRow {
     double fewer_cells = 0.0;  ///< than full resolution
     /// Cells over the fewest that the comparison's acuity line asks for.
     double cells_over_fewest = 0.0;
-    std::vector<std::pair<std::string, double>> pass_ms{};  ///< medians of the rounds, by pass
+    std::vector<std::pair<std::string, double>>
+        pass_ms{};  ///< medians of the rounds, by pass that ran
     std::vector<quality::QualityFigure> figures{};
     /// Whether no other point is both cheaper (cells; time) and better by the first figure.
     bool on_cells_front = false;

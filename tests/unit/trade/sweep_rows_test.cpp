@@ -42,6 +42,17 @@ TEST(SweepRows, SayWhatWasMeasured) {
     }
 }
 
+TEST(SweepRows, TellNoTimeOfAPassThatDidNotRun) {
+    SweepRecord record = made_sweep();
+    for (TimedTurn& turn : record.turns) {
+        turn.times[1].pass_ms[0] = 0.0;
+    }
+    const std::vector<SweepRow> rows = sheets_of(record).front().rows;
+    ASSERT_EQ(rows[1].pass_ms.size(), 1U);
+    EXPECT_EQ(rows[1].pass_ms.front().first, "two");
+    EXPECT_EQ(rows[0].pass_ms.size(), 2U);
+}
+
 TEST(SweepRows, CountOnlyWholeRounds) {
     SweepRecord record = made_sweep();
     record.turns.pop_back();
