@@ -17,7 +17,8 @@ namespace gazeloop::drivers {
 struct SourceEvent {
     time::Stamp time;
     std::string text;  ///< one line
-    /// For FrameObserver::on_event: "tracker", or "axes" where directions are in doubt.
+    /// For FrameObserver::on_event: "tracker", "tracker-fault" where it is there and cannot be
+    /// used, or "axes" where directions are in doubt.
     frame::EventKind kind = frame::kTrackerEvent;
 };
 

@@ -49,9 +49,10 @@ class DeviceFeed {
     /// The number of the last sample: it changes when something was pushed.
     [[nodiscard]] std::uint64_t last_sequence() const { return sequence_; }
 
-    void tell(time::Stamp time, std::string text) {
+    void tell(time::Stamp time, std::string text,
+              const frame::EventKind& kind = frame::kTrackerEvent) {
         const std::lock_guard lock(mutex_);
-        events_.push_back({time, std::move(text)});
+        events_.push_back({time, std::move(text), kind});
         reported_.store(true, std::memory_order_release);
     }
 

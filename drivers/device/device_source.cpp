@@ -63,7 +63,8 @@ class DeviceSource::Reader {
             } catch (const std::exception& error) {
                 // The loop and its recording go on without this tracker.
                 feed_.push_loss(time::measured_now());
-                tell_once(told, fmt::format("reading the tracker failed: {}", error.what()));
+                tell_once(told, fmt::format("reading the tracker failed: {}", error.what()),
+                          frame::kTrackerFaultEvent);
                 let_settle();
             }
         }
@@ -76,10 +77,10 @@ class DeviceSource::Reader {
         }
         milliseconds pause = kLookAgainAfter;
         if (!tracker) {
-            tell_once(told, tracker.error().message);
+            tell_once(told, tracker.error().message, frame::kTrackerFaultEvent);
             pause = kRetryAfter;
         } else if (*tracker == nullptr) {
-            tell_once(told, kind_.absence);
+            tell_once(told, kind_.absence, frame::kTrackerEvent);
             failures_ = 0;
         } else {
             told.clear();
@@ -104,10 +105,10 @@ class DeviceSource::Reader {
         ::poll(&wake, 1, static_cast<int>(kRetryAfter.count()));
     }
 
-    void tell_once(std::string& told, const std::string& text) {
+    void tell_once(std::string& told, const std::string& text, const frame::EventKind& kind) {
         if (told != text) {
             told = text;
-            feed_.tell(time::measured_now(), text);
+            feed_.tell(time::measured_now(), text, kind);
         }
     }
 

@@ -28,6 +28,8 @@ inline constexpr EventKind kGpuClockEvent{"gpu-clock", EventWeight::Routine};
 inline constexpr EventKind kHiddenAreaEvent{"hidden-area", EventWeight::Routine};
 inline constexpr EventKind kErrorEvent{"error", EventWeight::Routine};  ///< said by itself
 inline constexpr EventKind kTrackerEvent{"tracker", EventWeight::Notice};
+/// It is there, and cannot be used.
+inline constexpr EventKind kTrackerFaultEvent{"tracker-fault", EventWeight::Warning};
 inline constexpr EventKind kAxesEvent{"axes", EventWeight::Warning};
 inline constexpr EventKind kTraceEvent{"trace", EventWeight::Routine};  ///< a block of its own
 inline constexpr EventKind kClockEvent{"clock", EventWeight::Warning};
@@ -60,7 +62,7 @@ inline constexpr std::array kEventKinds{
     kHeadLostEvent,   kHeadFoundEvent,      kViewOddEvent,
     kViewGoodEvent,   kDisplayTimeOddEvent, kDisplayTimeGoodEvent,
     kPeriodOddEvent,  kFrameDiscardedEvent, kFrameRefusedEvent,
-    kEventsLostEvent, kSessionOddEvent};
+    kEventsLostEvent, kSessionOddEvent,     kTrackerFaultEvent};
 
 /// A kind that is not known (of a later version's recording) is worth a line.
 [[nodiscard]] constexpr EventWeight weight_of(std::string_view kind) {

@@ -38,6 +38,7 @@
 #include "runtime/run/run_monitor.h"
 #include "runtime/run/run_summary.h"
 #include "runtime/run/run_target.h"
+#include "runtime/run/tracker_fault.h"
 #include "runtime/run/tracker_figures.h"
 #include "runtime/scene/scenes.h"
 #include "runtime/session/replay_check.h"
@@ -321,7 +322,7 @@ class FrameRun {
                     }
                     return source;
                 },
-            .observers = {&summing, &logging, &tracing, &lag_},
+            .observers = {&summing, &logging, &tracing, &lag_, &tracker_fault_},
             .chooser = chooser_.get()};
         if (request_.observer != nullptr) {
             parts.observers.push_back(request_.observer);
@@ -517,6 +518,9 @@ class FrameRun {
                              ? ": gazeloop devices says why a tracker gives none"
                              : ": the run ended before any had arrived, or all of it was lost");
         }
+        if (!tracker_fault_.why().empty() && report.gaze.received == 0) {
+            fail(ErrorKind::NoDevice, "no gaze came: " + tracker_fault_.why());
+        }
         const std::vector<NamedValue> settings = request_.settings->list();
         const std::vector<NamedValue> device = picture_device(*context_);
         const auto& budget = monitor_.budget();
@@ -596,6 +600,7 @@ class FrameRun {
     const ProgramValues& values_;
     display::DisplayProfile display_;
     std::optional<calibration::Calibration> calibration_;
+    TrackerFault tracker_fault_;
     // The target's swapchains live on the context's device: they go first.
     std::unique_ptr<vulkan::Context> context_;
     std::unique_ptr<present::FrameTarget> target_;

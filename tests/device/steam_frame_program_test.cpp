@@ -83,6 +83,15 @@ TEST_F(SteamFrameProgram, RefusesAVersionThatItDoesNotKnow) {
         run_gazeloop({"devices", "--seconds", "0.2", "--set", "steam_frame.file=" + file_});
     EXPECT_EQ(listed.exit_code, 4) << listed.err;
     EXPECT_NE(listed.out.find("writes version 9 of its file"), std::string::npos) << listed.out;
+    const ProgramResult run =
+        run_gazeloop({"run", "--gaze", "steam-frame:" + file_, "--target", "headless", "--seconds",
+                      "0.5", "--set", "render.scale=0.02", "--log-level", "warn"});
+    EXPECT_EQ(run.exit_code, 4) << run.err;
+    EXPECT_NE(run.err.find("warning: tracker-fault: the eye service writes version 9"),
+              std::string::npos)
+        << run.err;
+    EXPECT_NE(run.err.find("no gaze came: the eye service writes version 9"), std::string::npos)
+        << run.err;
     const ProgramResult second = run_gazeloop({"simulate", "steam-frame", file_});
     EXPECT_EQ(second.exit_code, 3) << second.err;
     EXPECT_NE(second.err.find("is there already"), std::string::npos) << second.err;
