@@ -2,6 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <string>
+#include <utility>
+
 #include "runtime/calibration/calibration_file.h"
 
 namespace gazeloop::calibration {
@@ -16,8 +19,12 @@ Expected<void> take_calibration(const std::string& file, settings::Settings& all
     }
     spdlog::info("calibration: of {} with {}", read->user.empty() ? "somebody" : read->user,
                  read->device.empty() ? "an unknown device" : read->device);
-    if (auto set = all.set("gaze.calibration_values", values_text(read->calibration), file); !set) {
-        return set;
+    for (const auto& [key, text] :
+         {std::pair{"gaze.calibration_values", values_text(read->calibration)},
+          std::pair{"gaze.calibration_device", read->device}}) {
+        if (auto set = all.set(key, text, file); !set) {
+            return set;
+        }
     }
     return all.set("gaze.calibration", "", "taken");
 }

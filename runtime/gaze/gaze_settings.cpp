@@ -44,6 +44,9 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
         // Samples are recorded corrected.
         {"gaze.calibration", "the file that gazeloop calibrate made of this person and tracker",
          Path{&gaze.calibration, ""}, Concerns::Input},
+        {"gaze.calibration_device",
+         "the source that this calibration was made with, as --gaze has it",
+         Choice{&gaze.calibration_device}, Concerns::Input},
         {"gaze.calibration_values", "what such a file says, as numbers with commas between",
          Choice{&gaze.calibration_values}, Concerns::Input},
         {"gaze.closed_below",

@@ -15,6 +15,7 @@ struct GazeSettings {
     double blink_hold_ms = 300.0;
     std::string calibration;         ///< a file, until it is read (runtime/calibration)
     std::string calibration_values;  ///< what it says
+    std::string calibration_device;  ///< as --gaze names it; empty: not known
     double closed_below = 0.0;
     double field_deg = 180.0;
     double stale_ms = 100.0;

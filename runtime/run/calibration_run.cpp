@@ -20,6 +20,7 @@ std::optional<ErrorKind> calibration_run(const CalibrationRun& wanted, FrameRunR
                                          ProgramSettings& settings) {
     // What is measured is the tracker without a calibration, and points have no depth of the scene.
     value_or_throw(settings.set("gaze.calibration_values", "", "gazeloop calibrate"));
+    value_or_throw(settings.set("gaze.calibration_device", "", "gazeloop calibrate"));
     value_or_throw(settings.set("render.depth", "false", "gazeloop calibrate"));
     const std::string user = wanted.user.empty() ? calibrate::login_name() : wanted.user;
     const std::filesystem::path file = wanted.out.empty()

@@ -1,5 +1,7 @@
 #include "runtime/run/gaze_run.h"
 
+#include <spdlog/spdlog.h>
+
 #include <string_view>
 
 #include "runtime/methods/registry.h"
@@ -7,6 +9,22 @@
 #include "runtime/run/gaze_sources.h"
 
 namespace gazeloop::run {
+namespace {
+
+/// A calibration holds for the tracker that it was made with. What a trace was recorded with, only
+/// its user knows.
+void warn_of_other_device(std::string_view made_with, std::string_view gaze) {
+    const auto source = [](std::string_view text) { return text.substr(0, text.find(':')); };
+    if (!made_with.empty() && source(gaze) != "trace" && source(gaze) != "fixed" &&
+        source(made_with) != source(gaze)) {
+        spdlog::warn(
+            "gaze.calibration was made with --gaze {} and corrects --gaze {} now: calibrate "
+            "this tracker (gazeloop calibrate --gaze {}), or leave the calibration out",
+            made_with, gaze, gaze);
+    }
+}
+
+}  // namespace
 
 profiles::TrackerProfile take_tracker(const std::string& gaze, ProgramSettings& settings) {
     value_or_throw(default_tracker(gaze, settings));
@@ -18,6 +36,7 @@ profiles::TrackerProfile take_tracker(const std::string& gaze, ProgramSettings& 
 
 FrameRunRequest gaze_run(const std::string& gaze, RunClock clock,
                          const profiles::TrackerProfile& tracker, const ProgramSettings& settings) {
+    warn_of_other_device(settings.values().gaze.calibration_device, gaze);
     FrameRunRequest request;
     request.settings = &settings;
     if (gaze == "openxr") {

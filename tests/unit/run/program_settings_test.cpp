@@ -23,10 +23,11 @@ using settings::SettingRow;
 // Whoever adds a setting thinks here of what a replay is to do with it: see Concerns.
 const std::map<Concerns, std::set<std::string>> kConcerns{
     {Concerns::Input,
-     {"gaze.calibration", "gaze.calibration_values", "gaze.fixation_from_depth",
-      "hid.eye_distance_m", "hid.screen_height_m", "hid.screen_width_m", "hid.viewing_distance_m",
-      "profile.display", "profile.tracker", "render.scale", "steam_frame.file", "steam_frame.rays",
-      "trace.accept_repairs", "trace.axes", "trace.longest_gap_s", "virtual_time.gpu_ms"}},
+     {"gaze.calibration", "gaze.calibration_device", "gaze.calibration_values",
+      "gaze.fixation_from_depth", "hid.eye_distance_m", "hid.screen_height_m", "hid.screen_width_m",
+      "hid.viewing_distance_m", "profile.display", "profile.tracker", "render.scale",
+      "steam_frame.file", "steam_frame.rays", "trace.accept_repairs", "trace.axes",
+      "trace.longest_gap_s", "virtual_time.gpu_ms"}},
     {Concerns::Foveae,
      {"gaze.after_hold",
       "gaze.blink_hold_ms",
