@@ -95,8 +95,10 @@ TEST_F(SettingsOfAll, SayWhatIsWrong) {
     EXPECT_EQ(unknown.error().message,
               "--set: unknown key 'one.grian'; did you mean 'one.grain'?; known: one.grain, "
               "one.hold, one.way");
-    EXPECT_EQ(settings_.set("one.way", "fien", "--set").error().message,
-              "--set: unknown way 'fien'; did you mean 'fine'?; known: plain, fine");
+    EXPECT_EQ(
+        settings_.set("one.way", "fien", "--set").error().message,
+        "--set: unknown way 'fien'; did you mean 'fine'?; known: plain, fine; or a file whose "
+        "name ends in .way, .w");
 }
 
 // Only a list of numbers may be written as one in TOML.
