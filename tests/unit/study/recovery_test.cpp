@@ -22,15 +22,14 @@ Plan one_condition(Plan plan) {
 
 SimulatedPeople people_of(const Plan& plan) {
     SimulatedPeople people{.terms = {.noise = 0.5, .lapse = 0.02, .people = 0.1}, .curves = {}};
-    // Designs of one seed have the same people, and so the same luck.
-    people.seed = 5001;
+    people.seed = 1;  // as of who asks for none; designs of one seed share their people's luck
     people.curves.push_back(DifferenceCurve::line(plan, plan.higher_is_better ? 12.0 : 1.8, 0.4));
     return people;
 }
 
 class Recovery : public testing::TestWithParam<const char*> {};
 
-TEST_P(Recovery, IntervalsOf95PercentHoldTheTruthIn93Of100Studies) {
+TEST_P(Recovery, IntervalsOf95PercentHoldTheTruthIn93PercentOfStudies) {
     Plan plan = *published_plan("kfr-final");
     if (std::string_view(GetParam()) == "quest") {
         plan.design = Design::Quest;
@@ -44,10 +43,13 @@ TEST_P(Recovery, IntervalsOf95PercentHoldTheTruthIn93Of100Studies) {
         plan.repeats = 6;  // of its 16 runs: as many take seconds
     }
     ASSERT_TRUE(check(plan));
-    const PowerRow row =
-        power_of(plan, people_of(plan), plan.subjects, {.studies = 100, .resamples = 60});
-    EXPECT_EQ(row.intervals, 100U);
-    EXPECT_GE(row.holding, 93U);
+    // Of 100 studies at 95 %, chance alone leaves fewer than 93 that hold in one case of eight.
+    // So as many as take a few seconds; staircases and sliders are followed answer by answer.
+    const bool slow = plan.design == Design::Quest || plan.design == Design::Slider;
+    const unsigned studies = slow ? 100 : 1000;
+    const PowerRow row = power_of(plan, people_of(plan), plan.subjects, {.studies = studies});
+    EXPECT_EQ(row.intervals, studies);
+    EXPECT_GE(row.share_holding(), 0.93) << row.holding;
     EXPECT_LT(std::abs(row.bias), 0.4 * row.half_width);
     EXPECT_LT(row.half_width, 0.12);
 }
