@@ -93,9 +93,8 @@ look();
 </body>)js";
 
 TEST_F(RecordedGazePage, DrawsAPageOfOneRecordingAndOfTwo) {
-    if (run_program({"chromium", "--version"}).exit_code != 0) {
-        GTEST_SKIP() << "there is no chromium here";
-    }
+    ASSERT_EQ(run_program({"chromium", "--version"}).exit_code, 0)
+        << "no chromium: ./dev test installs it";
     const std::string trace = simulated("g.csv");
     for (const std::vector<std::string>& recordings :
          {std::vector<std::string>{trace}, std::vector<std::string>{trace, trace}}) {

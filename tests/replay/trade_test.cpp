@@ -164,9 +164,8 @@ TEST(Trade, RecommendsAndFits) {
     EXPECT_THAT(text, HasSubstr("data:image/png;base64,"));
     EXPECT_LT(text.size(), 3'000'000U);
 
-    if (run_program({"chromium", "--version"}).exit_code != 0) {
-        GTEST_SKIP() << "there is no chromium here: whether it draws the page is not looked at";
-    }
+    ASSERT_EQ(run_program({"chromium", "--version"}).exit_code, 0)
+        << "no chromium: ./dev test installs it";
     const ProgramResult seen =
         run_program({"chromium", "--headless=new", "--no-sandbox", "--disable-gpu",
                      "--user-data-dir=" + folder.file("profile"), "--enable-logging=stderr",
