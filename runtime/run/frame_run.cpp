@@ -30,14 +30,17 @@
 #include "runtime/report/session_summary.h"
 #include "runtime/report/summary_json.h"
 #include "runtime/report/trace_account.h"
+#include "runtime/run/display_mismatch.h"
 #include "runtime/run/event_log.h"
 #include "runtime/run/interrupt.h"
+#include "runtime/run/loop_end_text.h"
 #include "runtime/run/picture_device.h"
 #include "runtime/run/recording_observer.h"
 #include "runtime/run/run_checks.h"
 #include "runtime/run/run_monitor.h"
 #include "runtime/run/run_summary.h"
 #include "runtime/run/run_target.h"
+#include "runtime/run/run_timeline.h"
 #include "runtime/run/tracker_fault.h"
 #include "runtime/run/tracker_figures.h"
 #include "runtime/scene/scenes.h"
@@ -49,33 +52,6 @@
 
 namespace gazeloop::run {
 namespace {
-
-/// The profile's eyes at the target's picture sizes, head at the origin.
-gaze::StereoView profile_views(const display::DisplayProfile& display,
-                               const gaze::PerEye<vk::Extent2D>& extents) {
-    gaze::StereoView views;
-    for (const gaze::Eye eye : gaze::kEyes) {
-        const std::size_t e = gaze::index(eye);
-        views[e] = display::profile_view(display, eye, extents[e].width, extents[e].height);
-    }
-    return views;
-}
-
-std::string_view end_text(LoopEnd end) {
-    switch (end) {
-        case LoopEnd::Limit:
-            return "limit reached";
-        case LoopEnd::SourceEnd:
-            return "gaze source ended";
-        case LoopEnd::Interrupted:
-            return "interrupted";
-        case LoopEnd::Closed:
-            return "the preview was closed";
-        case LoopEnd::TargetEnd:
-            return "ended by the runtime";
-    }
-    return "";
-}
 
 class FrameRun {
   public:
@@ -264,22 +240,6 @@ class FrameRun {
                 .interval_ns = std::llround(values_.monitor.interval_s * kNsPerS)};
     }
 
-    [[nodiscard]] std::unique_ptr<FrameTimeline> make_timeline() const {
-        switch (request_.clock) {
-            case RunClock::Wall:
-                break;
-            case RunClock::Virtual:
-                return std::make_unique<VirtualTimeline>(
-                    VirtualTimeline::Model{.period_ns = display_.period_ns(),
-                                           .gpu_ns = time::ms_to_ns(values_.virtual_time.gpu_ms),
-                                           .views = profile_views(display_, target_->extents())});
-            case RunClock::Recorded:
-                return std::make_unique<RecordedTimeline>(*request_.recording->session,
-                                                          request_.recording->frames);
-        }
-        return std::make_unique<LiveTimeline>(time::measured_now().ns);
-    }
-
     /// Why a replay's pictures need not be the recorded ones; empty if they must.
     [[nodiscard]] std::string why_other_pictures() const {
         return request_.same_rendering
@@ -301,7 +261,8 @@ class FrameRun {
             .target = *target_,
             .renderer = renderer,
             .gaze = gaze,
-            .make_timeline = [this] { return make_timeline(); },
+            .make_timeline =
+                [this] { return run_timeline(request_, display_, target_->extents()); },
             .make_source =
                 [this](std::int64_t start_ns) {
                     auto source = openxr_gaze_ != nullptr ? std::move(openxr_gaze_)
@@ -438,26 +399,18 @@ class FrameRun {
 
     /// The runtime's display counts; the profile then supplies only what the runtime cannot say.
     void compare_with_profile(latency::LatencySummary& summary) {
-        const std::int64_t period_ns = summary.display_period_ns().value_or(0);
-        const double announced = static_cast<double>(period_ns);
-        const double expected = static_cast<double>(display_.period_ns());
-        if (request_.clock != RunClock::Wall || period_ns <= 0 ||
-            std::abs(announced - expected) <= 0.01 * expected) {
+        const std::optional<std::string> text =
+            request_.clock == RunClock::Wall
+                ? display_mismatch(summary.display_period_ns().value_or(0), display_)
+                : std::nullopt;
+        if (!text) {
             return;
         }
-        const std::string text = fmt::format(
-            "the runtime's display has a period of {:.2f} ms, the profile '{}' {:.2f} ms: the "
-            "runtime's is used{}",
-            announced * 1e-6, display_.name, expected * 1e-6,
-            latency::may_be_of_period(period_ns, display_.period_ns())
-                ? ""
-                : ", and when its rows light up and its pixels switch is unknown (--display names "
-                  "another profile)");
-        spdlog::warn("{}", text);
+        spdlog::warn("{}", *text);
         const time::Stamp now = time::measured_now();
-        summary.add_event(now, frame::kDisplayEvent.name, text);
+        summary.add_event(now, frame::kDisplayEvent.name, *text);
         if (recorder_ != nullptr) {
-            recorder_->event(now, frame::kDisplayEvent.name, text);
+            recorder_->event(now, frame::kDisplayEvent.name, *text);
         }
     }
 
