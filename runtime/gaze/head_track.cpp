@@ -8,7 +8,7 @@ namespace gazeloop::gaze {
 namespace {
 
 /// later - earlier, for any two times in this order (a signed difference could overflow).
-double elapsed_ns(std::int64_t earlier, std::int64_t later) {
+double interval_ns(std::int64_t earlier, std::int64_t later) {
     return static_cast<double>(static_cast<std::uint64_t>(later) -
                                static_cast<std::uint64_t>(earlier));
 }
@@ -37,7 +37,7 @@ Pose HeadTrack::at(std::int64_t time_ns) const {
         return before->pose;
     }
     const double fraction =
-        elapsed_ns(before->time_ns, time_ns) / elapsed_ns(before->time_ns, after->time_ns);
+        interval_ns(before->time_ns, time_ns) / interval_ns(before->time_ns, after->time_ns);
     // glm::slerp takes the shorter way round and mixes linearly where the two nearly agree.
     return {glm::normalize(glm::slerp(before->pose.orientation, after->pose.orientation, fraction)),
             glm::mix(before->pose.position_m, after->pose.position_m, fraction)};

@@ -11,10 +11,6 @@
 namespace gazeloop::gaze {
 namespace {
 
-std::int64_t elapsed_ns(std::int64_t from, std::int64_t to) {
-    return time::saturated(static_cast<__int128>(to) - from);
-}
-
 double smooth_step(double t) { return t * t * (3.0 - 2.0 * t); }
 
 }  // namespace
@@ -26,7 +22,7 @@ std::int64_t LossMachine::age_ns(const Times& times, std::int64_t now_ns) {
     std::int64_t age = std::numeric_limits<std::int64_t>::min();
     for (const time::Stamp& stamp : {times.sampled, times.arrived}) {
         if (stamp.known()) {
-            age = std::max(age, elapsed_ns(stamp.ns, now_ns));
+            age = std::max(age, time::elapsed_ns(stamp.ns, now_ns));
         }
     }
     return age;
@@ -76,7 +72,7 @@ bool LossMachine::still_opening(const Times& now) {
         return false;
     }
     opened_ns_ = opened_ns_.value_or(stamp.ns);
-    return elapsed_ns(*opened_ns_, stamp.ns) < policy_.reopen_ns;
+    return time::elapsed_ns(*opened_ns_, stamp.ns) < policy_.reopen_ns;
 }
 
 void LossMachine::move(const JudgedSample& judged, bool gone, const Times& now) {
@@ -139,7 +135,7 @@ LossCondition LossMachine::condition(std::int64_t latched_ns) const {
     if (age <= hold || policy_.hold_for_ever) {
         return {FoveaState::Held, reason, cause, 0.0};
     }
-    const std::int64_t returning = elapsed_ns(hold, age);
+    const std::int64_t returning = time::elapsed_ns(hold, age);
     if (returning < policy_.return_ns) {
         return {
             FoveaState::Returning, reason, cause,

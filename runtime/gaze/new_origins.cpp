@@ -20,7 +20,7 @@ struct Known {
     Pose pose;
 };
 
-std::int64_t elapsed_ns(const Known& from, const Known& to) {
+std::int64_t ns_between(const Known& from, const Known& to) {
     return time::saturated(static_cast<__int128>(to.time_ns) - from.time_ns);
 }
 
@@ -53,7 +53,7 @@ std::int64_t least_interval_ns(const std::vector<Known>& heads) {
     std::vector<std::int64_t> between_changes;
     std::optional<Known> changed;
     for (std::size_t i = 1; i < heads.size(); ++i) {
-        if (const std::int64_t ns = elapsed_ns(heads[i - 1], heads[i]); ns > 0) {
+        if (const std::int64_t ns = ns_between(heads[i - 1], heads[i]); ns > 0) {
             between_samples.push_back(ns);
         }
         if (heads[i].pose.orientation == heads[i - 1].pose.orientation &&
@@ -61,7 +61,7 @@ std::int64_t least_interval_ns(const std::vector<Known>& heads) {
             continue;
         }
         if (changed) {
-            const std::int64_t ns = elapsed_ns(*changed, heads[i]);
+            const std::int64_t ns = ns_between(*changed, heads[i]);
             if (ns > 0 && ns < kHeadRests_ns) {
                 between_changes.push_back(ns);
             }
@@ -80,7 +80,7 @@ std::vector<NewOrigin> new_origins(std::span<const GazeSample> samples) {
     for (std::size_t i = 1; i < heads.size(); ++i) {
         const Known& before = heads[i - 1];
         const Known& head = heads[i];
-        const std::int64_t interval_ns = elapsed_ns(before, head);
+        const std::int64_t interval_ns = ns_between(before, head);
         const auto had_s = static_cast<double>(std::max(interval_ns, least_ns)) * 1e-9;
         if (least_time_s(before.pose, head.pose) > had_s) {
             found.push_back({head.sample, head.time_ns, interval_ns,

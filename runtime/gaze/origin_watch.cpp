@@ -27,10 +27,6 @@ double had_s(std::int64_t before_ns, std::int64_t now_ns, std::int64_t period_ns
                       apart_ns, std::clamp(period_ns, kShortestPeriod_ns, kLongestPeriod_ns)));
 }
 
-std::int64_t elapsed_ns(std::int64_t from, std::int64_t to) {
-    return time::saturated(static_cast<__int128>(to) - from);
-}
-
 }  // namespace
 
 void OriginWatch::announce(const AnnouncedOrigin& announced) {
@@ -75,7 +71,7 @@ std::optional<OriginChange> OriginWatch::next(std::int64_t display_ns, std::int6
             if (due ? explains || !stayed : explains && !stayed) {
                 follow(*a->new_in_old, true);
                 done = true;
-            } else if (elapsed_ns(a->time_ns, display_ns) > kPatience_ns) {
+            } else if (time::elapsed_ns(a->time_ns, display_ns) > kPatience_ns) {
                 ++given_up_;
                 done = true;
             }
@@ -92,7 +88,7 @@ std::optional<OriginChange> OriginWatch::next(std::int64_t display_ns, std::int6
     }
     seen_[count_++ % kFrames] = {display_ns, head};
     std::erase_if(changes_, [this](const Change& c) {
-        return elapsed_ns(oldest().display_ns, c.display_ns) < 0;
+        return time::elapsed_ns(oldest().display_ns, c.display_ns) < 0;
     });
     return moved ? std::optional(change) : std::nullopt;
 }
@@ -113,8 +109,8 @@ Pose OriginWatch::head_at(std::int64_t time_ns) const {
                 return seen.head;
             }
             const double fraction =
-                static_cast<double>(elapsed_ns(seen.display_ns, time_ns)) /
-                static_cast<double>(elapsed_ns(seen.display_ns, after->display_ns));
+                static_cast<double>(time::elapsed_ns(seen.display_ns, time_ns)) /
+                static_cast<double>(time::elapsed_ns(seen.display_ns, after->display_ns));
             return {glm::normalize(
                         glm::slerp(seen.head.orientation, after->head.orientation, fraction)),
                     glm::mix(seen.head.position_m, after->head.position_m, fraction)};

@@ -15,7 +15,7 @@
 namespace gazeloop::openxr_layer {
 namespace {
 
-constexpr std::size_t kMostBytes = 1'000'000;
+constexpr std::size_t kMostLogBytes = 1'000'000;
 /// A program for days says more than this only if something is very wrong.
 constexpr std::size_t kMostLines = 1'000;
 
@@ -49,7 +49,7 @@ void say(LogLevel level, std::string_view text) noexcept {
             append_private(*folder / "layer.log",
                            fmt::format("{:%Y-%m-%dT%H:%M:%SZ} {} {}: {}\n", fmt::gmtime(now),
                                        ::getpid(), name, text),
-                           kMostBytes);
+                           kMostLogBytes);
         }
     } catch (...) {  // NOLINT(bugprone-empty-catch)
         // A line less, in a program that has other things to do.

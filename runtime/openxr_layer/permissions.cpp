@@ -14,7 +14,7 @@
 namespace gazeloop::openxr_layer {
 namespace {
 
-constexpr std::size_t kMostBytes = 1'000'000;
+constexpr std::size_t kMostListBytes = 1'000'000;
 constexpr std::int64_t kLookAgain_ns = 1'000'000'000;
 
 }  // namespace
@@ -29,7 +29,7 @@ Expected<Permissions> Permissions::read(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file, failure) && !failure) {
         return Permissions{};
     }
-    const auto text = read_small(file, kMostBytes);
+    const auto text = read_small(file, kMostListBytes);
     if (!text) {
         return std::unexpected(
             Error{ErrorKind::BadInput,

@@ -18,7 +18,7 @@
 namespace gazeloop::openxr_layer {
 namespace {
 
-constexpr std::size_t kMostBytes = 64 * 1024;
+constexpr std::size_t kMostSightingBytes = 64 * 1024;
 
 using Json = nlohmann::ordered_json;
 
@@ -83,7 +83,7 @@ std::vector<Sighting> sightings() {
         if (entry.path().extension() != ".json") {
             continue;
         }
-        const auto text = read_small(entry.path(), kMostBytes);
+        const auto text = read_small(entry.path(), kMostSightingBytes);
         if (auto sighting = text ? parse(*text) : std::nullopt) {
             all.push_back(std::move(*sighting));
         }

@@ -24,13 +24,18 @@ struct Span {
     return static_cast<std::int64_t>(ns < kMin ? kMin : ns > kMax ? kMax : ns);
 }
 
+/// Between two times on one clock, each any number of nanoseconds; clamped.
+[[nodiscard]] constexpr std::int64_t elapsed_ns(std::int64_t from_ns, std::int64_t to_ns) {
+    return saturated(static_cast<__int128>(to_ns) - from_ns);
+}
+
 /// As certain as the less certain of the two ends.
 [[nodiscard]] constexpr Span between(const Stamp& from, const Stamp& to) {
     const StampKind kind = weaker(from.kind, to.kind);
     if (kind == StampKind::Unknown) {
         return {};
     }
-    return {saturated(static_cast<__int128>(to.ns) - from.ns), kind};
+    return {elapsed_ns(from.ns, to.ns), kind};
 }
 
 /// Whether both are known and the second is the earlier one.

@@ -1,15 +1,12 @@
 #include "runtime/foveation/log_polar/acuity_map.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "runtime/foveation/picture/angles.h"
 #include "runtime/foveation/picture/hidden_area.h"
 
 namespace gazeloop::foveation {
 namespace {
-
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 double eccentricity_deg(double rho) { return 2.0 * std::atan(rho) * kDegreesPerRadian; }
 

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "runtime/foveation/picture/angles.h"
 #include "runtime/foveation/picture/gaze_frame.h"
 
 namespace gazeloop::foveation {
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 Expected<void> check(const char* name, double value, double least, double greatest) {
     if (value >= least && value <= greatest) {

@@ -1,4 +1,5 @@
 #include "runtime/foveation/log_polar/log_polar_map.h"
+#include "runtime/foveation/picture/angles.h"
 #include "runtime/foveation/picture/hidden_area.h"
 
 #include <fmt/core.h>
@@ -12,7 +13,6 @@
 namespace gazeloop::foveation {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kHoleShare = 0.1;
 /// Steps over x = ln r / L in which changes of density are looked for.
 constexpr int kSearchSteps = 256;

@@ -7,13 +7,12 @@
 #include <numbers>
 
 #include "runtime/foveation/log_polar/map_tables.h"
+#include "runtime/foveation/picture/angles.h"
 
 namespace gazeloop::foveation {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kHalfLn2 = 0.5 * std::numbers::ln2;
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 /// Rounding of one float operation, relative. Vulkan allows division 2.5 units in the last place (5
 /// of these) and sqrt, as the inverse of inversesqrt, 4.5 (9).
 constexpr double kEps = 1.0 / (1 << 24);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/foveation/picture/angles.h"
+
 namespace gazeloop::foveation {
 namespace {
 
@@ -43,8 +45,6 @@ void fill_columns(MapTables& tables, std::uint32_t width, const Function& value_
             value_at(static_cast<double>(i) / static_cast<double>(half_columns)));
     }
 }
-
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 }  // namespace
 

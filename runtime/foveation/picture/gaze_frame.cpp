@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "runtime/foveation/picture/angles.h"
 #include "runtime/foveation/picture/segment_part.h"
 #include "runtime/gaze/direction.h"
 
@@ -221,7 +222,6 @@ PixelsPerDegree pixels_per_degree(const gaze::EyeView& view, const glm::dvec3& d
     const double xy = scale * x * y * per_x * per_y;
     const double half_sum = 0.5 * (xx + yy);
     const double greatest = half_sum + std::hypot(0.5 * (xx - yy), xy);
-    constexpr double kRadiansPerDegree = kPi / 180.0;
     const double mean = std::sqrt(per_x * per_y * scale * std::sqrt(scale));
     return {std::sqrt(greatest) * kRadiansPerDegree, mean * kRadiansPerDegree};
 }

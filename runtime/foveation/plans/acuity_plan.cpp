@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "runtime/foveation/picture/angles.h"
 #include "runtime/foveation/picture/cone_columns.h"
 
 namespace gazeloop::foveation {
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-constexpr double kNoCore = -1.0;
 /// A wider disc leaves a flat picture: its ring is drawn no larger.
 constexpr double kWidestRingDeg = 80.0;
 

@@ -8,7 +8,6 @@ namespace {
 
 /// Float rounding moves the shader's distance from the fovea by less than this.
 constexpr double kDiscSlackPx = 0.02;
-constexpr double kNoCore = -1.0;
 
 }  // namespace
 

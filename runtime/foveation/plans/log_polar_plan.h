@@ -37,8 +37,11 @@ struct LogPolarPlan {
 /// Names of the two grids, in this order: "lp", "picture".
 [[nodiscard]] const frame::GridList& log_polar_grids();
 
+/// Of a plan whose map leaves nothing out around the fovea.
+inline constexpr double kNoCore = -1.0;
+
 /// The LP part of every plan: fills `texels` with what the bilinear reads of pixel centres touch.
-/// Only pixel centres at columns beyond `core_u` count (negative: all). Where an area is hidden,
+/// Only pixel centres at columns beyond `core_u` count (kNoCore: all). Where an area is hidden,
 /// only visible ones count. Precondition: plan.lp is set.
 void plan_lp_tiles(const RadialMap& map, double core_u, const HiddenArea* hidden,
                    LogPolarPlan& plan);
