@@ -139,8 +139,10 @@ bool compare_pictures(const CompareQuestion& question) {
         const auto quality = comparison->compare(of_reference, of_test, direction);
         if (!quality) {
             throw SetupError(quality.error().kind,
-                             fmt::format("{} and {}: {}", reference.file(frame).string(),
-                                         test.file(frame).string(), quality.error().message));
+                             fmt::format("{} and {}: {} (--metric contrast and --metric psnr judge "
+                                         "pictures of any size)",
+                                         reference.file(frame).string(), test.file(frame).string(),
+                                         quality.error().message));
         }
         totals.add(*quality);
         if (!json_file.empty()) {

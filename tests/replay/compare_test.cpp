@@ -169,6 +169,18 @@ TEST(Compare, FollowsATracesGaze) {
                 HasSubstr("ended before the last 1 frames"));
 }
 
+TEST(Compare, NamesMetricsThatJudgeSmallPictures) {
+    const ScratchFolder folder;
+    write_picture(folder.file("a.png"), 0, 1, 1);
+    write_picture(folder.file("b.png"), 9, 1, 1);
+    const ProgramResult refused = compare({folder.file("a.png"), folder.file("b.png")});
+    EXPECT_NE(refused.exit_code, 0);
+    EXPECT_THAT(refused.err, HasSubstr("--metric contrast and --metric psnr"));
+    const json judged = compared(
+        {folder.file("a.png"), folder.file("b.png"), "--metric", "contrast", "--metric", "psnr"});
+    EXPECT_FALSE(judged.dump().empty());
+}
+
 TEST(Compare, DrawsAHeatMap) {
     const ScratchFolder folder;
     write_picture(folder.file("a.png"), 0);
