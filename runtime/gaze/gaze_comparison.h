@@ -41,8 +41,8 @@ struct GazeComparison {
     /// where they have less than kComparedLeast_s in common.
     std::vector<double> correlation_at{};
     [[nodiscard]] double lag_at_ms(std::size_t i) const {
-        const auto middle = static_cast<double>(correlation_at.size() / 2);
-        return (static_cast<double>(i) - middle) * step_ms;
+        const std::size_t middle = correlation_at.size() / 2;
+        return (static_cast<double>(i) - static_cast<double>(middle)) * step_ms;
     }
 
     /// Whether they may be of other eyes, or of another time.

@@ -16,6 +16,8 @@ extern "C" {
 
 #define XR_TYPE_GAZE_SAMPLE_GAZELOOP ((XrStructureType)1900000000)
 
+/* A header for C too. NOLINTBEGIN(modernize-use-using) */
+
 typedef enum XrGazeProcessingGAZELOOP {
     XR_GAZE_PROCESSING_UNKNOWN_GAZELOOP = 0,
     XR_GAZE_PROCESSING_RAW_GAZELOOP = 1,
@@ -58,6 +60,8 @@ typedef struct XrGazeSampleGAZELOOP {
     XrGazeEventGAZELOOP event;       /* what the eyes do at this sample */
     XrGazeSampleEyeGAZELOOP eyes[2]; /* left, right */
 } XrGazeSampleGAZELOOP;
+
+/* NOLINTEND(modernize-use-using) */
 
 #ifdef __cplusplus
 }

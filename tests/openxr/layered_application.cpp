@@ -70,6 +70,7 @@ LayeredApplication::LayeredApplication(const std::vector<const char*>& more) {
     auto session = typed<XrSessionCreateInfo>(XR_TYPE_SESSION_CREATE_INFO);
     session.systemId = system_;
     xr_check(xrCreateSession(instance_, &session, &session_), "xrCreateSession");
+    // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): of the instance made here
     to_xr_time_ = openxr::xr_function<PFN_xrConvertTimespecTimeToTimeKHR>(
         instance_, "xrConvertTimespecTimeToTimeKHR");
 }
@@ -122,6 +123,7 @@ EyeAction LayeredApplication::make_action(const char* name, std::uint32_t priori
 
 XrResult LayeredApplication::suggest(const std::vector<XrAction>& actions, const char* binding) {
     std::vector<XrActionSuggestedBinding> bindings;
+    bindings.reserve(actions.size());
     for (const XrAction action : actions) {
         bindings.push_back({action, path(binding)});
     }
