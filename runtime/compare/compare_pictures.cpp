@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "runtime/compare/limits.h"
 #include "runtime/quality/comparison_report.h"
 #include "runtime/quality/heat_map.h"
+#include "runtime/quality/ssim.h"
 #include "runtime/recordings/compared_gaze.h"
 #include "runtime/render/png_file.h"
 #include "runtime/report/output_file.h"
@@ -138,11 +140,14 @@ bool compare_pictures(const CompareQuestion& question) {
             glm::conjugate(things.question.view.pose.orientation) * gaze.direction_at(time_ns);
         const auto quality = comparison->compare(of_reference, of_test, direction);
         if (!quality) {
+            const bool small =
+                std::min(of_reference.width, of_reference.height) < quality::kSsimWindow_px;
             throw SetupError(quality.error().kind,
-                             fmt::format("{} and {}: {} (--metric contrast and --metric psnr judge "
-                                         "pictures of any size)",
-                                         reference.file(frame).string(), test.file(frame).string(),
-                                         quality.error().message));
+                             fmt::format("{} and {}: {}{}", reference.file(frame).string(),
+                                         test.file(frame).string(), quality.error().message,
+                                         small ? " (--metric contrast and --metric psnr judge "
+                                                 "pictures of any size)"
+                                               : ""));
         }
         totals.add(*quality);
         if (!json_file.empty()) {

@@ -125,6 +125,17 @@ run::MakeSource dressed(run::MakeSource make, bool live,
     };
 }
 
+Expected<run::MakeSource> source_of(const LayerValues& values,
+                                    const profiles::TrackerProfile& tracker) {
+    const std::string& name = values.layer.gaze;
+    auto make = run::gaze_source_named(name, tracker, values);
+    if (!make) {
+        return std::unexpected(Error{
+            make.error().kind, fmt::format("layer.gaze = '{}': {}", name, make.error().message)});
+    }
+    return make;
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> layer_config_file() {
@@ -139,6 +150,12 @@ Expected<std::string> settings_file(const std::vector<std::string>& assignments)
     for (const std::string& assignment : assignments) {
         if (auto set = set_assignment(settings, assignment, "--set"); !set) {
             return std::unexpected(std::move(set.error()));
+        }
+    }
+    if (!values.layer.gaze.empty()) {
+        // Of which tracker is not known yet, and matters to no source's being there.
+        if (auto source = source_of(values, {}); !source) {
+            return std::unexpected(std::move(source.error()));
         }
     }
     std::string text;
@@ -162,6 +179,14 @@ Expected<LayerConfiguration> load_configuration() {
     return configuration;
 }
 
+Expected<void> check_gaze(const LayerConfiguration& configuration) {
+    if (configuration.values.layer.gaze.empty()) {
+        return {};
+    }
+    auto source = source_of(configuration.values, configuration.tracker);
+    return source ? Expected<void>() : std::unexpected(std::move(source.error()));
+}
+
 Expected<std::shared_ptr<GazeFeed>> open_feed(const LayerConfiguration& configuration) {
     static std::mutex mutex;
     static std::map<std::string, std::weak_ptr<GazeFeed>> feeds;
@@ -174,10 +199,9 @@ Expected<std::shared_ptr<GazeFeed>> open_feed(const LayerConfiguration& configur
     if (auto open = feeds[name].lock()) {
         return open;
     }
-    auto make = run::gaze_source_named(name, configuration.tracker, values);
+    auto make = source_of(values, configuration.tracker);
     if (!make) {
-        return std::unexpected(Error{
-            make.error().kind, fmt::format("layer.gaze = '{}': {}", name, make.error().message)});
+        return std::unexpected(std::move(make.error()));
     }
     auto feed = std::make_shared<GazeFeed>(
         name, dressed(std::move(*make), run::is_device(name), configuration.calibration),

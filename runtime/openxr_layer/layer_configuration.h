@@ -52,9 +52,13 @@ Expected<LayerConfiguration> load_configuration();
 /// What `gazeloop layer enable` writes and load_configuration() reads; none where there is no home.
 [[nodiscard]] std::optional<std::filesystem::path> layer_config_file();
 
-/// Settings of the layer (KEY=VALUE) as a file of them, each checked. Errors (Usage): as
-/// Settings::set(), and a setting that is none of the layer's.
+/// Settings of the layer (KEY=VALUE) as a file of them, each checked. Errors: Usage as
+/// Settings::set(), and for a setting that is none of the layer's; layer.gaze as check_gaze().
 Expected<std::string> settings_file(const std::vector<std::string>& assignments);
+
+/// Whether layer.gaze names a source that there is; a device may come later. Errors: the source's
+/// own.
+Expected<void> check_gaze(const LayerConfiguration& configuration);
 
 /// The source that layer.gaze names, corrected and checked as in a run of gazeloop; null where it
 /// names none. Sources of one name are one feed in a process, since a tracker has one reader.

@@ -120,9 +120,9 @@ std::string events_text(const gaze::EventStatistics& statistics) {
                             (statistics.pursuit_deg_per_s
                                  ? ", " + spread_text(statistics.pursuit_deg_per_s, 1, "deg/s")
                                  : std::string{}));
-    return text +
-           wrapped_row("blink", counted(statistics.blinks) + lasting(statistics.blinks) +
-                                    fmt::format("; other losses {}", counted(statistics.losses)));
+    return text + wrapped_row("blink", counted(statistics.blinks) + lasting(statistics.blinks)) +
+           wrapped_row("other", counted(statistics.losses) +
+                                    " (the eye unseen, or a movement that no eye makes)");
 }
 
 Json events_json(const gaze::EventStatistics& statistics) {

@@ -89,7 +89,11 @@ std::string loss_remedy(const LagFacts& facts) {
             return "That person and tracker are simulated: sim.dropout_percent, "
                    "sim.eye_loss_percent and the blinks of sim.* set it.";
         case GazeOrigin::Trace:
-            return "The trace lacks the gaze there: gazeloop gaze FILE says what it holds.";
+            return commonest_cause(facts.use) == LossCause::Stopped
+                       ? "The trace has no samples there, or is over: a longer one, or --seconds "
+                         "no "
+                         "longer than it; gazeloop gaze FILE says what it holds."
+                       : "The trace lacks the gaze there: gazeloop gaze FILE says what it holds.";
         default:
             break;
     }

@@ -209,13 +209,15 @@ std::unexpected<Error> refuse(const std::filesystem::path& file, cairo_status_t 
 }  // namespace
 
 std::array<double, 3> chart_colour(std::size_t index) {
-    static constexpr std::array<std::array<double, 3>, 7> kColours{{{0.00, 0.45, 0.70},
+    static constexpr std::array<std::array<double, 3>, 9> kColours{{{0.00, 0.45, 0.70},
                                                                     {0.84, 0.37, 0.00},
                                                                     {0.00, 0.62, 0.45},
                                                                     {0.80, 0.47, 0.65},
                                                                     {0.90, 0.62, 0.00},
                                                                     {0.34, 0.71, 0.91},
-                                                                    {0.45, 0.45, 0.45}}};
+                                                                    {0.45, 0.45, 0.45},
+                                                                    {0.53, 0.13, 0.33},
+                                                                    {0.50, 0.50, 0.10}}};
     return kColours.at(index % kColours.size());
 }
 

@@ -38,7 +38,8 @@ struct LineChart {
     std::vector<ChartLine> lines;  ///< in the order of the legend
 };
 
-/// Colours that colour-blind readers can also tell apart (Okabe and Ito 2008).
+/// Nine colours, then the same again. Colour-blind readers can tell them apart as well (Okabe and
+/// Ito 2008; the last two are of Tol 2021).
 [[nodiscard]] std::array<double, 3> chart_colour(std::size_t index);
 
 /// Draws the chart into a .png or .svg file. Errors: Usage for any other ending, BadInput if the

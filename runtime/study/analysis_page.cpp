@@ -220,9 +220,11 @@ std::string analysis_page(const StudyResult& result) {
     for (const SubjectResult& subject : result.subjects) {
         answers += subject.answers;
         if (subject.excluded) {
-            left_out += fmt::format("{}{} ({} of {} validation trials failed)",
-                                    left_out.empty() ? " Left out: subject " : ", ",
-                                    subject.subject, subject.failed, subject.validations);
+            left_out += fmt::format(
+                "{}{} ({})", left_out.empty() ? " Left out: subject " : ", ", subject.subject,
+                subject.answers == 0 ? "no answer that counts"
+                                     : fmt::format("{} of {} validation trials failed",
+                                                   subject.failed, subject.validations));
         }
     }
     return fmt::format(

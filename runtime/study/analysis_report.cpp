@@ -154,10 +154,13 @@ std::string analysis_text(const StudyResult& result) {
                                   result.subjects.size(), answers, spoilt);
     for (const SubjectResult& subject : result.subjects) {
         if (subject.excluded) {
-            out += fmt::format(
-                "left out: subject {}, {} of {} validation trials failed, {} "
-                "answers\n",
-                subject.subject, subject.failed, subject.validations, subject.answers);
+            out += subject.answers == 0
+                       ? fmt::format("left out: subject {}, who gave no answer that counts\n",
+                                     subject.subject)
+                       : fmt::format(
+                             "left out: subject {}, {} of {} validation trials failed, {} "
+                             "answers\n",
+                             subject.subject, subject.failed, subject.validations, subject.answers);
         }
     }
     out += "\n";

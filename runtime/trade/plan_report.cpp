@@ -176,7 +176,11 @@ report::LineChart density_chart(const PlanReport& report) {
                                  useless ? std::string("useless")
                                          : thousands(static_cast<double>(row.plan.samples))),
             .points = {},
-            .colour = report::chart_colour(colour++)};
+            .colour = report::chart_colour(colour),
+            // The first shows at both sides of what covers it: full resolution offers as much as
+            // any.
+            .width = colour == 0 ? 5.0 : 2.0};
+        ++colour;
         const auto profile =
             useless ? std::vector<foveation::DensityAt>()
                     : foveation::density_profile(field, *row.plan.density, kFromDeg, kPoints);

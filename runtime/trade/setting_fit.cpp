@@ -66,7 +66,7 @@ void judge(Fit& fit, const std::vector<double>& residuals, const Rows& rows, std
             fit.worst_at = rows[i]->point.settings_text();
         }
     }
-    fit.rms_percent =
+    fit.standard_error_percent =
         kPercent * std::expm1(std::sqrt(squares / static_cast<double>(residuals.size() - terms)));
 }
 

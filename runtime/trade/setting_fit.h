@@ -15,9 +15,10 @@ struct PowerLaw {
     std::string quantity;  ///< "cells_per_frame", "time_ms" or the first figure's key
     double factor = 0.0;
     std::vector<std::pair<std::string, double>> exponents{};  ///< by setting
-    double rms_percent = 0.0;    ///< of measured over fitted, per degree of freedom
-    double worst_percent = 0.0;  ///< the largest, either way
-    std::string worst_at{};      ///< the point's settings
+    /// Of measured over fitted: squares summed, over points less terms. So it may exceed the worst.
+    double standard_error_percent = 0.0;  ///< as PowerLaw's
+    double worst_percent = 0.0;           ///< the largest, either way
+    std::string worst_at{};               ///< the point's settings
 };
 
 /// How a method's time follows what it shades: ms = fixed_ms + cells * ns_per_cell, fitted to
@@ -25,7 +26,7 @@ struct PowerLaw {
 struct TimeLine {
     double fixed_ms = 0.0;
     double ns_per_cell = 0.0;
-    double rms_percent = 0.0;
+    double standard_error_percent = 0.0;
     double worst_percent = 0.0;
     std::string worst_at{};
 };

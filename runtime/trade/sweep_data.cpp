@@ -87,17 +87,18 @@ ordered_json fit_json(const MethodFit& fit) {
         laws.push_back({{"quantity", law.quantity},
                         {"factor", law.factor},
                         {"exponents", std::move(exponents)},
-                        {"rms_percent", law.rms_percent},
+                        {"standard_error_percent", law.standard_error_percent},
                         {"worst_percent", law.worst_percent},
                         {"worst_at", law.worst_at}});
     }
     ordered_json entry{{"method", fit.method}, {"points", fit.points}, {"laws", std::move(laws)}};
-    entry["time"] = fit.time ? ordered_json{{"fixed_ms", fit.time->fixed_ms},
-                                            {"ns_per_cell", fit.time->ns_per_cell},
-                                            {"rms_percent", fit.time->rms_percent},
-                                            {"worst_percent", fit.time->worst_percent},
-                                            {"worst_at", fit.time->worst_at}}
-                             : ordered_json();
+    entry["time"] = fit.time
+                        ? ordered_json{{"fixed_ms", fit.time->fixed_ms},
+                                       {"ns_per_cell", fit.time->ns_per_cell},
+                                       {"standard_error_percent", fit.time->standard_error_percent},
+                                       {"worst_percent", fit.time->worst_percent},
+                                       {"worst_at", fit.time->worst_at}}
+                        : ordered_json();
     entry["notes"] = fit.notes;
     return entry;
 }

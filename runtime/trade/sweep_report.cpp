@@ -130,20 +130,22 @@ std::string point_text(const SweepPoint& point) {
 
 std::vector<std::string> fit_lines(const MethodFit& fit) {
     std::vector<std::string> lines;
-    const auto within = [](double rms, double worst, const std::string& at) {
-        return fmt::format("; within {:.2g} % (rms), worst {:.2g} % at {}", rms, worst, at);
+    const auto within = [](double standard_error, double worst, const std::string& at) {
+        return fmt::format("; standard error {:.2g} %, worst point {:.2g} % at {}", standard_error,
+                           worst, at);
     };
     for (const PowerLaw& law : fit.laws) {
         std::string line = fmt::format("{} = {:.4g}", law.quantity, law.factor);
         for (const auto& [key, exponent] : law.exponents) {
             line += fmt::format(" {}^{:.3f}", key, exponent);
         }
-        lines.push_back(line + within(law.rms_percent, law.worst_percent, law.worst_at));
+        lines.push_back(line + within(law.standard_error_percent, law.worst_percent, law.worst_at));
     }
     if (fit.time) {
-        lines.push_back(fmt::format("time_ms = {:.3f} + {:.2f} ns per cell", fit.time->fixed_ms,
-                                    fit.time->ns_per_cell) +
-                        within(fit.time->rms_percent, fit.time->worst_percent, fit.time->worst_at));
+        lines.push_back(
+            fmt::format("time_ms = {:.3f} + {:.2f} ns per cell", fit.time->fixed_ms,
+                        fit.time->ns_per_cell) +
+            within(fit.time->standard_error_percent, fit.time->worst_percent, fit.time->worst_at));
     }
     lines.insert(lines.end(), fit.notes.begin(), fit.notes.end());
     return lines;

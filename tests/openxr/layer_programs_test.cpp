@@ -97,6 +97,28 @@ TEST_F(LayerPrograms, GivesGazeToOneThatReadsIt) {
     EXPECT_THAT(layer({"status"}).out, HasSubstr("first read"));
 }
 
+TEST_F(LayerPrograms, RefusesSourcesAndApplicationsThatAreNotThere) {
+    for (const char* const command : {"enable", "run"}) {
+        std::vector<std::string> words{command, "--gaze", "telepathy"};
+        if (std::string_view(command) == "run") {
+            words.insert(words.end(), {"--", "true"});
+        }
+        const ProgramResult unknown = layer(words);
+        EXPECT_EQ(unknown.exit_code, 2) << command;
+        EXPECT_THAT(unknown.err, HasSubstr("telepathy"));
+        words[2] = "trace:/nowhere.csv";
+        const ProgramResult absent = layer(words);
+        EXPECT_EQ(absent.exit_code, 3) << command << absent.err;
+        EXPECT_THAT(absent.err, HasSubstr("/nowhere.csv"));
+    }
+    EXPECT_EQ(layer({"enable", "--gaze", "openxr"}).exit_code, 2);  // it is the runtime's own
+    EXPECT_THAT(layer({"status"}).out, HasSubstr("off: gazeloop layer enable"));
+    const ProgramResult allowed = layer({"allow", "/nowhere/program"});
+    EXPECT_EQ(allowed.exit_code, 3);
+    EXPECT_THAT(allowed.err, HasSubstr("/nowhere/program"));
+    EXPECT_EQ(layer({"forget", "/nowhere/program"}).exit_code, 0);
+}
+
 TEST_F(LayerPrograms, IsSwitchedOnAndOffForTheUser) {
     EXPECT_THAT(layer({"status"}).out, HasSubstr("off: gazeloop layer enable"));
     EXPECT_EQ(layer({"enable", "--gaze", "telepathy", "--set", "layer.nothing=1"}).exit_code, 2);

@@ -41,6 +41,9 @@ Error launch(const std::vector<std::string>& command, const std::vector<std::str
     if (!configuration) {
         return std::move(configuration.error());
     }
+    if (const auto gaze = check_gaze(*configuration); !gaze) {
+        return gaze.error();
+    }
     const auto display = profiles::load_display(configuration->values.profile.display);
     if (!display) {
         return display.error();

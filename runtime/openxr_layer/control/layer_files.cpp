@@ -108,6 +108,11 @@ Expected<void> decide(const std::string& executable, Permissions::Answer answer)
     }
     std::error_code failure;
     const fs::path whole = fs::canonical(executable, failure);
+    // What is decided on a program that has gone can be forgotten.
+    if (failure && answer != Permissions::Answer::Unknown) {
+        return std::unexpected(bad(fmt::format("{}: {}; name the application's executable file",
+                                               executable, failure.message())));
+    }
     permissions->set(failure ? executable : whole.string(), answer);
     return written(*file, permissions->text());
 }
