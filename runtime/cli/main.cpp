@@ -3,9 +3,11 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <clocale>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <string>
 #include <system_error>
@@ -21,9 +23,15 @@ using gazeloop::cli::ExitCode;
 
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
-/// What happens to a file that cannot be written.
-int stdout_lost() {
-    spdlog::error("stdout: cannot be written: the results are lost; free space, or name a file");
+/// What happens to a file that cannot be written; `error` is errno's number.
+int stdout_lost(int error) {
+    if (error == EPIPE) {
+        spdlog::error("stdout: whoever read it has closed it: the rest of the results is lost");
+    } else {
+        spdlog::error(
+            "stdout: cannot be written ({}): results are lost; free space, or name a file",
+            std::strerror(error));
+    }
     return code(ExitCode::BadInput);
 }
 
@@ -68,15 +76,16 @@ int gazeloop_main(int count, char** arguments) {
         const auto action =
             line.parse(std::vector<std::string>(arguments + std::min(count, 1), arguments + count));
         const ExitCode result = action ? (*action)() : gazeloop::cli::say(action.error());
-        return std::fflush(stdout) != 0 || std::ferror(stdout) != 0 ? stdout_lost() : code(result);
+        const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+        return lost ? stdout_lost(errno) : code(result);
     } catch (const gazeloop::SetupError& error) {
         spdlog::error("{}", error.what());
         return code(gazeloop::cli::exit_code(error.kind()));
-    } catch (const std::system_error&) {
+    } catch (const std::system_error& error) {
         if (std::ferror(stdout) == 0) {
             throw;
         }
-        return stdout_lost();
+        return stdout_lost(error.code().value());
     } catch (const std::bad_alloc&) {
         spdlog::error("out of memory: use a smaller picture (--set render.scale=0.5) or trace");
         return code(ExitCode::NoDevice);

@@ -300,6 +300,16 @@ TEST(BadInput, StdoutThatTakesNothing) {
     }
 }
 
+TEST(BadInput, StdoutWhoseReaderHasGone) {
+    // Its reader has ended when it begins.
+    const ProgramResult result = run_gazeloop(
+        {"run", "--print-config"},
+        {.wrapper = {"sh", "-c", R"({ sleep 0.3; "$0" "$@"; echo "code $?" >&2; } | true)"}});
+    EXPECT_NE(result.err.find("code 3"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("stdout: whoever read it has closed it"), std::string::npos)
+        << result.err;
+}
+
 TEST(BadInput, PrintConfigSaysWhereValuesComeFrom) {
     const ScratchFolder folder;
     const std::string file = folder.write("a.toml", "kfr.sigma = 2.5\n");
