@@ -130,7 +130,7 @@ Expected<void> check_gap(const std::string& file, std::uint64_t line, const Gap&
 }
 
 /// Shortens what is longer, and reports it.
-void shorten_gaps(std::span<const TraceRow> rows, DeviceTimes& times, std::int64_t longest_ns,
+void shorten_gaps(const RowsRead& rows, DeviceTimes& times, std::int64_t longest_ns,
                   gaze::TraceReport& report) {
     std::vector<std::int64_t>& times_ns = times.time_ns;
     std::int64_t cut_ns = 0;
@@ -161,26 +161,26 @@ TraceBuilder::TraceBuilder(TraceOrigin origin) : origin_(std::move(origin)) {
 }
 
 void TraceBuilder::add(const TraceRow& row) {
-    rows_.push_back(row);
+    rows_.add(row);
     ++trace_.report.rows;
 }
 
 double TraceBuilder::choose_clock() {
-    if (std::ranges::any_of(rows_,
-                            [](const TraceRow& row) { return row.device_ticks.has_value(); })) {
+    if (std::ranges::any_of(rows_.clocks(),
+                            [](const RowClock& row) { return row.device_ticks.has_value(); })) {
         return origin_.device_tick_ns;
     }
-    const auto differs = [&](const TraceRow& row) {
-        return row.other_ticks && row.other_ticks != rows_.front().other_ticks;
+    const auto differs = [&](const RowClock& row) {
+        return row.other_ticks && row.other_ticks != rows_.clocks().front().other_ticks;
     };
-    if (std::ranges::none_of(rows_, differs)) {
+    if (std::ranges::none_of(rows_.clocks(), differs)) {
         return origin_.device_tick_ns;
     }
-    for (TraceRow& row : rows_) {
+    for (RowClock& row : rows_.clocks()) {
         row.device_ticks = row.other_ticks;
     }
     trace_.report.add({.kind = TraceFindingKind::BadTime,
-                       .line = rows_.front().line,
+                       .line = rows_[0].line,
                        .rows = rows_.size(),
                        .text = fmt::format("{}, nor is it in any row: the times are those of '{}'",
                                            unread_time_, origin_.other_clock)});
@@ -189,7 +189,7 @@ double TraceBuilder::choose_clock() {
 
 Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
     const double tick_ns = choose_clock();
-    const std::vector<TraceRow> rows = std::move(rows_);
+    RowsRead rows = std::move(rows_);
     gaze::GazeTrace trace = std::move(trace_);
     gaze::TraceReport& report = trace.report;
     if (rows.empty()) {
@@ -204,17 +204,18 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
     move_to(times.findings, report);
     if (times.rows.empty()) {
         return bad_input(fmt::format("{}:{}: no row has a readable time{}{}", trace.file,
-                                     rows.front().line, unread_time_.empty() ? "" : ": ",
-                                     unread_time_));
+                                     rows[0].line, unread_time_.empty() ? "" : ": ", unread_time_));
     }
     if (times.rows.size() > 1 && times.interval_ns == 0) {
         return bad_input(
             fmt::format("{}:{}: all {} rows have the same time, and no host time says "
                         "how long they took",
-                        trace.file, rows.front().line, times.rows.size()));
+                        trace.file, rows[0].line, times.rows.size()));
     }
     std::vector<std::optional<std::int64_t>> host_ns;
     std::vector<std::uint64_t> lines;
+    host_ns.reserve(times.rows.size());
+    lines.reserve(times.rows.size());
     for (const std::size_t row : times.rows) {
         host_ns.push_back(rows[row].host_ns);
         lines.push_back(rows[row].line);
@@ -256,10 +257,9 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
                         trace.file, lines.back()));
     }
 
-    trace.samples.reserve(fitted.rows.size());
-    for (std::size_t i = 0; i < fitted.rows.size(); ++i) {
-        const TraceRow& row = rows[fitted.rows[i]];
-        gaze::GazeSample& sample = trace.samples.emplace_back();
+    trace.samples = rows.take(fitted.rows);
+    for (std::size_t i = 0; i < trace.samples.size(); ++i) {
+        gaze::GazeSample& sample = trace.samples[i];
         sample.sequence = sequence.numbers[i];
         sample.device_ns = fitted.reading_ns[i];
         sample.sampled = {fitted.time_ns[i], time::StampKind::Modelled};
@@ -271,11 +271,8 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
         if (fitted.step_ns[i] > 0) {
             sample.uncertainty_ns = fitted.step_ns[i];
         }
-        sample.eyes = row.eyes;
-        sample.parallax_rad = row.parallax_rad;
-        sample.head = row.head;
         for (const gaze::Eye eye : gaze::kEyes) {
-            report.valid[gaze::index(eye)] += row.eyes[gaze::index(eye)].valid ? 1 : 0;
+            report.valid[gaze::index(eye)] += sample.eyes[gaze::index(eye)].valid ? 1 : 0;
         }
     }
     report.rate_hz = gaze::sample_rate_hz(trace.samples);

@@ -4,9 +4,8 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
-#include "drivers/trace/clock/trace_row.h"
+#include "drivers/trace/clock/rows_read.h"
 #include "drivers/trace/read_options.h"
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_trace.h"
@@ -34,6 +33,8 @@ class TraceBuilder {
 
     /// Takes the next row of the file, and counts it in report().rows.
     void add(const TraceRow& row);
+    /// Makes room for so many rows in all, where that is known or guessed.
+    void expect(std::size_t rows) { rows_.reserve(rows); }
 
     /// Says what the first row without device_ticks has in their place: "column 't': 'x' is no
     /// whole number of nanoseconds".
@@ -58,7 +59,7 @@ class TraceBuilder {
     TraceOrigin origin_;
     std::string unread_time_;
     gaze::GazeTrace trace_;
-    std::vector<TraceRow> rows_;
+    RowsRead rows_;
 };
 
 }  // namespace gazeloop::drivers

@@ -55,6 +55,15 @@ std::optional<std::uint64_t> TraceRows::optional_count(std::optional<std::size_t
     return value;
 }
 
+void TraceRows::make_room() {
+    // A file may be far larger than its rows: no more than some two hours of 1 kHz.
+    constexpr std::uint64_t kMost = 8'000'000;
+    constexpr std::uint64_t kShorterLines = 32;  // one row more in so many
+    if (const std::optional<std::uint64_t> ahead = table_.rows_ahead()) {
+        builder_.expect(std::min(rows_ + *ahead + *ahead / kShorterLines, kMost));
+    }
+}
+
 void TraceRows::refuse_unless_missing(RowPart part, std::size_t column) {
     if (!table_.is_missing(column)) {
         bad_.add(part, table_.line(),

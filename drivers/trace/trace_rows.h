@@ -63,6 +63,10 @@ class TraceRows {
     void refuse_eyes(TraceRow& row, std::string_view why);
 
   private:
+    /// Rows after which it is guessed how many there will be.
+    static constexpr std::uint64_t kGuessedFrom = 1024;
+    /// So that the rows are not moved again and again while they become more.
+    void make_room();
     void refuse_unless_missing(RowPart part, std::size_t column);
     [[nodiscard]] Expected<gaze::GazeTrace> finish(const ReadOptions& options);
 
@@ -107,7 +111,9 @@ Expected<gaze::GazeTrace> TraceRows::read(const ReadOptions& options, const Take
         take_apart(row);
         any_valid_ = any_valid_ || row.eyes[0].valid || row.eyes[1].valid;
         builder_.add(row);
-        ++rows_;
+        if (++rows_ == kGuessedFrom) {
+            make_room();
+        }
     }
 }
 

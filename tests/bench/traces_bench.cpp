@@ -4,14 +4,18 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "drivers/trace/clock/row_clock.h"
 #include "drivers/trace/native_trace.h"
 #include "drivers/trace/read_trace.h"
 #include "drivers/trace/text/csv_table.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/measured_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gazeloop::bench {
 namespace {
@@ -82,6 +86,21 @@ double seconds_of(Stage stage, const std::string& text) {
     return taken_s;
 }
 
+/// What converting a trace holds in memory for each row more, bytes.
+double bytes_per_row() {
+    constexpr std::array<std::size_t, 2> kRows{100'000, 300'000};
+    std::array<double, kRows.size()> peaks{};
+    const tests::TemporaryFolder folder;
+    const std::string in = folder / "gaze.csv";
+    const std::string out = folder / "converted.csv";
+    for (std::size_t i = 0; i < kRows.size(); ++i) {
+        std::ofstream(in, std::ios::binary) << made_trace(kRows[i]);
+        peaks[i] = static_cast<double>(
+            measure_program({GAZELOOP_BINARY_DIR "/gazeloop", "convert", in, out}).peak_bytes);
+    }
+    return (peaks[1] - peaks[0]) / static_cast<double>(kRows[1] - kRows[0]);
+}
+
 }  // namespace
 
 std::vector<Figure> traces(const Options& options) {
@@ -107,6 +126,15 @@ std::vector<Figure> traces(const Options& options) {
                                           : std::nullopt,
                            .target = whole ? std::optional{kTarget_MB_per_s} : std::nullopt});
     }
+    // No row is left before the last one is judged: a sample and what its clocks say.
+    figures.push_back(
+        {.bench = kBench,
+         .name = fmt::format("csv {:.0f} MB", megabytes),
+         .metric = "convert, memory per row",
+         .value = bytes_per_row(),
+         .unit = "B",
+         .better = "lower",
+         .bound = static_cast<double>(sizeof(gaze::GazeSample) + sizeof(drivers::RowClock))});
     return figures;
 }
 

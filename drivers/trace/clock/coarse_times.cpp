@@ -28,6 +28,7 @@ struct Group {
 
 std::vector<Group> groups_of(std::span<const TimedRow> rows) {
     std::vector<Group> groups;
+    groups.reserve(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (i > 0 && rows[i].step_ns == 0 && !rows[i].set) {
             ++groups.back().end;
@@ -82,6 +83,7 @@ class Spreading {
     }
 
     SpreadTimes run() {
+        spread_.step_ns.reserve(rows_.size());
         for (const TimedRow& row : rows_) {
             spread_.step_ns.push_back(row.step_ns);
         }

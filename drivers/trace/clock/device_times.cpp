@@ -31,7 +31,7 @@ constexpr Wide kEndGapIntervals = 50;
 constexpr Wide kLongestStep_ns = 1000 * kDay_ns;
 
 /// What the readings are in nanoseconds. Exact for whole ticks; from the first reading else.
-std::vector<Wide> readings_ns(std::span<const TraceRow> rows, bool by_host, double tick_ns) {
+std::vector<Wide> readings_ns(const RowsRead& rows, bool by_host, double tick_ns) {
     constexpr double kWholeBelow = 1e12;
     const bool whole = tick_ns < kWholeBelow && tick_ns == std::floor(tick_ns);
     std::vector<Wide> at_ns(rows.size());
@@ -56,10 +56,10 @@ std::vector<Wide> readings_ns(std::span<const TraceRow> rows, bool by_host, doub
 
 class DeviceClock {
   public:
-    DeviceClock(std::span<const TraceRow> rows, double tick_ns)
+    DeviceClock(const RowsRead& rows, double tick_ns)
         : rows_(rows),
-          by_host_(std::none_of(rows.begin(), rows.end(),
-                                [](const TraceRow& row) { return row.device_ticks.has_value(); })),
+          by_host_(std::ranges::none_of(
+              rows.clocks(), [](const RowClock& clock) { return clock.device_ticks.has_value(); })),
           absolute_(by_host_ || tick_ns == 1.0),
           at_ns_(readings_ns(rows, by_host_, tick_ns)) {}
 
@@ -89,6 +89,7 @@ class DeviceClock {
                                .dropped = 0,
                                .span_ns = 0,
                                .text = {}};
+        used_.reserve(rows_.size());
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             if (by_host_ ? rows_[i].host_ns.has_value() : rows_[i].device_ticks.has_value()) {
                 used_.push_back(i);
@@ -101,7 +102,7 @@ class DeviceClock {
         if (times_.by_host) {
             times_.findings.push_back(
                 {.kind = TraceFindingKind::BadTime,
-                 .line = rows_.front().line,
+                 .line = rows_[0].line,
                  .rows = used_.size(),
                  .dropped = 0,
                  .span_ns = 0,
@@ -158,6 +159,7 @@ class DeviceClock {
     [[nodiscard]] std::int64_t median_step_ns() const {
         constexpr std::size_t kSorted = 2 * kOrderWindow;
         std::vector<std::int64_t> steps;
+        steps.reserve(used_.size());
         std::vector<Wide> some;
         for (std::size_t first = 0; first < used_.size(); first += kSorted) {
             const std::size_t end = std::min(first + kSorted, used_.size());
@@ -374,6 +376,8 @@ class DeviceClock {
     void lay_out() {
         std::vector<TimedRow> timed(used_.size());
         Wide epoch_ns = 0;
+        times_.reading_ns.reserve(used_.size());
+        times_.time_ns.reserve(used_.size());
         for (std::size_t i = 0; i < used_.size(); ++i) {
             timed[i].line = rows_[used_[i]].line;
             timed[i].host_ns = by_host_ ? std::nullopt : rows_[used_[i]].host_ns;
@@ -463,7 +467,7 @@ class DeviceClock {
                   std::make_move_iterator(from.end()));
     }
 
-    std::span<const TraceRow> rows_;
+    const RowsRead& rows_;
     bool by_host_;             ///< no row has a reading of the device's clock
     bool absolute_;            ///< readings are given as they are
     std::vector<Wide> at_ns_;  ///< of all rows, wraps counted on
@@ -475,7 +479,7 @@ class DeviceClock {
 
 }  // namespace
 
-DeviceTimes device_times(std::span<const TraceRow> rows, double tick_ns) {
+DeviceTimes device_times(const RowsRead& rows, double tick_ns) {
     return DeviceClock(rows, tick_ns).run();
 }
 

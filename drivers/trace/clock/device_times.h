@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "drivers/trace/clock/trace_row.h"
+#include "drivers/trace/clock/rows_read.h"
 #include "runtime/gaze/trace_report.h"
 
 namespace gazeloop::drivers {
@@ -48,6 +48,6 @@ struct DeviceTimes {
 /// A tick is `tick_ns` (> 0) long. Rows without device_ticks are not used (BadTime), unless no row
 /// has any: then the host's clock is taken for the device's (BadTime). O(n log n); any readings are
 /// safe.
-[[nodiscard]] DeviceTimes device_times(std::span<const TraceRow> rows, double tick_ns);
+[[nodiscard]] DeviceTimes device_times(const RowsRead& rows, double tick_ns);
 
 }  // namespace gazeloop::drivers

@@ -21,14 +21,15 @@ bool same_ray(const gaze::EyeRay& a, const gaze::EyeRay& b) {
 }
 
 /// Whether no other report looks like this one: noise or its number make it differ.
-bool is_telling(const TraceRow& row) {
-    return row.eyes[0].valid || row.eyes[1].valid || row.sequence.has_value();
+bool is_telling(const RowsRead& rows, std::size_t row) {
+    const auto& [left, right] = rows.eyes(row);
+    return left.valid || right.valid || rows[row].sequence.has_value();
 }
 
 /// The work on the rows of one file.
 class Ordering {
   public:
-    Ordering(std::span<const TraceRow> rows, std::span<Wide> at_ns, std::vector<std::size_t> used,
+    Ordering(const RowsRead& rows, std::span<Wide> at_ns, std::vector<std::size_t> used,
              std::int64_t interval_ns)
         : rows_(rows), at_ns_(at_ns), interval_ns_(interval_ns) {
         order_.rows = std::move(used);
@@ -51,7 +52,7 @@ class Ordering {
 
   private:
     [[nodiscard]] Wide at(std::size_t position) const { return at_ns_[order_.rows[position]]; }
-    [[nodiscard]] const TraceRow& row(std::size_t position) const {
+    [[nodiscard]] const RowClock& row(std::size_t position) const {
         return rows_[order_.rows[position]];
     }
 
@@ -89,8 +90,8 @@ class Ordering {
         std::size_t differing = 0;
         for (std::size_t i = 1; i < count; ++i) {
             if (at(i) == at(i - 1)) {
-                const bool same = same_report(row(i), row(i - 1));
-                repeated += same && is_telling(row(i)) ? 1 : 0;
+                const bool same = same_report(rows_, order_.rows[i], order_.rows[i - 1]);
+                repeated += same && is_telling(rows_, order_.rows[i]) ? 1 : 0;
                 differing += same ? 0 : 1;
             }
         }
@@ -101,7 +102,7 @@ class Ordering {
         Wide latest = 0;
         for (const std::size_t index : order_.rows) {
             const bool may_be = !kept.empty() && at_ns_[index] <= latest &&
-                                (closed_too || is_telling(rows_[index]));
+                                (closed_too || is_telling(rows_, index));
             if (may_be && has_twin(index, kept)) {
                 order_.repeats.push_back(index);
                 continue;
@@ -117,7 +118,7 @@ class Ordering {
         return std::any_of(before.end() - static_cast<std::ptrdiff_t>(window), before.end(),
                            [&](std::size_t other) {
                                return at_ns_[index] == at_ns_[other] &&
-                                      same_report(rows_[index], rows_[other]);
+                                      same_report(rows_, index, other);
                            });
     }
 
@@ -187,13 +188,13 @@ class Ordering {
             }
         }
         const std::vector<std::size_t> rising = longest_rising(first, end);
-        const bool numbers_count_on = counts_up(first, end, &TraceRow::sequence);
+        const bool numbers_count_on = counts_up(first, end, &RowClock::sequence);
         if (numbers_count_on || !is_better(sorted, rising)) {
             const Wide most_ns = furthest(sorted);
             if (!jitters_ || most_ns > static_cast<Wide>(interval_ns_) * kJitterIntervals) {
                 return;
             }
-            if (numbers_count_on || counts_up(first, end, &TraceRow::host_ns)) {
+            if (numbers_count_on || counts_up(first, end, &RowClock::host_ns)) {
                 level(sorted, rising.size(), most_ns);
                 return;
             }
@@ -221,7 +222,7 @@ class Ordering {
 
     template <typename Number>
     [[nodiscard]] bool counts_up(std::size_t first, std::size_t end,
-                                 std::optional<Number> TraceRow::* number) const {
+                                 std::optional<Number> RowClock::* number) const {
         for (std::size_t i = first; i < end; ++i) {
             const auto& now = row(i).*number;
             if (!now || (i > first && *now <= *(row(i - 1).*number))) {
@@ -350,7 +351,7 @@ class Ordering {
         return sum;
     }
 
-    std::span<const TraceRow> rows_;
+    const RowsRead& rows_;
     std::span<Wide> at_ns_;
     std::int64_t interval_ns_;
     bool jitters_ = false;
@@ -359,13 +360,13 @@ class Ordering {
 
 }  // namespace
 
-bool same_report(const TraceRow& a, const TraceRow& b) {
-    return a.sequence == b.sequence && same_ray(a.eyes[0], b.eyes[0]) &&
-           same_ray(a.eyes[1], b.eyes[1]);
+bool same_report(const RowsRead& rows, std::size_t a, std::size_t b) {
+    return rows[a].sequence == rows[b].sequence && same_ray(rows.eyes(a)[0], rows.eyes(b)[0]) &&
+           same_ray(rows.eyes(a)[1], rows.eyes(b)[1]);
 }
 
-RowOrder rows_in_order(std::span<const TraceRow> rows, std::span<Wide> at_ns,
-                       std::vector<std::size_t> used, std::int64_t interval_ns) {
+RowOrder rows_in_order(const RowsRead& rows, std::span<Wide> at_ns, std::vector<std::size_t> used,
+                       std::int64_t interval_ns) {
     return Ordering(rows, at_ns, std::move(used), interval_ns).run();
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "drivers/trace/clock/counter_wrap.h"
-#include "drivers/trace/clock/trace_row.h"
+#include "drivers/trace/clock/rows_read.h"
 #include "runtime/gaze/trace_report.h"
 
 namespace gazeloop::drivers {
@@ -26,7 +26,7 @@ struct RowOrder {
 
 /// Whether two rows hold the same report: eyes and sequence are equal. Two rows without a valid eye
 /// and without a sequence may be.
-[[nodiscard]] bool same_report(const TraceRow& a, const TraceRow& b);
+[[nodiscard]] bool same_report(const RowsRead& rows, std::size_t a, std::size_t b);
 
 /// Puts rows in order that the writer of the file mixed up: where times go back, and within
 /// kOrderWindow rows the order of times is that of the sequence numbers, or leaves the rows more
@@ -37,7 +37,7 @@ struct RowOrder {
 /// host's times, count on, rows stay, and the times are put in order among them in `at_ns`, if none
 /// moves by more than kJitterIntervals. A file whose times and sequence run backwards as a whole is
 /// turned round.
-[[nodiscard]] RowOrder rows_in_order(std::span<const TraceRow> rows, std::span<Wide> at_ns,
+[[nodiscard]] RowOrder rows_in_order(const RowsRead& rows, std::span<Wide> at_ns,
                                      std::vector<std::size_t> used, std::int64_t interval_ns);
 
 }  // namespace gazeloop::drivers

@@ -16,7 +16,7 @@ using Wide = __int128;
 
 class Numbering {
   public:
-    Numbering(std::span<const TraceRow> rows, const DeviceTimes& times)
+    Numbering(const RowsRead& rows, const DeviceTimes& times)
         : rows_(rows), times_(times), count_(times.rows.size()), dropped_(rows.size(), true) {
         for (const std::size_t row : times.rows) {
             dropped_[row] = false;
@@ -45,6 +45,7 @@ class Numbering {
         if (last > std::numeric_limits<std::uint64_t>::max()) {
             number = 0;
         }
+        result_.numbers.reserve(count_);
         for (std::size_t i = 0; i < count_; ++i) {
             number += i == 0 ? 0 : steps_[i];
             result_.numbers.push_back(number);
@@ -293,7 +294,7 @@ class Numbering {
                                     .text = std::move(text)});
     }
 
-    std::span<const TraceRow> rows_;
+    const RowsRead& rows_;
     const DeviceTimes& times_;
     std::size_t count_;  ///< of used rows
     std::vector<bool> dropped_;
@@ -308,7 +309,7 @@ class Numbering {
 
 }  // namespace
 
-SequenceNumbers sequence_numbers(std::span<const TraceRow> rows, const DeviceTimes& times) {
+SequenceNumbers sequence_numbers(const RowsRead& rows, const DeviceTimes& times) {
     return Numbering(rows, times).run();
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "drivers/trace/clock/device_times.h"
-#include "drivers/trace/clock/trace_row.h"
+#include "drivers/trace/clock/rows_read.h"
 #include "runtime/gaze/trace_report.h"
 
 namespace gazeloop::drivers {
@@ -28,7 +28,6 @@ struct SequenceNumbers {
 /// numbered where they stand (SequenceOutlier). Where more than a tenth of the numbers do not
 /// follow, they count nothing (one SequenceOutlier). Then, without sequence numbers, or where all
 /// are the same, rows are numbered from 0. O(n log n).
-[[nodiscard]] SequenceNumbers sequence_numbers(std::span<const TraceRow> rows,
-                                               const DeviceTimes& times);
+[[nodiscard]] SequenceNumbers sequence_numbers(const RowsRead& rows, const DeviceTimes& times);
 
 }  // namespace gazeloop::drivers

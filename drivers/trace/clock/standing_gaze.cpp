@@ -10,8 +10,7 @@
 
 namespace gazeloop::drivers {
 
-std::vector<gaze::TraceFinding> standing_gaze(std::span<const TraceRow> rows,
-                                              const DeviceTimes& times) {
+std::vector<gaze::TraceFinding> standing_gaze(const RowsRead& rows, const DeviceTimes& times) {
     constexpr std::int64_t kStill_ns = 2'000'000'000;
     constexpr std::size_t kMostPolls = 7;
     constexpr std::size_t kRowsPerRepeat = 4;
@@ -20,17 +19,18 @@ std::vector<gaze::TraceFinding> standing_gaze(std::span<const TraceRow> rows,
     std::vector<gaze::TraceFinding> findings;
     std::size_t polled = 0;
     std::size_t first_polled = 0;
-    const auto row = [&](std::size_t i) -> const TraceRow& { return rows[times.rows[i]]; };
+    const auto row = [&](std::size_t i) { return times.rows[i]; };
+    const auto line = [&](std::size_t i) { return rows[row(i)].line; };
     for (std::size_t first = 0; first < count;) {
         std::size_t end = first + 1;
-        if (row(first).eyes[0].valid || row(first).eyes[1].valid) {
-            while (end < count && same_report(row(end), row(first))) {
+        if (rows.eyes(row(first))[0].valid || rows.eyes(row(first))[1].valid) {
+            while (end < count && same_report(rows, row(end), row(first))) {
                 ++end;
             }
         }
         if (end - first == count && times.time_ns.back() - times.time_ns.front() > kStill_ns) {
             return {{.kind = gaze::TraceFindingKind::Text,
-                     .line = row(first).line,
+                     .line = line(first),
                      .rows = 0,
                      .dropped = 0,
                      .span_ns = 0,
@@ -41,7 +41,7 @@ std::vector<gaze::TraceFinding> standing_gaze(std::span<const TraceRow> rows,
         if (repeats > 0 && span_ns > kStill_ns) {
             findings.push_back(
                 {.kind = gaze::TraceFindingKind::Repeat,
-                 .line = row(first + 1).line,
+                 .line = line(first + 1),
                  .rows = repeats,
                  .dropped = 0,
                  .span_ns = span_ns,
@@ -57,7 +57,7 @@ std::vector<gaze::TraceFinding> standing_gaze(std::span<const TraceRow> rows,
     if (polled >= kFewest && polled * kRowsPerRepeat >= count) {
         findings.push_back(
             {.kind = gaze::TraceFindingKind::Repeat,
-             .line = row(first_polled).line,
+             .line = line(first_polled),
              .rows = polled,
              .dropped = 0,
              .span_ns = 0,

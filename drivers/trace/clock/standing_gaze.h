@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "drivers/trace/clock/device_times.h"
-#include "drivers/trace/clock/trace_row.h"
+#include "drivers/trace/clock/rows_read.h"
 #include "runtime/gaze/trace_report.h"
 
 namespace gazeloop::drivers {
@@ -15,7 +15,7 @@ namespace gazeloop::drivers {
 /// Fixations without noise, as made traces have them, are neither. A report with a number of its
 /// own, or without a valid eye, is another one. Where all reports of a longer file are the
 /// same, that is said as Text. O(n).
-[[nodiscard]] std::vector<gaze::TraceFinding> standing_gaze(std::span<const TraceRow> rows,
+[[nodiscard]] std::vector<gaze::TraceFinding> standing_gaze(const RowsRead& rows,
                                                             const DeviceTimes& times);
 
 }  // namespace gazeloop::drivers

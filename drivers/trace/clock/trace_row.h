@@ -1,26 +1,18 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
+#include "drivers/trace/clock/row_clock.h"
 #include "runtime/gaze/eye.h"
 #include "runtime/gaze/gaze_sample.h"
 #include "runtime/gaze/pose.h"
 
 namespace gazeloop::drivers {
 
-/// One row of a trace file as a format's reader took it apart, before its clocks are judged.
-struct TraceRow {
-    std::uint64_t line = 0;                 ///< of the file, from 1
-    std::optional<std::uint64_t> sequence;  ///< where the format has one
-    /// The device's clock as the file has it, in ticks of the format (TraceOrigin); none where the
-    /// cell cannot be read.
-    std::optional<std::int64_t> device_ticks;
-    /// Another clock of the device's, for want of the first in all rows.
-    std::optional<std::int64_t> other_ticks;
-    std::optional<std::int64_t> host_ns;  ///< the host's clock at the arrival, where recorded
-    gaze::PerEye<gaze::EyeRay> eyes;      ///< in our axes and units
-    std::optional<double> parallax_rad;   ///< as GazeSample has it
+/// One row of a trace file as a format's reader took it apart.
+struct TraceRow : RowClock {
+    gaze::PerEye<gaze::EyeRay> eyes;     ///< in our axes and units
+    std::optional<double> parallax_rad;  ///< as GazeSample has it
     std::optional<gaze::Pose> head;
 };
 

@@ -74,7 +74,7 @@ ByteStream::~ByteStream() = default;
 
 std::expected<bool, std::string> ByteStream::refill() {
     in_->read(raw_.data(), static_cast<std::streamsize>(raw_.size()));
-    if (in_->bad()) {
+    if (in_->bad() || (in_->fail() && !in_->eof())) {
         return std::unexpected("cannot be read: check the disk, or copy the file again");
     }
     unused_ = std::span{raw_}.first(static_cast<std::size_t>(in_->gcount()));
@@ -100,6 +100,20 @@ std::expected<std::size_t, std::string> ByteStream::read(std::span<char> to) {
     std::copy_n(unused_.begin(), taken, to.begin());
     unused_ = unused_.subspan(taken);
     return taken;
+}
+
+std::optional<std::uint64_t> ByteStream::bytes_left() {
+    if (gzip_ || !in_->good()) {
+        return std::nullopt;
+    }
+    const std::streamoff now = in_->tellg();
+    const std::streamoff end = now < 0 ? now : std::streamoff{in_->seekg(0, std::ios::end).tellg()};
+    in_->clear();
+    if (now < 0 || end < now) {
+        return std::nullopt;
+    }
+    in_->seekg(now);
+    return unused_.size() + static_cast<std::uint64_t>(end - now);
 }
 
 std::expected<std::size_t, std::string> ByteStream::decompressed(std::span<char> to) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <expected>
 #include <istream>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +30,9 @@ class ByteStream {
     /// a file that cannot be read; gzip data that are damaged, end early or have something else
     /// after them.
     [[nodiscard]] std::expected<std::size_t, std::string> read(std::span<char> to);
+
+    /// How many bytes read() will still give; none where nobody knows: gzip, pipes.
+    [[nodiscard]] std::optional<std::uint64_t> bytes_left();
 
     [[nodiscard]] bool is_gzip() const { return gzip_ != nullptr; }
 

@@ -71,6 +71,9 @@ class CsvTable {
     /// with more or fewer cells than the header, quotes that do not close.
     [[nodiscard]] Expected<bool> next();
 
+    /// As TextLines::lines_ahead.
+    [[nodiscard]] std::optional<std::uint64_t> rows_ahead() { return lines_.lines_ahead(); }
+
     /// A finite number; none where the cell holds none.
     [[nodiscard]] std::optional<double> real(std::size_t column) {
         NumberSpelling seen;

@@ -1,9 +1,34 @@
 #include "drivers/trace/text/line_cells.h"
 
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
 namespace gazeloop::drivers {
 namespace {
 
 constexpr char kQuote = '"';
+constexpr std::size_t kEight = sizeof(std::uint64_t);
+
+/// Finds a character in eight at once: cells are short, and a call for each costs more than they.
+class Eightfold {
+  public:
+    explicit Eightfold(char searched) : searched_(kOnes * static_cast<unsigned char>(searched)) {}
+
+    /// The high bit of each byte that is the character, the first one's lowest; no other bit.
+    [[nodiscard]] std::uint64_t in(const char* eight) const {
+        static_assert(std::endian::native == std::endian::little);
+        std::uint64_t word = 0;
+        std::memcpy(&word, eight, kEight);
+        const std::uint64_t differs = word ^ searched_;
+        return ~(((differs & kLow) + kLow) | differs | kLow);
+    }
+
+  private:
+    static constexpr std::uint64_t kOnes = 0x0101'0101'0101'0101;
+    static constexpr std::uint64_t kLow = 0x7f * kOnes;
+    std::uint64_t searched_;
+};
 
 }  // namespace
 
@@ -34,14 +59,25 @@ LineCells::Problem LineCells::split(std::string_view line, char separator) {
     if (had_quotes_) {
         return split_quoted(line, separator);
     }
-    while (true) {
-        const std::size_t end = line.find(separator);
-        cells_.push_back(trimmed(line.substr(0, end)));
-        if (end == std::string_view::npos) {
-            return Problem::None;
+    std::size_t begin = 0;
+    const auto end_cell = [&](std::size_t end) {
+        cells_.push_back(trimmed(line.substr(begin, end - begin)));
+        begin = end + 1;
+    };
+    const Eightfold searched(separator);
+    std::size_t at = 0;
+    for (; at + kEight <= line.size(); at += kEight) {
+        for (std::uint64_t found = searched.in(line.data() + at); found != 0; found &= found - 1) {
+            end_cell(at + static_cast<std::size_t>(std::countr_zero(found)) / kEight);
         }
-        line.remove_prefix(end + 1);
     }
+    for (; at < line.size(); ++at) {
+        if (line[at] == separator) {
+            end_cell(at);
+        }
+    }
+    end_cell(line.size());
+    return Problem::None;
 }
 
 LineCells::Problem LineCells::split_quoted(std::string_view line, char separator) {

@@ -76,6 +76,7 @@ Expected<bool> TextLines::read_line() {
             }
             text_ = std::string_view{buffer_.data() + begin_, at - begin_};
             begin_ = at + 1;
+            bytes_taken_ += text_.size() + 1;
             after_cr_ = c == '\r';
             ended_ = true;
             break;
@@ -132,6 +133,16 @@ Expected<bool> TextLines::fill() {
         }
     }
     return begin_ != end_ && (filled > 0 || was_first);
+}
+
+std::optional<std::uint64_t> TextLines::lines_ahead() {
+    const std::optional<std::uint64_t> left = bytes_.bytes_left();
+    if (!left || bytes_taken_ == 0) {
+        return std::nullopt;
+    }
+    const auto bytes = static_cast<double>(*left + (end_ - begin_));
+    return static_cast<std::uint64_t>(bytes * static_cast<double>(line_) /
+                                      static_cast<double>(bytes_taken_));
 }
 
 std::unexpected<Error> TextLines::error_here(std::string_view message) const {

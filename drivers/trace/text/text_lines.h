@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,6 +41,10 @@ class TextLines {
     [[nodiscard]] std::uint64_t line() const { return line_; }  ///< from 1
     [[nodiscard]] const std::string& name() const { return name_; }
 
+    /// About how many lines follow, were they as long as those before; none where nobody knows how
+    /// much of the file is left.
+    [[nodiscard]] std::optional<std::uint64_t> lines_ahead();
+
     [[nodiscard]] std::unexpected<Error> error_here(std::string_view message) const;
 
     /// Adds what was read although it is not usual.
@@ -61,6 +66,7 @@ class TextLines {
     bool held_ = false;  ///< the line, or that there is none, is to be given once more
     bool any_ = false;   ///< what the last call of next() gave
     std::string_view text_;
+    std::uint64_t bytes_taken_ = 0;  ///< by the lines so far, with their ends
     std::uint64_t line_ = 0;
     std::uint64_t lone_cr_line_ = 0;  ///< the first that ended so; 0: none
 };

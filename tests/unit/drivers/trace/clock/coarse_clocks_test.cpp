@@ -24,7 +24,7 @@ TEST(DeviceTimes, SpreadRowsOverTheStepOfACoarseClock) {
     for (TraceRow& row : rows) {
         row.device_ticks = *row.device_ticks / kMs * kMs;
     }
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     ASSERT_EQ(times.rows.size(), 3000U);
     for (std::size_t i = 0; i < 3000; ++i) {
         ASSERT_EQ(times.time_ns[i], static_cast<std::int64_t>(i) * 500 * kUs);
@@ -47,7 +47,7 @@ TEST(DeviceTimes, SpreadWholeMillisecondsOfAJitteringClock) {
         truth.push_back(*row.device_ticks + jitter(random));
         row.device_ticks = truth.back() / kMs * kMs;
     }
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     ASSERT_EQ(times.rows.size(), 2000U);
     EXPECT_TRUE(increases(times.time_ns));
     for (std::size_t i = 0; i < 2000; ++i) {
@@ -68,7 +68,7 @@ TEST(DeviceTimes, TakeClosedEyesOfACoarseClockForRowsOfTheirOwn) {
             rows[i].eyes = {};
         }
     }
-    EXPECT_EQ(device_times(rows, 1.0).rows.size(), 300U);
+    EXPECT_EQ(device_times(RowsRead{rows}, 1.0).rows.size(), 300U);
 }
 
 TEST(DeviceTimes, SpreadRowsOfAClockThatStoodAndCaughtUp) {
@@ -76,7 +76,7 @@ TEST(DeviceTimes, SpreadRowsOfAClockThatStoodAndCaughtUp) {
     for (std::size_t i = 300; i < 420; ++i) {
         rows[i].device_ticks = rows[300].device_ticks;
     }
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     ASSERT_EQ(times.rows.size(), 700U);
     EXPECT_THAT(times.sets, IsEmpty());
     for (std::size_t i = 0; i < 700; ++i) {
@@ -97,7 +97,7 @@ TEST(DeviceTimes, GoOnWhereAClockStoodAndNeverCaughtUp) {
         for (std::size_t i = 300; i < 420; ++i) {
             rows[i].device_ticks = rows[299].device_ticks;
         }
-        const DeviceTimes times = device_times(rows, 1.0);
+        const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
         ASSERT_EQ(times.rows.size(), 700U);
         EXPECT_THAT(times.sets, ElementsAre(420));
         EXPECT_TRUE(increases(times.time_ns));
@@ -113,14 +113,14 @@ TEST(DeviceTimes, FollowTheHostWhereAllTimesAreEqual) {
     for (TraceRow& row : rows) {
         row.device_ticks = 7;
     }
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     EXPECT_NEAR(static_cast<double>(times.time_ns.back()), 49.0 * kInterval, 1.0);
     ASSERT_THAT(times.findings, SizeIs(1));
     EXPECT_EQ(times.findings[0].kind, TraceFindingKind::ClockStoodStill);
     for (TraceRow& row : rows) {
         row.host_ns.reset();
     }
-    EXPECT_EQ(device_times(rows, 1.0).interval_ns, 0);
+    EXPECT_EQ(device_times(RowsRead{rows}, 1.0).interval_ns, 0);
 }
 
 /// 1200 rows at 120 Hz of which the device's clock stands at 7, with host times that jitter.
@@ -145,15 +145,15 @@ void expect_near_truth(const DeviceTimes& times, std::size_t gap_at, std::int64_
 }
 
 TEST(DeviceTimes, FollowTheHostsUsualIntervalWhereTheClockStands) {
-    expect_near_truth(device_times(stood_rows(), 1.0), 1200, 0);
+    expect_near_truth(device_times(RowsRead{stood_rows()}, 1.0), 1200, 0);
     for (const std::int64_t late : {400 * kMs, 3600 * kSecond, -3600 * kSecond}) {
         auto rows = stood_rows();
         *rows.back().host_ns += late;
-        expect_near_truth(device_times(rows, 1.0), 1200, 0);
+        expect_near_truth(device_times(RowsRead{rows}, 1.0), 1200, 0);
         rows.back().host_ns.reset();
-        expect_near_truth(device_times(rows, 1.0), 1200, 0);
+        expect_near_truth(device_times(RowsRead{rows}, 1.0), 1200, 0);
         *rows[600].host_ns += late;
-        expect_near_truth(device_times(rows, 1.0), 1200, 0);
+        expect_near_truth(device_times(RowsRead{rows}, 1.0), 1200, 0);
     }
 }
 
@@ -162,12 +162,12 @@ TEST(DeviceTimes, FollowTheHostOverAGapWhereTheClockStands) {
     for (std::size_t i = 500; i < 1200; ++i) {
         *rows[i].host_ns += 5 * kSecond;
     }
-    expect_near_truth(device_times(rows, 1.0), 500, 5 * kSecond);
+    expect_near_truth(device_times(RowsRead{rows}, 1.0), 500, 5 * kSecond);
     rows = stood_rows();
     for (std::size_t i = 500; i < 1200; ++i) {
         *rows[i].host_ns -= 5 * kSecond;
     }
-    expect_near_truth(device_times(rows, 1.0), 1200, 0);
+    expect_near_truth(device_times(RowsRead{rows}, 1.0), 1200, 0);
 }
 
 TEST(DeviceTimes, CatchUpWithAGapThatWasWithinAStand) {
@@ -176,7 +176,7 @@ TEST(DeviceTimes, CatchUpWithAGapThatWasWithinAStand) {
     for (std::size_t i = 600; i < 750; ++i) {
         rows[i].device_ticks = rows[600].device_ticks;
     }
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     expect_one(times, TraceFindingKind::ClockStoodStill, 602, 0);
     EXPECT_THAT(times.sets, IsEmpty());
     for (std::size_t i = 0; i < 800; ++i) {
@@ -190,7 +190,7 @@ TEST(DeviceTimes, FollowAHostThatReadsInBatchesWhereTheClockStands) {
     for (std::size_t i = 0; i < 1200; ++i) {
         rows[i].host_ns = rows[i / 4 * 4 + 3].host_ns;
     }
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     expect_near_truth(times, 1200, 0);
     EXPECT_NEAR(static_cast<double>(times.interval_ns), static_cast<double>(kInterval), 0.2e6);
 }
@@ -202,7 +202,7 @@ TEST(DeviceTimes, BeginAndEndACoarseClockWithinItsSteps) {
             for (TraceRow& row : rows) {
                 row.device_ticks = *row.device_ticks / (16 * kMs) * (16 * kMs);
             }
-            const DeviceTimes times = device_times(rows, 1.0);
+            const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
             ASSERT_EQ(times.rows.size(), count);
             for (std::size_t i = 0; i < count; ++i) {
                 ASSERT_NEAR(static_cast<double>(times.time_ns[i]),

@@ -22,7 +22,7 @@ using ::testing::SizeIs;
 
 TEST(DeviceTimes, OfAGoodTraceAreItsReadings) {
     const auto rows = good_rows(100);
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     expect_good_but(times, 100, {});
     EXPECT_THAT(times.findings, IsEmpty());
     EXPECT_THAT(times.sets, IsEmpty());
@@ -33,17 +33,17 @@ TEST(DeviceTimes, OfAGoodTraceAreItsReadings) {
 
 TEST(DeviceTimes, CountTicksOfOtherLengthsFromTheFirst) {
     const auto rows = good_rows(3, 638'342'794'000'115'346, 83'333);
-    const DeviceTimes times = device_times(rows, 100.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 100.0);
     EXPECT_THAT(times.time_ns, ElementsAre(0, 8'333'300, 16'666'600));
     EXPECT_EQ(times.reading_ns, times.time_ns);
-    EXPECT_THAT(device_times(rows, 100.5).time_ns, ElementsAre(0, 8'374'966, 16'749'933));
+    EXPECT_THAT(device_times(RowsRead{rows}, 100.5).time_ns, ElementsAre(0, 8'374'966, 16'749'933));
 }
 
 TEST(DeviceTimes, KeepGapsForward) {
     auto rows = without_sequence(good_rows(100));
     move_times(rows, 40, 100, kSecond);
     move_times(rows, 41, 100, kSecond);
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     EXPECT_THAT(times.findings, IsEmpty());
     EXPECT_EQ(times.rows.size(), 100U);
     EXPECT_EQ(times.time_ns[41] - times.time_ns[40], kSecond + kInterval);
@@ -59,7 +59,7 @@ TEST_P(Outlier, IsDroppedAloneWhereverItIs) {
             auto rows = good_rows(800);
             rows = numbered ? rows : without_sequence(rows);
             move_times(rows, at, at + 1, GetParam());
-            const DeviceTimes times = device_times(rows, 1.0);
+            const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
             expect_good_but(times, 800, {at});
             expect_one(times, TraceFindingKind::TimeOutlier, at + 2, 1);
         }
@@ -79,7 +79,7 @@ TEST(DeviceTimes, DropASpikeOfAFewIntervals) {
             auto rows = good_rows(800);
             rows = numbered ? rows : without_sequence(rows);
             move_times(rows, 400, 401, by);
-            const DeviceTimes times = device_times(rows, 1.0);
+            const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
             expect_good_but(times, 800, {400});
             expect_one(times, TraceFindingKind::TimeOutlier, 402, 1);
         }
@@ -91,7 +91,7 @@ TEST(DeviceTimes, DropTwoSpikesInARowAndABurst) {
     move_times(rows, 100, 101, 2'500 * kMs);
     move_times(rows, 101, 102, 900 * kMs);
     move_times(rows, 300, 308, -40 * kSecond);
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     expect_good_but(times, 800, {100, 101, 300, 301, 302, 303, 304, 305, 306, 307});
     const auto outliers = of_kind(times.findings, TraceFindingKind::TimeOutlier);
     ASSERT_THAT(outliers, SizeIs(2));
@@ -103,7 +103,7 @@ TEST(DeviceTimes, DropTwoSpikesInARowAndABurst) {
 TEST(DeviceTimes, DropAFirstTimeOfZeroBeforeAnEpoch) {
     auto rows = good_rows(400, 1'700'000'000 * kSecond);
     rows[0].device_ticks = 0;
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     expect_good_but(times, 400, {0});
     expect_one(times, TraceFindingKind::TimeOutlier, 2, 1);
 }
@@ -116,7 +116,7 @@ TEST(DeviceTimes, DropFirstRowsOfAnEarlierRunOfTheDevice) {
         for (std::size_t i = 0; timed && i < 10; ++i) {
             *rows[i].host_ns -= 40'000 * kSecond;
         }
-        const DeviceTimes times = device_times(rows, 1.0);
+        const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
         expect_good_but(times, 400, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
         expect_one(times, TraceFindingKind::TimeOutlier, 2, 10);
     }
@@ -126,25 +126,25 @@ TEST(DeviceTimes, KeepALastRowThatTheHostVouchesFor) {
     auto rows = good_rows(100);
     move_times(rows, 99, 100, 5 * kSecond);
     rows = with_host(rows, 7 * kSecond);
-    EXPECT_EQ(device_times(rows, 1.0).rows.size(), 100U);
+    EXPECT_EQ(device_times(RowsRead{rows}, 1.0).rows.size(), 100U);
 }
 
 TEST(DeviceTimes, ReportRowsWithoutATime) {
     auto rows = good_rows(100);
     rows[0].device_ticks.reset();
     rows[50].device_ticks.reset();
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     expect_good_but(times, 100, {0, 50});
     expect_one(times, TraceFindingKind::BadTime, 2, 2);
     for (TraceRow& row : rows) {
         row.device_ticks.reset();
     }
-    EXPECT_THAT(device_times(rows, 1.0).rows, IsEmpty());
+    EXPECT_THAT(device_times(RowsRead{rows}, 1.0).rows, IsEmpty());
     rows = with_host(good_rows(100), 0);
     for (TraceRow& row : rows) {
         row.device_ticks.reset();
     }
-    const DeviceTimes by_host = device_times(rows, 1.0);
+    const DeviceTimes by_host = device_times(RowsRead{rows}, 1.0);
     expect_good_but(by_host, 100, {});
     EXPECT_TRUE(by_host.by_host);
     expect_one(by_host, TraceFindingKind::BadTime, 2, 0);
@@ -154,9 +154,9 @@ TEST(DeviceTimes, ReportRowsWithoutATime) {
 
 TEST(DeviceTimes, OfVeryFewRows) {
     EXPECT_THAT(device_times({}, 1.0).rows, IsEmpty());
-    EXPECT_THAT(device_times(good_rows(1), 1.0).time_ns, ElementsAre(0));
-    EXPECT_THAT(device_times(good_rows(2), 1.0).time_ns, ElementsAre(0, kInterval));
-    const DeviceTimes three = device_times(good_rows(3), 1.0);
+    EXPECT_THAT(device_times(RowsRead{good_rows(1)}, 1.0).time_ns, ElementsAre(0));
+    EXPECT_THAT(device_times(RowsRead{good_rows(2)}, 1.0).time_ns, ElementsAre(0, kInterval));
+    const DeviceTimes three = device_times(RowsRead{good_rows(3)}, 1.0);
     EXPECT_THAT(three.time_ns, ElementsAre(0, kInterval, 2 * kInterval));
     EXPECT_THAT(three.findings, IsEmpty());
 }
@@ -172,7 +172,7 @@ TEST(DeviceTimes, BearAnyReadings) {
         }
         rows[7].device_ticks = std::numeric_limits<std::int64_t>::min();
         rows[8].device_ticks = std::numeric_limits<std::int64_t>::max();
-        const DeviceTimes times = device_times(rows, tick_ns);
+        const DeviceTimes times = device_times(RowsRead{rows}, tick_ns);
         EXPECT_EQ(times.time_ns.size(), times.rows.size());
     }
 }
@@ -183,7 +183,7 @@ TEST(DeviceTimes, DropBurstsAtTheEndsThatNumbersContradict) {
             for (const std::int64_t by : {2'500 * kMs, -2'500 * kMs}) {
                 auto rows = good_rows(2'000, 9 * kSecond, kMs);
                 move_times(rows, first, first + length, by);
-                const DeviceTimes times = device_times(rows, 1.0);
+                const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
                 EXPECT_EQ(times.rows.size(), 2'000 - length) << first << ' ' << by;
                 expect_one(times, TraceFindingKind::TimeOutlier, first + 2, length);
             }
@@ -195,11 +195,12 @@ TEST(DeviceTimes, DropABurstOfManyRowsThatIsShort) {
     for (const std::size_t length : {20U, 48U, 49U}) {
         auto rows = good_rows(2'000, 9 * kSecond, kMs);
         move_times(rows, 800, 800 + length, 2'500 * kMs);
-        EXPECT_EQ(device_times(rows, 1.0).rows.size(), length <= 48 ? 2'000 - length : 2'000);
+        EXPECT_EQ(device_times(RowsRead{rows}, 1.0).rows.size(),
+                  length <= 48 ? 2'000 - length : 2'000);
     }
     auto rows = good_rows(2'000);
     move_times(rows, 800, 820, 2'500 * kMs);
-    EXPECT_EQ(device_times(rows, 1.0).rows.size(), 2'000U);  // 167 ms
+    EXPECT_EQ(device_times(RowsRead{rows}, 1.0).rows.size(), 2'000U);  // 167 ms
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ struct Fitted {
 };
 
 Fitted fitted(const std::vector<TraceRow>& rows) {
-    Fitted result{device_times(rows, 1.0), {}};
+    Fitted result{device_times(RowsRead{rows}, 1.0), {}};
     std::vector<std::optional<std::int64_t>> host_ns;
     std::vector<std::uint64_t> lines;
     for (const std::size_t row : result.device.rows) {

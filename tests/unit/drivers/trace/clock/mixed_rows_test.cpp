@@ -25,7 +25,7 @@ TEST(DeviceTimes, PutMixedUpRowsInOrder) {
             std::shuffle(rows.begin() + static_cast<std::ptrdiff_t>(i),
                          rows.begin() + static_cast<std::ptrdiff_t>(i) + 64, random);
         }
-        const DeviceTimes times = device_times(rows, 1.0);
+        const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
         ASSERT_EQ(times.rows.size(), 640U);
         for (std::size_t i = 0; i < 640; ++i) {
             EXPECT_EQ(times.time_ns[i], static_cast<std::int64_t>(i) * kInterval);
@@ -48,7 +48,7 @@ TEST(DeviceTimes, PutRowsInOrderThatMoveALittleAllAlong) {
               [](const auto& a, const auto& b) { return a.first < b.first; });
     std::transform(arrivals.begin(), arrivals.end(), rows.begin(),
                    [](const auto& arrival) { return arrival.second; });
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     ASSERT_EQ(times.rows.size(), 1000U);
     EXPECT_EQ(times.time_ns.back(), 999 * kInterval);
     EXPECT_TRUE(increases(times.time_ns));
@@ -57,7 +57,7 @@ TEST(DeviceTimes, PutRowsInOrderThatMoveALittleAllAlong) {
 TEST(DeviceTimes, CountRowsThatMoved) {
     auto rows = good_rows(100);
     std::rotate(rows.begin() + 40, rows.begin() + 41, rows.begin() + 46);  // 40 goes behind 45
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     EXPECT_EQ(times.time_ns.back(), 99 * kInterval);
     ASSERT_THAT(times.findings, SizeIs(1));
     EXPECT_EQ(times.findings[0].kind, TraceFindingKind::OutOfOrder);
@@ -68,7 +68,7 @@ TEST(DeviceTimes, CountRowsThatMoved) {
 TEST(DeviceTimes, TurnAFileRoundThatRunsBackwards) {
     auto rows = good_rows(100);
     std::reverse(rows.begin(), rows.end());
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     EXPECT_EQ(times.rows.front(), 99U);
     EXPECT_EQ(times.time_ns.back(), 99 * kInterval);
     ASSERT_THAT(times.findings, SizeIs(1));
@@ -81,7 +81,7 @@ TEST(DeviceTimes, KeepTheOrderOfRowsThatCountUpWhileTimesGoDown) {
     for (TraceRow& row : rows) {
         row.device_ticks = 10 * kSecond - *row.device_ticks;
     }
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     EXPECT_EQ(times.rows.size(), 100U);
     EXPECT_EQ(times.sets.size(), 99U);
     EXPECT_TRUE(increases(times.time_ns));
@@ -93,7 +93,7 @@ TEST(DeviceTimes, DropRepeatsNearAndFar) {
         rows = numbered ? rows : without_sequence(rows);
         rows.insert(rows.begin() + 51, rows[50]);
         rows.insert(rows.begin() + 80, rows[60]);
-        const DeviceTimes times = device_times(rows, 1.0);
+        const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
         EXPECT_EQ(times.rows.size(), 100U);
         EXPECT_EQ(times.time_ns.back(), 99 * kInterval);
         expect_one(times, TraceFindingKind::Repeat, 52, 2);

@@ -32,7 +32,7 @@ Ordered ordered(const std::vector<TraceRow>& rows) {
     }
     std::vector<std::size_t> all(rows.size());
     std::iota(all.begin(), all.end(), 0U);
-    found.order = rows_in_order(rows, found.at_ns, all, kInterval);
+    found.order = rows_in_order(RowsRead{rows}, found.at_ns, all, kInterval);
     return found;
 }
 

@@ -26,7 +26,7 @@ std::vector<TraceRow> numbered(const std::vector<std::uint64_t>& numbers) {
 }
 
 SequenceNumbers of(const std::vector<TraceRow>& rows) {
-    return sequence_numbers(rows, device_times(rows, 1.0));
+    return sequence_numbers(RowsRead{rows}, device_times(RowsRead{rows}, 1.0));
 }
 
 TEST(SequenceNumbers, StayWhereTheyCountUp) {

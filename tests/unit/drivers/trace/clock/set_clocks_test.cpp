@@ -39,7 +39,8 @@ TEST_P(Wraps, AreCountedOn) {
             }
             rows[i].device_ticks = static_cast<std::int64_t>(in_ticks ? at / tick_ns : at);
         }
-        const DeviceTimes times = device_times(rows, in_ticks ? static_cast<double>(tick_ns) : 1.0);
+        const DeviceTimes times =
+            device_times(RowsRead{rows}, in_ticks ? static_cast<double>(tick_ns) : 1.0);
         EXPECT_EQ(times.rows.size(), 300U);
         ASSERT_TRUE(increases(times.time_ns));
         for (std::size_t i = 0; i < 300; ++i) {
@@ -64,7 +65,7 @@ TEST(DeviceTimes, CountOnOverAWrapThatRowsAreMixedUpAround) {
         row.device_ticks = *row.device_ticks % (std::int64_t{1000} << 32);
     }
     std::swap(rows[99], rows[101]);
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     EXPECT_EQ(times.rows.size(), 300U);
     EXPECT_EQ(times.time_ns.back(), 299 * kInterval);
     EXPECT_THAT(of_kind(times.findings, TraceFindingKind::CounterWrapped), SizeIs(1));
@@ -76,7 +77,7 @@ TEST(DeviceTimes, GoOnByTheUsualIntervalWhereTheClockIsSet) {
     auto rows = good_rows(700);
     move_times(rows, 200, 700, -2 * kSecond);
     move_times(rows, 500, 700, -900 * kSecond);
-    const DeviceTimes times = device_times(rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     expect_good_but(times, 700, {});
     EXPECT_THAT(times.sets, ElementsAre(200, 500));
     const auto sets = of_kind(times.findings, TraceFindingKind::DeviceClockSet);
@@ -93,7 +94,7 @@ TEST(DeviceTimes, GoOnByTheHostsClockWhereTheDevicesIsSet) {
         move_times(rows, 300, 600, 40 * kMs);  // a gap, too
         rows = with_host(rows, 77 * kSecond);
         move_times(rows, 300, 600, by);
-        const DeviceTimes times = device_times(rows, 1.0);
+        const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
         EXPECT_EQ(times.rows.size(), 600U);
         EXPECT_EQ(times.time_ns[300] - times.time_ns[299], kInterval + 40 * kMs);
         EXPECT_THAT(times.sets, ElementsAre(300));

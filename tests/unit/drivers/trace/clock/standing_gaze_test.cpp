@@ -13,7 +13,7 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 std::vector<gaze::TraceFinding> of(const std::vector<TraceRow>& rows) {
-    return standing_gaze(rows, device_times(rows, 1.0));
+    return standing_gaze(RowsRead{rows}, device_times(RowsRead{rows}, 1.0));
 }
 
 /// 600 rows of which those from 300 on hold the report of row 300.

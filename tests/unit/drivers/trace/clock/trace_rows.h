@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "drivers/trace/clock/rows_read.h"
 #include "drivers/trace/clock/trace_row.h"
 #include "runtime/gaze/trace_report.h"
 

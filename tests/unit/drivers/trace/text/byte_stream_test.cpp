@@ -52,6 +52,23 @@ TEST(ByteStream, GivesAFileAsItIs) {
     EXPECT_EQ(read_all("\x1f"), "\x1f");
 }
 
+TEST(ByteStream, KnowsWhatIsLeftOfAFileButNotOfGzip) {
+    const std::string text = long_text(200'000);
+    std::istringstream in(text);
+    ByteStream bytes(in);
+    std::string part(1000, '\0');
+    ASSERT_EQ(bytes.read(part), 1000U);
+    EXPECT_EQ(bytes.bytes_left(), 199'000U);
+    ASSERT_EQ(bytes.read(part), 1000U);
+    EXPECT_EQ(part, text.substr(1000, 1000)) << "it reads on where it was";
+    EXPECT_EQ(bytes.bytes_left(), 198'000U);
+
+    std::istringstream compressed(gzipped(text));
+    ByteStream unknown(compressed);
+    ASSERT_GT(unknown.read(part).value(), 0U);
+    EXPECT_FALSE(unknown.bytes_left().has_value());
+}
+
 TEST(ByteStream, DecompressesGzip) {
     const std::string text = long_text(500'000);
     const std::string file = gzipped(text);

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
+#include <random>
 #include <string>
 
 namespace gazeloop::drivers {
@@ -59,6 +63,19 @@ TEST(RealNumber, ReadsPointsAndCommas) {
     EXPECT_TRUE(seen.decimal_comma);
     EXPECT_EQ(real("1,5e3"), 1500.0);
     EXPECT_EQ(real("5e-324"), std::numeric_limits<double>::denorm_min());
+}
+
+/// Short ones go another way than long ones.
+TEST(RealNumber, IsTheNearestDoubleHoweverLong) {
+    std::mt19937_64 random(3);
+    for (int i = 0; i < 20'000; ++i) {
+        const std::uint64_t digits = random() % 1'000'000'000'000'000'000U;
+        std::string cell = std::to_string(digits).substr(0, 1 + i % 18);
+        cell.insert(random() % (cell.size() + 1), ".");
+        cell = (i % 2 == 0 ? "-" : "") + cell;
+        ASSERT_EQ(real(cell), std::strtod(cell.c_str(), nullptr)) << cell;
+    }
+    EXPECT_TRUE(std::signbit(real("-0").value()));
 }
 
 TEST(RealNumber, RefusesWhatIsNone) {
