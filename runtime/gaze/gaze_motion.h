@@ -52,6 +52,7 @@ class GazeMotion {
     void turn_world(const glm::dquat& rotation);
 
     [[nodiscard]] EyeEvent event() const { return predictor_.detector().event(); }
+    [[nodiscard]] SeenMotion seen() const { return predictor_.seen(); }
     /// How much older than the newest sample the filtered direction of an eye is on average.
     [[nodiscard]] std::int64_t filter_delay_ns(Eye eye) const;
     /// In the head of the last sample that had gaze.

@@ -67,16 +67,6 @@ void add_agreements(std::vector<Figure>& figures, const std::string& name,
     }
 }
 
-double seconds_of_detection() {
-    gaze::EventDetector detector;
-    int saccades = 0;
-    const double seconds = seconds_for_an_hour([&](std::int64_t time_ns, const glm::dvec3& gaze) {
-        detector.add(time_ns, gaze);
-        saccades += detector.event() == gaze::EyeEvent::Saccade ? 1 : 0;  // the work is used
-    });
-    return saccades > 0 ? seconds : std::nan("");
-}
-
 }  // namespace
 
 std::vector<Figure> events(const Options& options) {
@@ -84,7 +74,7 @@ std::vector<Figure> events(const Options& options) {
     if (options.wants(kHourOfGaze)) {
         std::vector<double> seconds;
         for (unsigned round = 0; round < options.rounds; ++round) {
-            seconds.push_back(seconds_of_detection());
+            seconds.push_back(seconds_of_detection_alone());
         }
         figures.push_back(
             {kBench, kHourOfGaze, "detection, processor time", median(seconds), "s", "lower"});

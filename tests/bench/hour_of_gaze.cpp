@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "runtime/gaze/events/event_detector.h"
 #include "runtime/gaze/main_sequence.h"
 
 namespace gazeloop::bench {
@@ -34,6 +35,16 @@ double processor_seconds() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double seconds_of_detection_alone() {
+    gaze::EventDetector detector;
+    int saccades = 0;
+    const double seconds = seconds_for_an_hour([&](std::int64_t time_ns, const glm::dvec3& gaze) {
+        detector.add(time_ns, gaze);
+        saccades += detector.event() == gaze::EyeEvent::Saccade ? 1 : 0;  // the work is used
+    });
+    return saccades > 0 ? seconds : std::nan("");
 }
 
 }  // namespace gazeloop::bench

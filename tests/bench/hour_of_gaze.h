@@ -26,4 +26,7 @@ template <typename Add>
     return processor_seconds() - begin_s;
 }
 
+/// Of the event detector alone.
+[[nodiscard]] double seconds_of_detection_alone();
+
 }  // namespace gazeloop::bench

@@ -4,12 +4,15 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 #include "drivers/trace/read_trace.h"
 #include "runtime/gaze/events/gaze_predictor.h"
+#include "runtime/gaze/loss_machine.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/headset_prediction.h"
 #include "tests/bench/hour_of_gaze.h"
+#include "tests/bench/numpy_ivt.h"
 #include "tests/support/coded/prediction_errors.h"
 
 namespace gazeloop::bench {
@@ -111,16 +114,68 @@ void add_headset(std::vector<Figure>& figures) {
     }
 }
 
-double seconds_of_prediction() {
+/// Detection, a prediction per sample, and whether there is gaze; every four seconds a blink.
+double seconds_of_prediction_and_loss() {
     constexpr std::int64_t kAhead_ns = 20'000'000;
+    constexpr std::int64_t kBlinkEvery_ns = 4'000'000'000;
+    constexpr std::int64_t kBlink_ns = 150'000'000;
+    gaze::LossMachine loss({});
     gaze::GazePredictor predictor;
+    gaze::GazeSample sample;
     int extrapolated = 0;
+    int held = 0;
     const double seconds = seconds_for_an_hour([&](std::int64_t time_ns, const glm::dvec3& gaze) {
-        predictor.add(time_ns, gaze);
+        sample.sampled = {time_ns, time::StampKind::Modelled};
+        sample.arrived = sample.sampled;
+        for (gaze::EyeRay& ray : sample.eyes) {
+            ray.direction = gaze;
+            ray.valid = time_ns % kBlinkEvery_ns >= kBlink_ns;
+        }
+        const std::optional<gaze::JudgedSample> judged = loss.add(sample);
+        predictor.add(time_ns, judged && judged->usable ? judged->directions[0] : std::nullopt);
         const gaze::GazePrediction prediction = predictor.predict(time_ns + kAhead_ns);
         extrapolated += prediction.verdict == gaze::PredictionVerdict::Extrapolated ? 1 : 0;
+        held += loss.condition(time_ns).state == gaze::FoveaState::Held ? 1 : 0;
     });
-    return extrapolated > 0 ? seconds : std::nan("");
+    return extrapolated > 0 && held > 0 ? seconds : std::nan("");
+}
+
+/// What an hour takes, and how that compares with I-VT in numpy on the same gaze.
+void add_hour(const Options& options, std::vector<Figure>& figures) {
+    constexpr double kHour_samples = 3.6e6;
+    constexpr double kIvtSeconds = 300.0;
+    constexpr double kCheaperThanNumpy = 20.0;
+    std::vector<double> all_s;
+    std::vector<double> detection_s;
+    std::vector<double> whole_ns;
+    std::vector<double> online_ns;
+    for (unsigned round = 0; round < options.rounds; ++round) {
+        all_s.push_back(seconds_of_prediction_and_loss());
+        detection_s.push_back(seconds_of_detection_alone());
+        if (round == 0 || !whole_ns.empty()) {
+            if (const auto ivt = numpy_ivt(ten_seconds_of_gaze(), kIvtSeconds)) {
+                whole_ns.push_back(ivt->whole_ns);
+                online_ns.push_back(ivt->online_ns);
+            }
+        }
+    }
+    figures.push_back({kBench, kHourOfGaze, "detection, prediction and loss", median(all_s), "s",
+                       "lower", std::nullopt, 2.0});
+    figures.push_back({kBench, kHourOfGaze, "detection alone", median(detection_s), "s", "lower"});
+    if (whole_ns.empty()) {
+        return;
+    }
+    for (const auto& [what, ns, target] :
+         {std::tuple{"I-VT in numpy, sample by sample", median(online_ns),
+                     std::optional(kCheaperThanNumpy)},
+          std::tuple{"I-VT in numpy, whole recording", median(whole_ns),
+                     std::optional<double>{}}}) {
+        figures.push_back({kBench, kHourOfGaze, fmt::format("{} over all of ours", what),
+                           ns * kHour_samples * 1e-9 / median(all_s), "x", "higher", std::nullopt,
+                           target});
+        figures.push_back({kBench, kHourOfGaze, fmt::format("{} over detection", what),
+                           ns * kHour_samples * 1e-9 / median(detection_s), "x"});
+    }
 }
 
 }  // namespace
@@ -128,12 +183,7 @@ double seconds_of_prediction() {
 std::vector<Figure> prediction(const Options& options) {
     std::vector<Figure> figures;
     if (options.wants(kHourOfGaze)) {
-        std::vector<double> seconds;
-        for (unsigned round = 0; round < options.rounds; ++round) {
-            seconds.push_back(seconds_of_prediction());
-        }
-        figures.push_back({kBench, kHourOfGaze, "detection and a prediction per sample",
-                           median(seconds), "s", "lower", std::nullopt, 2.0});
+        add_hour(options, figures);
     }
     if (options.wants(kHeadset)) {
         add_headset(figures);

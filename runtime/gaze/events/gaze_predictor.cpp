@@ -43,6 +43,9 @@ constexpr double kPursuitError = 0.6;
 constexpr double kSaccadeDeviations = 2.0;
 constexpr double kSaccadeError = 0.15;  // of the speed
 
+constexpr double kLandingDeviations = 2.0;
+constexpr double kLeastDeviation_deg = 0.02;  // trackers without noise
+
 }  // namespace
 
 void GazePredictor::add(std::int64_t time_ns, const std::optional<glm::dvec3>& direction) {
@@ -50,6 +53,9 @@ void GazePredictor::add(std::int64_t time_ns, const std::optional<glm::dvec3>& d
     const EventDetector::Movement saccade = detector_.movement();
     detector_.add(time_ns, direction);
     const EyeEvent now = detector_.event();
+    if (now == EyeEvent::Saccade) {
+        saccade_ = saccade_as_seen();
+    }
     check_.follow(detector_);
     if (now != EyeEvent::Lost && detector_.history().size() > 0 && check_.asks(time_ns)) {
         std::array<PredictionCheck::Forecast, PredictionCheck::kHorizons_ns.size()> forecasts;
@@ -71,6 +77,18 @@ void GazePredictor::add(std::int64_t time_ns, const std::optional<glm::dvec3>& d
         saccade.peak_deg_per_s / (kUsualPeak * main_sequence(amplitude_deg).peak_deg_per_s);
     vigour_ = std::clamp(vigour_ * std::exp(kLearned * std::log(ratio / vigour_)), kLeastVigour,
                          kMostVigour);
+}
+
+SaccadeForecast GazePredictor::saccade_as_seen() const {
+    const DirectionHistory& history = detector_.history();
+    const EventDetector::Movement& movement = detector_.movement();
+    return SaccadeForecast(
+        {.travelled_deg = glm::degrees(glm::length(history.back(0).direction - movement.from)),
+         .elapsed_s = static_cast<double>(history.back(0).time_ns - movement.begin_ns) * 1e-9,
+         .speed_deg_per_s = glm::length(detector_.velocity_deg_per_s()),
+         .peak_deg_per_s = movement.peak_deg_per_s,
+         .speed_age_s = 0.5 * detector_.velocity_window_s(),
+         .vigour = vigour_});
 }
 
 PredictionCheck::Forecast GazePredictor::forecast_at(double ahead_s) const {
@@ -126,6 +144,29 @@ GazePrediction GazePredictor::predict(std::int64_t time_ns) const {
     return prediction;
 }
 
+SeenMotion GazePredictor::seen() const {
+    const DirectionHistory& history = detector_.history();
+    SeenMotion seen{.event = detector_.event()};
+    if (history.size() < 3) {
+        return seen;
+    }
+    const std::int64_t since_ns = history.back(0).time_ns - detector_.movement().begin_ns;
+    seen.since_s = std::max(static_cast<double>(since_ns) * 1e-9, 0.0);
+    const glm::dvec3 before = 0.5 * (history.back(1).direction + history.back(2).direction);
+    // The median length of a speed is that of two normal values; a speed over a window is of two
+    // positions.
+    constexpr double kMedianOfSpeed = 1.665;
+    const double sd_deg =
+        std::max(detector_.resting_deg_per_s() * detector_.velocity_window_s() / kMedianOfSpeed,
+                 kLeastDeviation_deg);
+    seen.departure = glm::degrees(glm::distance(history.back(0).direction, before)) / sd_deg;
+    if (seen.event == EyeEvent::Saccade) {
+        const SaccadeLanding landing = saccade_.landing();
+        seen.flies_on_s = std::max(landing.in_s - kLandingDeviations * landing.sd_s, 0.0);
+    }
+    return seen;
+}
+
 void GazePredictor::forecast_pursuit(double ahead_s, PredictionCheck::Forecast& forecast) const {
     const glm::dvec3 slow = detector_.slow_velocity_deg_per_s();
     const double speed = glm::length(slow);
@@ -137,24 +178,17 @@ void GazePredictor::forecast_pursuit(double ahead_s, PredictionCheck::Forecast& 
 }
 
 void GazePredictor::forecast_saccade(double ahead_s, PredictionCheck::Forecast& forecast) const {
-    const DirectionHistory& history = detector_.history();
     const EventDetector::Movement& movement = detector_.movement();
     const glm::dvec3 now = forecast.from;
     const glm::dvec3 way = now - movement.from;
+    const double travelled_deg = glm::degrees(glm::length(way));
     const double speed = glm::length(detector_.velocity_deg_per_s());
-    const SaccadeInFlight seen{
-        .travelled_deg = glm::degrees(glm::length(way)),
-        .elapsed_s = static_cast<double>(history.back(0).time_ns - movement.begin_ns) * 1e-9,
-        .speed_deg_per_s = speed,
-        .peak_deg_per_s = movement.peak_deg_per_s,
-        .speed_age_s = 0.5 * detector_.velocity_window_s(),
-        .vigour = vigour_};
-    const SaccadeTravel travel = gaze::forecast(seen, ahead_s);
+    const SaccadeTravel travel = saccade_.after(ahead_s);
     const double vigour = speed / movement.peak_deg_per_s;
     forecast.uncertainty_rad =
         glm::radians(kRestingError_deg + kSaccadeDeviations * travel.sd_deg +
                      std::min(kSaccadeError * speed * ahead_s, travel.further_deg));
-    if (movement.peak_deg_per_s < kLeastPeak_deg_per_s || seen.travelled_deg < kLeastTravel_deg ||
+    if (movement.peak_deg_per_s < kLeastPeak_deg_per_s || travelled_deg < kLeastTravel_deg ||
         vigour < kSlowedDown) {
         forecast.uncertainty_rad += glm::radians(travel.further_deg);
         return;

@@ -9,6 +9,8 @@
 
 #include "runtime/gaze/events/event_detector.h"
 #include "runtime/gaze/events/prediction_check.h"
+#include "runtime/gaze/events/saccade_forecast.h"
+#include "runtime/gaze/events/seen_motion.h"
 
 namespace gazeloop::gaze {
 
@@ -59,15 +61,21 @@ class GazePredictor {
     /// For a time; one that is not after the last sample is that sample's.
     [[nodiscard]] GazePrediction predict(std::int64_t time_ns) const;
 
+    /// At the last sample.
+    [[nodiscard]] SeenMotion seen() const;
+
     [[nodiscard]] const EventDetector& detector() const { return detector_; }
 
   private:
+    /// Precondition: the detector sees one.
+    [[nodiscard]] SaccadeForecast saccade_as_seen() const;
     /// A forecast as it would be without what its errors have taught.
     [[nodiscard]] PredictionCheck::Forecast forecast_at(double ahead_s) const;
     void forecast_saccade(double ahead_s, PredictionCheck::Forecast& forecast) const;
     void forecast_pursuit(double ahead_s, PredictionCheck::Forecast& forecast) const;
 
     EventDetector detector_;
+    SaccadeForecast saccade_;  ///< as of the last sample, in a saccade
     PredictionCheck check_;
     std::int64_t longest_ns_;
     double vigour_ = 1.0;  ///< of this person's saccades, learned from those that have landed

@@ -24,7 +24,6 @@ constexpr double kElapsedSd = 0.16;
 constexpr double kLeastElapsedSd_s = 0.0047;
 constexpr double kIgnored = 18.0;  // exp(-18) is nothing beside 1
 
-constexpr std::size_t kAmplitudes = 18;
 constexpr double kSmallest_deg = 0.4;
 constexpr double kLargest_deg = 30.0;
 constexpr std::size_t kSteps = 128;
@@ -64,12 +63,13 @@ struct Course {
     }
 };
 
-std::array<Course, kAmplitudes> make_courses() {
-    std::array<Course, kAmplitudes> courses;
-    for (std::size_t i = 0; i < kAmplitudes; ++i) {
+template <std::size_t Count>
+std::array<Course, Count> make_courses() {
+    std::array<Course, Count> courses;
+    for (std::size_t i = 0; i < Count; ++i) {
         Course& course = courses[i];
         course.amplitude_deg = kSmallest_deg * std::pow(kLargest_deg / kSmallest_deg,
-                                                        static_cast<double>(i) / (kAmplitudes - 1));
+                                                        static_cast<double>(i) / (Count - 1));
         const SaccadeCourse real(course.amplitude_deg, 1.0);
         course.duration_s = real.duration_s();
         const double off = std::log(course.amplitude_deg / kUsual_deg) / kUsualSd;
@@ -82,16 +82,21 @@ std::array<Course, kAmplitudes> make_courses() {
     return courses;
 }
 
+template <std::size_t Count>
+const std::array<Course, Count>& all_courses() {
+    static const std::array<Course, Count> kCourses = make_courses<Count>();
+    return kCourses;
+}
+
 double half_square(double x) { return 0.5 * x * x; }
 
 }  // namespace
 
-SaccadeTravel forecast(const SaccadeInFlight& seen, double ahead_s) {
-    static const std::array<Course, kAmplitudes> kCourses = make_courses();
-    double weights = 0.0;
-    double mean = 0.0;
-    double squares = 0.0;
-    for (const Course& course : kCourses) {
+SaccadeForecast::SaccadeForecast(const SaccadeInFlight& seen) : travelled_deg_(seen.travelled_deg) {
+    static_assert(kVigours.size() == kVigourCount);
+    const std::array<Course, kAmplitudes>& courses = all_courses<kAmplitudes>();
+    for (std::size_t c = 0; c < kAmplitudes; ++c) {
+        const Course& course = courses[c];
         if (course.amplitude_deg < seen.travelled_deg) {
             continue;
         }
@@ -101,11 +106,15 @@ SaccadeTravel forecast(const SaccadeInFlight& seen, double ahead_s) {
             const double mean_speed = course.amplitude_deg / duration_s;
             const double then = std::max(0.0, now - seen.speed_age_s / duration_s);
             const double speed = mean_speed * course.slope(then);
+            const double by_speed = course.unlikely + kVigourEvidence[i] +
+                                    half_square((seen.speed_deg_per_s - speed) /
+                                                (kSpeedSd * speed + kRestingSd_deg_per_s));
+            if (!(by_speed < kIgnored)) {
+                continue;  // what follows only adds to it
+            }
             const double peak = mean_speed * course.slope(std::min(then, 0.5));
             const double elapsed_s = now * duration_s;
-            const double unlikely = course.unlikely + kVigourEvidence[i] +
-                                    half_square((seen.speed_deg_per_s - speed) /
-                                                (kSpeedSd * speed + kRestingSd_deg_per_s)) +
+            const double unlikely = by_speed +
                                     half_square((seen.peak_deg_per_s - peak) /
                                                 (kPeakSd * peak + kRestingSd_deg_per_s)) +
                                     half_square((seen.elapsed_s + kNoticed_s - elapsed_s) /
@@ -114,19 +123,46 @@ SaccadeTravel forecast(const SaccadeInFlight& seen, double ahead_s) {
                 continue;
             }
             const double weight = std::exp(-unlikely);
-            const double further_deg =
-                course.amplitude_deg * course.at(now + ahead_s / duration_s) - seen.travelled_deg;
-            weights += weight;
-            mean += weight * further_deg;
-            squares += weight * further_deg * further_deg;
+            explanations_[count_++] = {c, weight, now, duration_s};
+            weights_ += weight;
         }
     }
-    if (weights == 0.0) {
+}
+
+SaccadeTravel SaccadeForecast::after(double ahead_s) const {
+    if (weights_ == 0.0) {
         return {};
     }
-    mean /= weights;
+    const std::array<Course, kAmplitudes>& courses = all_courses<kAmplitudes>();
+    double mean = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Explanation& by = explanations_[i];
+        const Course& course = courses[by.course];
+        const double further_deg =
+            course.amplitude_deg * course.at(by.done + ahead_s / by.duration_s) - travelled_deg_;
+        mean += by.weight * further_deg;
+        squares += by.weight * further_deg * further_deg;
+    }
+    mean /= weights_;
     return {.further_deg = std::max(mean, 0.0),
-            .sd_deg = std::sqrt(std::max(squares / weights - mean * mean, 0.0))};
+            .sd_deg = std::sqrt(std::max(squares / weights_ - mean * mean, 0.0))};
+}
+
+SaccadeLanding SaccadeForecast::landing() const {
+    if (weights_ == 0.0) {
+        return {};
+    }
+    double mean = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Explanation& by = explanations_[i];
+        const double left_s = (1.0 - by.done) * by.duration_s;
+        mean += by.weight * left_s;
+        squares += by.weight * left_s * left_s;
+    }
+    mean /= weights_;
+    return {.in_s = mean, .sd_s = std::sqrt(std::max(squares / weights_ - mean * mean, 0.0))};
 }
 
 }  // namespace gazeloop::gaze

@@ -67,10 +67,13 @@ TEST(SaccadeForecast, KnowsASaccadeOnTheMainSequence) {
                 .peak_deg_per_s = speed(std::min(share, 0.5) * course.duration_s()),
                 .speed_age_s = 0.0,
                 .vigour = 1.0 / 1.2};  // exactly the main sequence
-            const SaccadeTravel landed = forecast(seen, 0.2);
+            const SaccadeForecast forecast(seen);
+            const SaccadeTravel landed = forecast.after(0.2);
             EXPECT_GT(landed.sd_deg, 0.0);
             EXPECT_NEAR(landed.further_deg, amplitude_deg - travelled(now_s), 2.0 * landed.sd_deg);
-            const SaccadeTravel soon = forecast(seen, 0.005);
+            const SaccadeLanding landing = forecast.landing();
+            EXPECT_NEAR(landing.in_s, course.duration_s() - now_s, 3.0 * landing.sd_s);
+            const SaccadeTravel soon = forecast.after(0.005);
             EXPECT_NEAR(soon.further_deg, travelled(now_s + 0.005) - travelled(now_s),
                         0.15 * amplitude_deg);
         }
@@ -82,12 +85,12 @@ TEST(SaccadeForecast, GoesFurtherTheLaterAndNeverBack) {
         for (double speed : {10.0, 150.0, 450.0, 900.0}) {
             double before = 0.0;
             for (double ahead_s : {0.0, 0.001, 0.005, 0.02, 0.06, 1.0}) {
-                const SaccadeTravel travel = forecast({.travelled_deg = travelled_deg,
-                                                       .elapsed_s = 0.02,
-                                                       .speed_deg_per_s = speed,
-                                                       .peak_deg_per_s = speed,
-                                                       .speed_age_s = 0.002},
-                                                      ahead_s);
+                const SaccadeTravel travel = SaccadeForecast({.travelled_deg = travelled_deg,
+                                                              .elapsed_s = 0.02,
+                                                              .speed_deg_per_s = speed,
+                                                              .peak_deg_per_s = speed,
+                                                              .speed_age_s = 0.002})
+                                                 .after(ahead_s);
                 EXPECT_GE(travel.further_deg, before - 1e-9);
                 EXPECT_GE(travel.sd_deg, 0.0);
                 before = travel.further_deg;
@@ -100,11 +103,16 @@ TEST(SaccadeForecast, GoesFurtherTheLaterAndNeverBack) {
 TEST(SaccadeForecast, KnowsNothingOfWhatNoEyeDoes) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(forecast({.travelled_deg = 31.0}, 0.02).further_deg, 0.0);
-    EXPECT_EQ(forecast({.travelled_deg = 5.0, .speed_deg_per_s = kNan}, 0.02).further_deg, 0.0);
-    EXPECT_EQ(forecast({.travelled_deg = 5.0, .speed_deg_per_s = kInfinity}, 0.02).further_deg,
+    EXPECT_EQ(SaccadeForecast({.travelled_deg = 31.0}).after(0.02).further_deg, 0.0);
+    EXPECT_EQ(
+        SaccadeForecast({.travelled_deg = 5.0, .speed_deg_per_s = kNan}).after(0.02).further_deg,
+        0.0);
+    EXPECT_EQ(SaccadeForecast({.travelled_deg = 5.0, .speed_deg_per_s = kInfinity})
+                  .after(0.02)
+                  .further_deg,
               0.0);
-    EXPECT_EQ(forecast({.travelled_deg = 5.0, .elapsed_s = 10.0}, 0.02).further_deg, 0.0);
+    EXPECT_EQ(SaccadeForecast({.travelled_deg = 5.0, .elapsed_s = 10.0}).after(0.02).further_deg,
+              0.0);
 }
 
 TEST(GazePredictor, HoldsAFixationExactly) {
