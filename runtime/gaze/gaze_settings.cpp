@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::string_view kReturn = "return";
 constexpr std::string_view kStay = "stay";
+constexpr std::string_view kByAge = "age";
+constexpr std::string_view kByEvents = "events";
 
 UncertaintyPolicy uncertainty_policy(const GazeSettings& gaze) {
     return {.median_error_deg = gaze.widen_error_deg,
@@ -20,7 +22,11 @@ UncertaintyPolicy uncertainty_policy(const GazeSettings& gaze) {
             .pursuit_deg_per_s = gaze.widen_pursuit_deg_per_s,
             .head_deg_per_s = gaze.widen_head_deg_per_s,
             .lost_deg_per_s = gaze.widen_lost_deg_per_s,
-            .greatest_deg = gaze.widen_most_deg};
+            .greatest_deg = gaze.widen_most_deg,
+            .by_events = gaze.widen_by == kByEvents,
+            .suppressed_before_landing_s =
+                gaze.widen_suppressed ? std::optional(1e-3 * gaze.widen_suppressed_margin_ms)
+                                      : std::nullopt};
 }
 
 }  // namespace
@@ -35,6 +41,7 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
                                        .values = {std::string(name(GazeFilter::OneEuro))}};
     const settings::OnlyWhile fixation{.key = "gaze.filter",
                                        .values = {std::string(name(GazeFilter::Fixation))}};
+    const settings::OnlyWhile by_events{.key = "gaze.widen_by", .values = {std::string(kByEvents)}};
     const settings::OnlyWhile predicting{.key = "gaze.prediction", .values = {"true"}};
     return {
         {"gaze.after_hold", "lost gaze: after the hold, return to straight ahead, or stay",
@@ -94,6 +101,9 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
          Number{&gaze.unplugged_hold_ms, 0.0, kForever_ms}, Concerns::Foveae},
         {"gaze.widen", "widen the fovea by how uncertain it is where the eye looks", &gaze.widen,
          Concerns::Foveae},
+        {"gaze.widen_by",
+         "gaze.widen: by the age of the gaze alone, or by what the eyes are seen to do",
+         Choice{&gaze.widen_by, {std::string(kByAge), std::string(kByEvents)}}, Concerns::Foveae},
         {"gaze.widen_error_deg", "gaze.widen: the tracker's median error, deg",
          Number{&gaze.widen_error_deg, 0.0, 45.0}, Concerns::Foveae},
         {"gaze.widen_head_deg_per_s",
@@ -109,6 +119,12 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
         {"gaze.widen_pursuit_deg_per_s",
          "gaze.widen: speed of an eye that follows something, deg/s",
          Number{&gaze.widen_pursuit_deg_per_s, 0.0, 1000.0}, Concerns::Foveae},
+        {"gaze.widen_suppressed",
+         "gaze.widen: not in frames that are shown in the midst of a saccade",
+         &gaze.widen_suppressed, Concerns::Foveae, by_events},
+        {"gaze.widen_suppressed_margin_ms",
+         "gaze.widen_suppressed: widened again so long before the landing",
+         Number{&gaze.widen_suppressed_margin_ms, 0.0, 100.0}, Concerns::Foveae, by_events},
     };
 }
 

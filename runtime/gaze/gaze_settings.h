@@ -25,6 +25,9 @@ struct GazeSettings {
     double minimum_confidence = 0.6;
     double unplugged_hold_ms = 300.0;
     bool widen = false;
+    std::string widen_by = "age";  ///< or "events"
+    bool widen_suppressed = false;
+    double widen_suppressed_margin_ms = 6.0;
     double widen_error_deg = 0.5;
     double widen_head_deg_per_s = 40.0;
     double widen_lost_deg_per_s = 30.0;

@@ -19,7 +19,7 @@ time::Stamp seen_at(const time::Stamp& sampled, const time::Stamp& arrived) {
 }  // namespace
 
 GazeToFovea::GazeToFovea(const FoveaPolicy& policy) : policy_(policy), loss_(policy.loss) {
-    if (policy.motion.is_on()) {
+    if (policy.motion.is_on() || (policy.uncertainty && policy.uncertainty->by_events)) {
         motion_.emplace(policy.motion);
     }
 }
@@ -102,7 +102,7 @@ FoveaPoint GazeToFovea::fovea_of(std::size_t eye, const LossCondition& condition
         point.ready = valid.ready;
         point.uncertainty_ns = valid.uncertainty_ns;
         point.parallax_rad = valid.parallax_rad;
-        if (motion_) {
+        if (motion_ && policy_.motion.is_on()) {
             point.event = motion_->event();
         }
         if (condition.state != FoveaState::Ahead) {
@@ -154,6 +154,9 @@ double GazeToFovea::widening_of(std::size_t eye, const LossCondition& condition,
     if (prediction && prediction->uncertainty_rad) {
         known.predicted = {.uncertainty_rad = *prediction->uncertainty_rad,
                            .horizon_ns = prediction->horizon_ns};
+    }
+    if (policy_.uncertainty->by_events && motion_) {
+        known.motion = motion_->seen();
     }
     return uncertainty_rad(*policy_.uncertainty, known);
 }

@@ -113,6 +113,11 @@ std::vector<Figure> lightfield(const Options& options);
 /// parts.
 std::vector<Figure> traces(const Options& options);
 
+/// How often the true gaze of simulated people lies outside the sharp region when a frame is shown,
+/// and what that takes: by widening rule and display, on the people that the rule was chosen on and
+/// on others, beside a constant widening.
+std::vector<Figure> misses(const Options& options);
+
 /// The median; of an even number, the mean of the middle two. Precondition: not empty.
 [[nodiscard]] double median(std::vector<double> values);
 

@@ -38,7 +38,8 @@ constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
                               Named{"layers", layers},
                               Named{"sparse", sparse},
                               Named{"lightfield", lightfield},
-                              Named{"traces", traces}};
+                              Named{"traces", traces},
+                              Named{"misses", misses}};
 
 /// Preload libraries count from a program's start: it begins once more, under umockdev's.
 void begin_under_umockdev(char** arguments) {
