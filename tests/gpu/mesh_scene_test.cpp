@@ -4,8 +4,10 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "runtime/methods/registry.h"
 #include "runtime/scene/mesh_scene.h"
 #include "tests/support/frame_renderer_fixture.h"
+#include "tests/support/method_by_settings.h"
 #include "tests/unit/scene/scene_samples.h"
 
 namespace gazeloop::render {
@@ -214,6 +216,28 @@ TEST_F(MeshSceneTest, IsTheSameByEveryMethodWherePixelsAreShadedDirectly) {
                     }
                 }
             }
+        }
+    }
+}
+
+// Lights and shadows are constants of the scene's shader, which every method must pass on.
+TEST_F(MeshSceneTest, IsLitAlikeByEveryMethod) {
+    MeshData data = dark(square(9.0F, moved({0.0F, 0.0F, -2.0F}), matt()));
+    data.lights = {sun({0.0F, -1.0F, -1.0F}, 1.5F)};
+    const auto made = scene::make_mesh_scene(context(), data, {});
+    const MethodConfig of = config(Method::Full, 96, 72);
+    const FrameRequest asked = request(of, {48.0, 36.0});
+    const auto shown = [&](const std::string& method) {
+        OffScreen off_screen(context(), *made, tests::passes_by(method), of);
+        off_screen.render(asked, asked.fovea());
+        return off_screen.picture(gaze::Eye::Left);
+    };
+    const Picture full = shown("full");
+    ASSERT_GT(at(full, 48, 36)[1], 100);
+    for (const std::string& method : methods::rendered_methods()) {
+        const Picture picture = shown(method);
+        for (const auto& [x, y] : {std::pair{48U, 36U}, {10U, 36U}, {70U, 60U}}) {
+            EXPECT_NEAR(at(picture, x, y)[1], at(full, x, y)[1], 2) << method << ' ' << x;
         }
     }
 }

@@ -3,19 +3,18 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <glm/vec4.hpp>
 #include <string>
 #include <utility>
 
 #include "runtime/render/fovea_depth.h"
-#include "runtime/render/frame_uniforms.h"
 #include "runtime/render/jitter.h"
 #include "runtime/render/passes/drawing.h"
 #include "runtime/render/passes/eye_sets.h"
+#include "runtime/render/passes/layers_pipelines.h"
 #include "runtime/render/passes/log_polar_eye.h"
 #include "runtime/render/passes/planned_passes.h"
+#include "runtime/render/passes/seen_layer.h"
 #include "runtime/vulkan/history.h"
-#include "runtime/vulkan/pipelines.h"
 
 namespace gazeloop::render {
 namespace {
@@ -24,34 +23,8 @@ using foveation::LayeredPlan;
 
 constexpr std::size_t kMostLayers = LayeredPlan::kMostLayers;
 
-/// A history is never rounded to halves, because its error would add up.
-constexpr vk::Format kHistoryFormat = vk::Format::eR32G32B32A32Sfloat;
-
-/// Constants of the composite.
-enum Constant : std::uint32_t { kLayers = kOfMethod, kKept };
-
-/// Layers that can be kept from the last frame, by bits: none, or those whose turn it is not.
-constexpr std::array<std::uint32_t, 3> kKeptLayers{0b0000, 0b1010, 0b0100};
-
 /// Images of a layer's set.
 enum LayerImage : std::uint32_t { kBefore, kFresh, kLayerImages };
-
-/// A layer as it was shaded last; std140, shaders/lib/layers.glsl.
-struct SeenLayer {
-    glm::vec4 covers{0.0F, 0.0F, 1.0F, 1.0F};
-    glm::vec4 cells{0.0F};
-    glm::vec4 blend{0.0F};
-    glm::vec4 gaze{0.0F};
-    glm::vec4 camera{0.0F};
-    std::array<glm::vec4, 3> axes{};
-    glm::vec4 tangents{-1.0F, 1.0F, 1.0F, -1.0F};
-};
-
-struct LayerUniforms {
-    std::array<SeenLayer, kMostLayers> shown{};
-    std::array<SeenLayer, kMostLayers> before{};
-    glm::vec4 first_band{0.0F};
-};
 
 frame::PassList pass_list(std::size_t layers) {
     std::string text;
@@ -83,7 +56,7 @@ class LayersPasses final : public PlannedPasses<LayeredPlan> {
                 EyeSets::Shape{.uniform_bytes = sizeof(LayerUniforms), .images = kLayerImages},
                 *sampler_);
         }
-        make_pipelines();
+        pipelines_.emplace(setup, config, layer_sets_.front().layout(), composite_sets_.layout());
         if (setup.seen_depth) {
             depths_ = FoveaDepths(setup.context, setup.extents, setup.slots);
         }
@@ -117,7 +90,8 @@ class LayersPasses final : public PlannedPasses<LayeredPlan> {
             }
         }
         draw_pictures(commands, frame, setup_, [&](std::size_t e) {
-            bind_sets(commands, composite_layout_, frame, e, composite_sets_.of(frame.slot, e));
+            bind_sets(commands, pipelines_->composite_layout(), frame, e,
+                      composite_sets_.of(frame.slot, e));
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *composite(e, plans[e]));
             draw_visible(commands, frame.view.hidden[e].get());
         });
@@ -166,58 +140,21 @@ class LayersPasses final : public PlannedPasses<LayeredPlan> {
     }
 
     [[nodiscard]] vk::Format format() const {
-        return config_.over_frames ? kHistoryFormat : kLpFormat;
-    }
-
-    void make_pipelines() {
-        const vk::raii::Device& device = setup_.context.device();
-        const auto layout = [&](const EyeSets& sets) {
-            return vulkan::make_pipeline_layout(
-                device, {setup_.frame_layout, setup_.scene.inputs(), sets.layout()},
-                setup_.empty_layout);
-        };
-        layer_layout_ = layout(layer_sets_.front());
-        composite_layout_ = layout(composite_sets_);
-        const std::array samples{vulkan::ShaderConstant{kSamples, setup_.samples}};
-        shade_ =
-            vulkan::make_pipeline(device, layer_layout_,
-                                  {.vertex = "tiles.vert",
-                                   .fragment = fmt::format("{}.layers.frag", setup_.scene.shader()),
-                                   .format = kLpFormat,
-                                   .constants = samples});
-        if (config_.over_frames) {
-            temporal_ = vulkan::make_pipeline(device, layer_layout_,
-                                              {.vertex = "tiles.vert",
-                                               .fragment = "layers_temporal.frag",
-                                               .format = kHistoryFormat});
-        }
-        for (std::size_t kept = 0; kept < kKeptLayers.size(); ++kept) {
-            if (kept > 0 && !config_.half_rate) {
-                continue;
-            }
-            const std::array composing{
-                vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup_.format) ? 0U : 1U},
-                vulkan::ShaderConstant{kLayers, static_cast<std::uint32_t>(config_.layers)},
-                vulkan::ShaderConstant{kKept, kKeptLayers.at(kept)}};
-            composites_.at(kept) =
-                vulkan::make_pipeline(device, composite_layout_,
-                                      {.vertex = "full_screen.vert",
-                                       .fragment = resolve_shader("layers", setup_),
-                                       .format = setup_.format,
-                                       .depth_format = setup_.depth_format,
-                                       .constants = composing});
-        }
+        return config_.over_frames ? kLayerHistoryFormat : kLpFormat;
     }
 
     /// The composite for the layers that an eye keeps from the last frame.
     [[nodiscard]] const vk::raii::Pipeline& composite(std::size_t e,
                                                       const foveation::EyePlan& plan) const {
         const std::size_t layers = this->plan().layers(gaze::kEyes.at(e)).size();
-        std::size_t kept = 0;
+        using Kept = LayersPipelines::Kept;
+        Kept kept = Kept::None;
         for (std::size_t layer = 1; layer < layers; ++layer) {
-            kept = its_turn(plan, layer) ? kept : 2 - layer % 2;
+            if (!its_turn(plan, layer)) {
+                kept = layer % 2 == 1 ? Kept::SecondAndFourth : Kept::Third;
+            }
         }
-        return composites_.at(kept);
+        return pipelines_->composite(kept);
     }
 
     /// Images for any gaze: a layer's rectangle may be the whole picture.
@@ -302,26 +239,6 @@ class LayersPasses final : public PlannedPasses<LayeredPlan> {
         composite_sets_.write(frame.slot, e, uniforms, plan.table);
     }
 
-    static SeenLayer seen_now(const gaze::EyeView& view, const foveation::EyePlan& plan,
-                              const LayeredPlan::Layer& planned) {
-        const FrameUniforms frame = frame_uniforms(view, 0.0, 1, nullptr);
-        const glm::vec3 gaze = LayeredPlan::gaze_of(plan);
-        const bool any = planned.cells.x > 0.0F && planned.cells.y > 0.0F;
-        const glm::vec3 in_world = glm::vec3(frame.view_axes[0]) * gaze.x +
-                                   glm::vec3(frame.view_axes[1]) * gaze.y +
-                                   glm::vec3(frame.view_axes[2]) * gaze.z;
-        SeenLayer seen{.cells = {planned.cells.x, planned.cells.y, 0.0F, 0.0F},
-                       .blend = planned.blend,
-                       .gaze = glm::vec4(in_world, any ? 1.0F : 0.0F),
-                       .camera = glm::vec4(glm::vec3(frame.camera_and_time), 0.0F),
-                       .axes = frame.view_axes,
-                       .tangents = frame.tangents};
-        if (any) {
-            seen.covers = planned.covers;
-        }
-        return seen;
-    }
-
     void shade_layer(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
                      std::size_t e, std::size_t layer, std::span<const foveation::Tile> tiles) {
         Layer& shaded = layers_[e].at(layer);
@@ -331,16 +248,17 @@ class LayersPasses final : public PlannedPasses<LayeredPlan> {
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
             shade_cells(commands, cells, tiles, static_cast<std::uint32_t>(layer), setup_.unshaded);
         };
-        bind_sets(commands, layer_layout_, frame, e, layer_sets_[layer].of(frame.slot, e));
+        bind_sets(commands, pipelines_->layer_layout(), frame, e,
+                  layer_sets_[layer].of(frame.slot, e));
         if (!config_.over_frames) {
-            draw(shade_, now);
+            draw(pipelines_->shade(), now);
             return;
         }
-        draw(shade_, shaded.fresh);
+        draw(pipelines_->shade(), shaded.fresh);
         shaded.history.other().tracked.use(
             commands, vulkan::Use::Sampled,
             shaded.history.before() != nullptr ? vulkan::Keep::Content : vulkan::Keep::Nothing);
-        draw(temporal_, now);
+        draw(pipelines_->temporal(), now);
     }
 
     PassSetup setup_;
@@ -348,12 +266,7 @@ class LayersPasses final : public PlannedPasses<LayeredPlan> {
     vk::raii::Sampler sampler_;
     std::vector<EyeSets> layer_sets_;
     EyeSets composite_sets_;
-    vk::raii::PipelineLayout layer_layout_{nullptr};
-    vk::raii::PipelineLayout composite_layout_{nullptr};
-    vk::raii::Pipeline shade_{nullptr};
-    vk::raii::Pipeline temporal_{nullptr};
-    /// By place in kKeptLayers.
-    std::array<vk::raii::Pipeline, kKeptLayers.size()> composites_{nullptr, nullptr, nullptr};
+    std::optional<LayersPipelines> pipelines_;
     gaze::PerEye<std::array<Layer, kMostLayers>> layers_;
     FoveaDepths depths_;
 };

@@ -28,7 +28,7 @@ class RingsPasses final : public PlannedPasses<foveation::RingsPlan> {
               setup.context.device(), {setup.frame_layout, setup.scene.inputs(), sets_.layout()},
               setup.empty_layout)) {
         const vk::raii::Device& device = setup.context.device();
-        const std::array samples{vulkan::ShaderConstant{kSamples, setup.samples}};
+        const auto samples = with_scene(setup.scene, {{kSamples, setup.samples}});
         shade_ =
             vulkan::make_pipeline(device, layout_,
                                   {.vertex = "tiles.vert",

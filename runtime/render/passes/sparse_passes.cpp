@@ -116,7 +116,7 @@ class SparsePasses final : public PlannedPasses<SparsePlan> {
 
     void make_pipelines() {
         const vk::raii::Device& device = setup_.context.device();
-        const std::array samples{vulkan::ShaderConstant{kSamples, setup_.samples}};
+        const auto samples = with_scene(setup_.scene, {{kSamples, setup_.samples}});
         shade_ =
             vulkan::make_pipeline(device, layout_,
                                   {.vertex = "full_screen.vert",
