@@ -22,7 +22,9 @@ struct Figure {
 struct Options {
     std::optional<unsigned> samples{};   ///< --spp
     unsigned rounds = 3;                 ///< --rounds
+    bool quick = false;                  ///< --quick: does it run? Figures of small pictures
     std::vector<std::string> cases{};    ///< --case, by name; all of them if empty
+    std::vector<std::string> scenes{};   ///< --scene: files besides the built-in scenes
     std::optional<std::string> trace{};  ///< --trace: recorded gaze for the benches that follow one
     std::optional<std::string> against{};  ///< --against: another build's gazeloop
 
@@ -82,9 +84,10 @@ std::vector<Figure> events(const Options& options);
 std::vector<Figure> prediction(const Options& options);
 
 /// Every method against full resolution and against KFR as published, at each display's size (one
-/// frame per scene, 16 samples): speed, samples, share of the bound, quality by our contrast
-/// metric; and what a taller LP-buffer or the acuity map save at KFR's quality. The larger displays
-/// only where a case of theirs is named.
+/// eye, one frame per scene, 16 samples): speed, time of each pass, samples, share of the bound,
+/// quality by our contrast metric; and what a taller LP-buffer or the acuity map save at KFR's
+/// quality. Of cases that are named, only what they need is measured; the larger displays only
+/// where a case of theirs is named.
 std::vector<Figure> headline(const Options& options);
 
 /// What the best points of today save at the quality of KFR as published, over all scenes: with

@@ -92,7 +92,12 @@ int bench_main(int count, char** arguments) {
     program.option("--spp", options.samples, "samples per texel or pixel").number_between(1, 16);
     program.option("--rounds", options.rounds, "interleaved rounds; medians are printed")
         .number_between(1, 100);
+    program.flag("--quick", options.quick,
+                 "small pictures and few of them, to see that a bench runs: its figures then say "
+                 "little; of headline, lightfield, layers, sparse");
     program.option("--case", options.cases, "only this case; may be repeated");
+    program.option("--scene", options.scenes,
+                   "a scene's file besides the built-in scenes, of headline; may be repeated");
     program.option("--trace", options.trace, "recorded gaze, for benches that follow one");
     program
         .option("--against", options.against,

@@ -10,6 +10,7 @@
 #include "runtime/scene/gltf/load_gltf.h"
 #include "runtime/scene/gltf/picture.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/processor_time.h"
 #include "tests/support/cache_folder.h"
 #include "tests/support/encoded_pictures.h"
 #include "tests/support/gltf_file.h"
@@ -129,13 +130,6 @@ std::filesystem::path scene_file() {
     return complete;
 }
 
-/// Processor time, which other programs on the machine do not lengthen.
-double cpu_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 std::uint64_t heap_bytes() {
     const auto heap = mallinfo2();
     return heap.uordblks + heap.hblkhd;
@@ -193,21 +187,21 @@ std::vector<Figure> gltf(const Options& options) {
     std::vector<double> peak;
     std::uint64_t texel_bytes = 0;
     for (unsigned round = 0; round < options.rounds; ++round) {
-        double begin = cpu_seconds();
+        double begin = process_seconds();
         texel_bytes = read_and_decode(file.parent_path());
-        files_s.push_back(cpu_seconds() - begin);
+        files_s.push_back(process_seconds() - begin);
 
-        begin = cpu_seconds();
+        begin = process_seconds();
         (void)load(file, false);
-        plain_load_s.push_back(cpu_seconds() - begin);
+        plain_load_s.push_back(process_seconds() - begin);
 
         malloc_trim(0);
         const std::uint64_t before = heap_bytes();
         peak_bytes_since_last();
         const std::uint64_t resident_before = peak_bytes_since_last();
-        begin = cpu_seconds();
+        begin = process_seconds();
         const scene::gltf::LoadedScene scene = load(file, true);
-        load_s.push_back(cpu_seconds() - begin);
+        load_s.push_back(process_seconds() - begin);
         held.push_back(static_cast<double>(heap_bytes() - before));
         peak.push_back(static_cast<double>(peak_bytes_since_last() - resident_before));
     }

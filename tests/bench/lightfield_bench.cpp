@@ -21,9 +21,17 @@ namespace {
 
 /// The paper has 25 x 25 views of 1024 x 1024; views and picture are smaller here, which changes no
 /// ratio of samples but for the texels that bands round up to.
-constexpr std::uint32_t kViews = 25;
-constexpr std::uint32_t kViewSize_px = 256;
-constexpr std::uint32_t kPictureSize_px = 512;
+struct Sizes {
+    std::uint32_t views;  ///< a side
+    std::uint32_t view_px;
+    std::uint32_t picture_px;
+};
+constexpr Sizes kWholeField{25, 256, 512};
+constexpr Sizes kQuickField{9, 64, 128};
+
+/// A side of the other eye's picture: the smallest that sigma 3 makes an LP-buffer of.
+constexpr std::uint32_t kOtherEyePicture_px = 16;
+
 constexpr double kField_deg = 90.0;
 /// A lens that takes all views, as the paper does, and one that asks for some of them.
 constexpr double kWideLens_m = 1.0;
@@ -40,16 +48,17 @@ constexpr Case kCases[] = {{"sigma1.2", "1.2", std::nullopt, std::nullopt},
                            {"sigma3", "3.0", 7.28, 12.0}};
 
 /// A light field of the ray-marched scene, made once.
-std::filesystem::path light_field(const vulkan::Context& context) {
-    const std::filesystem::path folder = std::filesystem::path(GAZELOOP_BINARY_DIR) /
-                                         fmt::format("light-field-{}-{}", kViews, kViewSize_px);
+std::filesystem::path light_field(const vulkan::Context& context, const Sizes& sizes) {
+    const std::filesystem::path folder =
+        std::filesystem::path(GAZELOOP_BINARY_DIR) /
+        fmt::format("light-field-{}-{}", sizes.views, sizes.view_px);
     const std::filesystem::path file = folder / fmt::format("views{}", scene::kLightFieldExtension);
     if (!std::filesystem::exists(file)) {
         std::filesystem::remove_all(folder);
         const auto scene = scene::make_scene(context, "raymarch");
         return value_or_throw(sim::bake_light_field(
             context, *scene,
-            {.views = kViews, .size_px = kViewSize_px, .field_deg = kField_deg, .samples = 4},
+            {.views = sizes.views, .size_px = sizes.view_px, .field_deg = kField_deg, .samples = 4},
             folder, [](std::uint32_t, std::uint32_t) { return true; }));
     }
     return file;
@@ -57,7 +66,7 @@ std::filesystem::path light_field(const vulkan::Context& context) {
 
 /// Texture samples of the left eye's picture, by counting: texels times the views of their region,
 /// pixels of the disc times all views, and what the resolve reads.
-double counted_samples(const foveation::EyePlan& plan, std::uint32_t regions) {
+double counted_samples(const foveation::EyePlan& plan, std::uint32_t regions, double pixels) {
     double samples = 0.0;
     double views = 0.0;
     for (std::uint32_t region = 0; region < regions; ++region) {
@@ -66,18 +75,18 @@ double counted_samples(const foveation::EyePlan& plan, std::uint32_t regions) {
         views += in_region;
     }
     return samples + views * static_cast<double>(plan.grids.at(regions).counts.shaded) +
-           (regions + 1.0) * kPictureSize_px * kPictureSize_px;
+           (regions + 1.0) * pixels;
 }
 
 /// By Eq. 14, with the N + 1 reads of pass II.
-double samples_by_formula(const foveation::EyePlan& plan, std::uint32_t regions, double sigma,
-                          double growth) {
+double samples_by_formula(const foveation::EyePlan& plan, std::uint32_t regions, double pixels,
+                          double sigma, double growth) {
     double per_pixel = regions;
     for (std::uint32_t region = 0; region < regions; ++region) {
         const double coarser = sigma * std::pow(growth, region);
         per_pixel += foveation::Kfr3dPlan::views_in(plan.table, region) / (coarser * coarser);
     }
-    return per_pixel * kPictureSize_px * kPictureSize_px;
+    return per_pixel * pixels;
 }
 
 /// The root of the mean squared difference in linear light.
@@ -94,14 +103,15 @@ double difference(const render::LinearPicture& a, const render::LinearPicture& b
 class Measurement {
   public:
     Measurement(const vulkan::Context& context, const std::filesystem::path& file,
-                double aperture_m, const Case& at)
-        : context_(context), case_(at) {
+                double aperture_m, const Sizes& sizes, const Case& at)
+        : context_(context), sizes_(sizes), case_(at) {
         scene::SceneOptions options;
         options.light_field.aperture_m = aperture_m;
         needed_ = scene::make_scene(context, file.string(), options);
         options.require_all = true;
         all_ = scene::make_scene(context, file.string(), options);
-        config_.extents = {vk::Extent2D(kPictureSize_px, kPictureSize_px), vk::Extent2D(8, 8)};
+        config_.extents = {vk::Extent2D(sizes.picture_px, sizes.picture_px),
+                           vk::Extent2D(kOtherEyePicture_px, kOtherEyePicture_px)};
         add("full", *all_, "full");
         add("full, needed views", *needed_, "full");
         add("kfr", *needed_, "kfr");
@@ -139,18 +149,24 @@ class Measurement {
             if (name.empty()) {
                 speedup.target = target;
             }
+            put(name + "speedup, processor", full.processor_ms() / method.processor_ms(), "x",
+                "higher");
             put(name + "error", difference(method.picture(context_, gaze::Eye::Left), reference),
                 "", "lower");
         }
-        const foveation::EyePlan& plan = methods_.back()->plan(gaze::Eye::Left);
+        const TimedMethod& ours = *methods_.back();
+        for (std::size_t pass = 0; pass < ours.passes().size(); ++pass) {
+            put(std::string(ours.passes()[pass]), ours.pass_ms(pass), "ms", "lower");
+        }
+        const foveation::EyePlan& plan = ours.plan(gaze::Eye::Left);
         const methods::Kfr3dSettings set;
         const auto regions = static_cast<std::uint32_t>(set.regions);
-        const double pixels = double{kPictureSize_px} * kPictureSize_px;
-        put("fewer samples, counted", kViews * kViews * pixels / counted_samples(plan, regions),
-            "x", "higher");
+        const double pixels = static_cast<double>(sizes_.picture_px) * sizes_.picture_px;
+        const double of_full = static_cast<double>(sizes_.views) * sizes_.views * pixels;
+        put("fewer samples, counted", of_full / counted_samples(plan, regions, pixels), "x",
+            "higher");
         put("fewer samples, Eq. 14",
-            kViews * kViews * pixels /
-                samples_by_formula(plan, regions, std::stod(case_.sigma), set.growth),
+            of_full / samples_by_formula(plan, regions, pixels, std::stod(case_.sigma), set.growth),
             "x", "higher");
     }
 
@@ -173,6 +189,7 @@ class Measurement {
     }
 
     const vulkan::Context& context_;
+    const Sizes& sizes_;
     const Case& case_;
     std::unique_ptr<scene::Scene> needed_;
     std::unique_ptr<scene::Scene> all_;
@@ -184,16 +201,17 @@ class Measurement {
 
 std::vector<Figure> lightfield(const Options& options) {
     const vulkan::Context context({}, nullptr);
-    const std::filesystem::path file = light_field(context);
+    const Sizes& sizes = options.quick ? kQuickField : kWholeField;
+    const std::filesystem::path file = light_field(context, sizes);
     std::vector<Figure> figures;
     for (const Case& at : kCases) {
         if (!options.wants(at.name)) {
             continue;
         }
-        Measurement wide(context, file, kWideLens_m, at);
+        Measurement wide(context, file, kWideLens_m, sizes, at);
         wide.run(options.rounds);
         wide.add_figures("", at.target, figures);
-        Measurement narrow(context, file, kNarrowLens_m, at);
+        Measurement narrow(context, file, kNarrowLens_m, sizes, at);
         narrow.run(options.rounds);
         narrow.add_figures("lens ", at.narrow_target, figures);
     }

@@ -7,6 +7,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
+#include "tests/bench/processor_time.h"
+
 namespace gazeloop::bench {
 namespace {
 
@@ -75,10 +77,12 @@ Contender::Contender(const vulkan::Context& context, const render::MethodConfig&
                                                         config)) {}
 
 void Contender::round(const render::FrameRequest& request, bool keep) {
+    const double begin_s = process_seconds();
     renderer_->wait_for_slot();
     renderer_->begin(request);
     counts_ = renderer_->finish(request.fovea());
     renderer_->wait_idle();
+    const double processor_ms = 1e3 * (process_seconds() - begin_s);
     const auto finished = renderer_->next_finished();
     plan_ = render::plan_of(config_, request, gaze::Eye::Left);
     if (!keep || !finished) {
@@ -93,16 +97,20 @@ void Contender::round(const render::FrameRequest& request, bool keep) {
         }
     }
     total_ms_.push_back(total);
+    processor_ms_.push_back(processor_ms);
 }
 
 void Contender::reset() {
     total_ms_.clear();
+    processor_ms_.clear();
     for (auto& pass : pass_ms_) {
         pass.clear();
     }
 }
 
 double Contender::median_ms() const { return median(total_ms_); }
+
+double Contender::median_processor_ms() const { return median(processor_ms_); }
 
 double Contender::median_ms(std::string_view pass) const {
     const auto at = renderer_->passes().find(pass);

@@ -57,6 +57,8 @@ class Contender {
     void reset();
 
     [[nodiscard]] double median_ms() const;
+    /// Likewise, in processor time of this process (process_seconds()).
+    [[nodiscard]] double median_processor_ms() const;
     /// 0 for a pass that the method does not have.
     [[nodiscard]] double median_ms(std::string_view pass) const;
     [[nodiscard]] const frame::PassList& passes() const { return renderer_->passes(); }
@@ -71,6 +73,7 @@ class Contender {
     std::unique_ptr<render::FrameRenderer> renderer_;
     foveation::LogPolarPlan plan_;
     std::vector<double> total_ms_;
+    std::vector<double> processor_ms_;
     std::array<std::vector<double>, frame::kMostPasses> pass_ms_;
     frame::SampleCounts counts_;
 };

@@ -22,6 +22,8 @@ void RaycastTimes::keep(const Contender& full, const Contender& method, const Co
     disc_ms_.push_back(method.median_ms("disc"));
     resolve_ms_.push_back(method.median_ms("resolve"));
     predicted_ms_.push_back(resolve_ms_.back() + costs.predicted_ms(method.plan(), map));
+    full_processor_ms_ += full.median_processor_ms();
+    processor_ms_ += method.median_processor_ms();
     cells_.push_back(method.cells());
     full_cells_ = full.cells();
 }
@@ -49,6 +51,8 @@ void RaycastTimes::add_figures(std::string_view bench, std::string_view name,
         least = std::min(least, full_ms_[i] / ms_[i]);
     }
     add("speedup", speedup(), "x", amdahl, target, "higher");
+    add("speedup, processor", full_processor_ms_ / processor_ms_, "x", std::nullopt, std::nullopt,
+        "higher");
     add("speedup, dearest view", least, "x", std::nullopt, std::nullopt, "higher");
     add("fewer samples", full_cells_ / samples(), "x", std::nullopt, std::nullopt, "higher");
     add("share of Amdahl", 100.0 * speedup() / amdahl, "%", 100.0, 90.0, "higher");

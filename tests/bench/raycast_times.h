@@ -23,12 +23,15 @@ class RaycastTimes {
     /// Cells that were shaded, the mean of the frames.
     [[nodiscard]] double samples() const;
 
-    /// speedup with its bound, that of the dearest frame, fewer samples, share of Amdahl's
-    /// prediction; with passes, also the mean time of each. Metrics start with `prefix`.
+    /// speedup with its bound, the same in processor time, that of the dearest frame, fewer
+    /// samples, share of Amdahl's prediction; with passes, also the mean time of each. Metrics
+    /// start with `prefix`.
     void add_figures(std::string_view bench, std::string_view name, std::string_view prefix,
                      std::optional<double> target, bool passes, std::vector<Figure>& figures) const;
 
   private:
+    double full_processor_ms_ = 0.0;  ///< summed over the frames
+    double processor_ms_ = 0.0;       ///< likewise
     std::vector<double> full_ms_;
     std::vector<double> ms_;
     std::vector<double> pass_i_ms_;

@@ -13,8 +13,13 @@ namespace gazeloop::bench {
 namespace {
 
 constexpr const char* kDisplay = "fove0";
-constexpr double kScale = 0.25;  ///< of its pictures' sides
-constexpr std::size_t kFrames = 8;
+/// What is rendered: pictures, as a share of the display's sides, and frames.
+struct Amount {
+    double scale;
+    std::size_t frames;
+};
+constexpr Amount kWholeAmount{0.25, 8};
+constexpr Amount kQuickAmount{0.1, 3};
 
 using Settings = std::vector<NamedValue>;
 
@@ -47,15 +52,17 @@ Settings with_share(Settings set, const char* share) {
 /// A still gaze at a still scene: then a frame that differs from the one before flickers.
 void measure(const vulkan::Context& context, const char* scene_name, const Options& options,
              std::vector<Figure>& figures) {
+    const Amount& amount = options.quick ? kQuickAmount : kWholeAmount;
     const display::DisplayProfile display = value_or_throw(profiles::load_display(kDisplay));
     trade::SweepQuestion question =
         question_of(display,
-                    {static_cast<std::uint32_t>(display.width_px * kScale),
-                     static_cast<std::uint32_t>(display.height_px * kScale)},
+                    {static_cast<std::uint32_t>(display.width_px * amount.scale),
+                     static_cast<std::uint32_t>(display.height_px * amount.scale)},
                     options, 1);
-    question.cases = {still(scene_name, kFrames)};
+    question.cases = {still(scene_name, amount.frames)};
     question.comparison.metrics = {true, true, false, false};  // contrast and FLIP
     question.comparison.frame_seconds = question.frame_seconds;
+    question.frame_seconds = 0.0;  // of the scene, which stands still
     question.comparison.contrast.threads = 2;
     std::vector<trade::SweepPoint> points;
     std::vector<std::string> names;

@@ -4,8 +4,24 @@
 #include <utility>
 
 #include "tests/bench/bench.h"
+#include "tests/bench/processor_time.h"
 
 namespace gazeloop::bench {
+namespace {
+
+std::vector<double> medians(const std::vector<std::vector<double>>& rounds_of_frames) {
+    std::vector<double> all;
+    for (const std::vector<double>& rounds : rounds_of_frames) {
+        all.push_back(median(rounds));
+    }
+    return all;
+}
+
+double mean(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
 
 TimedMethod::TimedMethod(const vulkan::Context& context, std::string name, scene::Scene& scene,
                          const render::MakePasses& passes, const render::RendererConfig& config,
@@ -13,7 +29,8 @@ TimedMethod::TimedMethod(const vulkan::Context& context, std::string name, scene
     : name_(std::move(name)),
       targets_(context, config.extents, config.format),
       renderer_(std::make_unique<render::FrameRenderer>(context, scene, passes, config)),
-      frame_ms_(frames) {}
+      frame_ms_(frames),
+      frame_processor_ms_(frames) {}
 
 void TimedMethod::warm_up(const vulkan::Context& context, const gaze::StereoView& views) {
     render::warm_up(context, *renderer_, views);
@@ -21,11 +38,13 @@ void TimedMethod::warm_up(const vulkan::Context& context, const gaze::StereoView
 
 void TimedMethod::frame(std::size_t index, render::FrameView view, const gaze::FrameFovea& fovea) {
     view.targets = targets_.targets();
+    const double begin_s = process_seconds();
     renderer_->wait_for_slot();
     renderer_->begin(view);
     samples_ += static_cast<double>(renderer_->finish(fovea).shaded());
     ++frames_;
     renderer_->wait_idle();
+    frame_processor_ms_.at(index).push_back(1e3 * (process_seconds() - begin_s));
     while (const auto finished = renderer_->next_finished()) {
         double total_ms = 0.0;
         for (std::size_t pass = 0; pass < renderer_->passes().size(); ++pass) {
@@ -37,18 +56,11 @@ void TimedMethod::frame(std::size_t index, render::FrameView view, const gaze::F
     }
 }
 
-std::vector<double> TimedMethod::frame_ms() const {
-    std::vector<double> medians;
-    for (const std::vector<double>& rounds : frame_ms_) {
-        medians.push_back(median(rounds));
-    }
-    return medians;
-}
+std::vector<double> TimedMethod::frame_ms() const { return medians(frame_ms_); }
 
-double TimedMethod::ms() const {
-    const std::vector<double> all = frame_ms();
-    return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
-}
+double TimedMethod::ms() const { return mean(frame_ms()); }
+
+double TimedMethod::processor_ms() const { return mean(medians(frame_processor_ms_)); }
 
 double TimedMethod::pass_ms(std::string_view pass) const {
     const auto at = renderer_->passes().find(pass);

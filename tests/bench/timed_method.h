@@ -30,6 +30,9 @@ class TimedMethod {
     [[nodiscard]] std::vector<double> frame_ms() const;
     /// Mean of those.
     [[nodiscard]] double ms() const;
+    /// Likewise, in processor time of this process from before a frame to its end: of software
+    /// drivers what ms() is on an idle machine, times its cores.
+    [[nodiscard]] double processor_ms() const;
     [[nodiscard]] const frame::PassList& passes() const { return renderer_->passes(); }
     /// Mean of all frames.
     [[nodiscard]] double pass_ms(std::size_t pass) const {
@@ -51,6 +54,7 @@ class TimedMethod {
     double samples_ = 0.0;
     std::size_t frames_ = 0;
     std::vector<std::vector<double>> frame_ms_;
+    std::vector<std::vector<double>> frame_processor_ms_;
     std::array<double, frame::kMostPasses> pass_ms_{};
 };
 
