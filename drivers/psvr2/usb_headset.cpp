@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <libusb.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "drivers/device/last_words.h"
 #include "runtime/time/clock.h"
 
 namespace gazeloop::drivers::psvr2 {
@@ -210,7 +210,8 @@ void UsbHeadset::leave_what_is_under_way() {
     for (std::unique_ptr<Transfer>& transfer : data_) {
         count += leave(transfer);
     }
-    spdlog::warn("{}: {} of its transfers do not end: left, and the device closed", text_, count);
+    say_last_words(fmt::format("{}: {} of its transfers do not end: left, and the device closed",
+                               text_, count));
 }
 
 Expected<void> UsbHeadset::read(std::chrono::milliseconds longest, DeviceFeed& feed) {

@@ -8,9 +8,11 @@
 
 #include "drivers/anatomy/anatomy_source.h"
 #include "drivers/calibrated/calibrated_source.h"
+#include "drivers/device/last_words.h"
 #include "runtime/calibration/calibration_file.h"
 #include "runtime/calibration/calibration_settings.h"
 #include "runtime/environment.h"
+#include "runtime/openxr_layer/layer_log.h"
 #include "runtime/openxr_layer/user_folders.h"
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/time/milliseconds.h"
@@ -199,6 +201,7 @@ Expected<std::shared_ptr<GazeFeed>> open_feed(const LayerConfiguration& configur
     if (auto open = feeds[name].lock()) {
         return open;
     }
+    drivers::set_last_words([](std::string_view line) noexcept { say(LogLevel::Warning, line); });
     auto make = source_of(values, configuration.tracker);
     if (!make) {
         return std::unexpected(std::move(make.error()));

@@ -13,6 +13,7 @@
 #include <functional>
 #include <thread>
 
+#include "drivers/device/last_words.h"
 #include "drivers/psvr2/psvr2_source.h"
 #include "runtime/time/clock.h"
 #include "sim/psvr2_packet.h"
@@ -276,10 +277,14 @@ class Log {
   public:
     Log() : before_(spdlog::default_logger()) {
         spdlog::set_default_logger(std::make_shared<spdlog::logger>("test", lines_));
+        set_last_words([](std::string_view line) noexcept { spdlog::warn("{}", line); });
     }
     Log(const Log&) = delete;
     Log& operator=(const Log&) = delete;
-    ~Log() { spdlog::set_default_logger(before_); }
+    ~Log() {
+        set_last_words(nullptr);
+        spdlog::set_default_logger(before_);
+    }
     [[nodiscard]] std::string text() const {
         std::string text;
         for (const std::string& line : lines_->last_formatted()) {
