@@ -4,6 +4,8 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "runtime/openxr_layer/gaze_reading.h"
+#include "runtime/openxr_layer/quad_views/quad_views.h"
+#include "runtime/openxr_layer/stereo_views.h"
 #include "runtime/time/clock.h"
 
 namespace gazeloop::openxr_layer {
@@ -33,6 +35,9 @@ XrResult wait_frame(Call<&Next::WaitFrame>& call, XrSession session, const XrFra
     const std::lock_guard lock(layered.mutex);
     layered.times.see_announced(state->predictedDisplayTime, now_ns);
     LayeredSession* const known = layered.session(session);
+    if (known != nullptr) {
+        known->display = state->predictedDisplayTime;
+    }
     if (known != nullptr && known->tap != nullptr) {
         known->tap->waited(state->predictedDisplayTime, now_ns,
                            {.display_ns = layered.times.host_ns(state->predictedDisplayTime),
@@ -56,21 +61,6 @@ XrResult begin_frame(Call<&Next::BeginFrame>& call, XrSession session,
 gaze::Pose head_of(const gaze::StereoView& views) {
     return {glm::slerp(views[0].pose.orientation, views[1].pose.orientation, 0.5),
             0.5 * (views[0].pose.position_m + views[1].pose.position_m)};
-}
-
-/// None where the runtime gave what is no view.
-std::optional<gaze::StereoView> stereo_of(const XrView* views) {
-    gaze::StereoView stereo;
-    for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
-        const auto pose = openxr::from_xr(views[eye].pose);
-        if (!pose) {
-            return std::nullopt;
-        }
-        const XrFovf& fov = views[eye].fov;
-        stereo[eye].pose = *pose;
-        stereo[eye].fov = {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown};
-    }
-    return stereo;
 }
 
 constexpr XrViewStateFlags kViewsKnown =
@@ -111,9 +101,9 @@ void record_views(LayeredInstance& layered, XrSession session, const XrViewLocat
     });
 }
 
-XrResult locate_views(Call<&Next::LocateViews>& call, XrSession session,
-                      const XrViewLocateInfo* info, XrViewState* state, std::uint32_t capacity,
-                      std::uint32_t* count, XrView* views) {
+XrResult locate_as_asked(Call<&Next::LocateViews>& call, XrSession session,
+                         const XrViewLocateInfo* info, XrViewState* state, std::uint32_t capacity,
+                         std::uint32_t* count, XrView* views) {
     LayeredInstance& layered = call.instance();
     const auto locate =
         info != nullptr ? locating(layered, XR_NULL_HANDLE, info->space) : std::nullopt;
@@ -149,6 +139,37 @@ XrResult locate_views(Call<&Next::LocateViews>& call, XrSession session,
     return result;
 }
 
+/// The gaze of an inset is read here, after the runtime has said where the head is.
+XrResult locate_views(Call<&Next::LocateViews>& call, XrSession session,
+                      const XrViewLocateInfo* info, XrViewState* state, std::uint32_t capacity,
+                      std::uint32_t* count, XrView* views) {
+    LayeredInstance& layered = call.instance();
+    if (!layered.owns.quad_views || info == nullptr || info->viewConfigurationType != kQuadViews ||
+        count == nullptr) {
+        return locate_as_asked(call, session, info, state, capacity, count, views);
+    }
+    XrViewLocateInfo of_two = *info;
+    of_two.viewConfigurationType = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+    gaze::PerEye<XrView> two{};
+    two.fill({.type = XR_TYPE_VIEW, .next = nullptr, .pose = {}, .fov = {}});
+    std::uint32_t located = 0;
+    const XrResult result =
+        locate_as_asked(call, session, &of_two, state, static_cast<std::uint32_t>(two.size()),
+                        &located, two.data());
+    if (XR_FAILED(result)) {
+        return result;
+    }
+    *count = kQuadViewCount;
+    if (capacity == 0) {
+        return result;
+    }
+    if (capacity < kQuadViewCount || views == nullptr) {
+        return views == nullptr ? XR_ERROR_VALIDATION_FAILURE : XR_ERROR_SIZE_INSUFFICIENT;
+    }
+    fill_four_views(layered, session, info->displayTime, two, views);
+    return result;
+}
+
 /// Of the first layer that is a stereo picture; 0 where there is none.
 Sizes sizes_of(const XrFrameEndInfo& info) {
     Sizes sizes{};
@@ -171,12 +192,34 @@ Sizes sizes_of(const XrFrameEndInfo& info) {
     return sizes;
 }
 
+/// What the compositing of frames cost the GPU, as far as it has finished them.
+void tell_composites(LayeredSession& session) {
+    while (const auto timed = session.quad->take_timed()) {
+        session.tap->composited(timed->frame, timed->ns);
+    }
+}
+
 XrResult end_frame(Call<&Next::EndFrame>& call, XrSession session, const XrFrameEndInfo* info) {
     const std::int64_t before_ns = time::monotonic_ns();
-    const XrResult result = call.down(session, info);
+    LayeredInstance& layered = call.instance();
+    std::shared_ptr<QuadSession> quad;
+    std::optional<std::uint64_t> frame;
+    if (layered.owns.quad_views && info != nullptr) {
+        const std::lock_guard lock(layered.mutex);
+        const LayeredSession* const known = layered.session(session);
+        if (known != nullptr && known->quad != nullptr && known->quad->has_four_views()) {
+            quad = known->quad;
+            frame = known->tap != nullptr ? std::optional(known->tap->next_index()) : std::nullopt;
+        }
+    }
+    const XrResult result =
+        quad != nullptr ? quad->end_frame(*info, frame) : call.down(session, info);
     if (XR_SUCCEEDED(result)) {
-        if_recorded(call.instance(), session, [&](LayeredSession& known) {
+        if_recorded(layered, session, [&](LayeredSession& known) {
             known.tap->ended(info->displayTime, before_ns, time::monotonic_ns(), sizes_of(*info));
+            if (quad != nullptr) {
+                tell_composites(known);
+            }
         });
     }
     return result;

@@ -156,6 +156,19 @@ void FrameTap::add(const SeenGaze& seen, const SeenGaze& newest,
     recorder_->add(sample, index_);
 }
 
+std::uint64_t FrameTap::next_index() {
+    const std::lock_guard lock(mutex_);
+    return index_;
+}
+
+void FrameTap::composited(std::uint64_t index, std::int64_t gpu_ns) {
+    frame::FrameGpuRecord record;
+    record.index = index;
+    record.passes.set(0, gpu_ns);
+    const std::lock_guard lock(mutex_);
+    recorder_->add(record);
+}
+
 void FrameTap::event(std::string_view kind, std::string_view text) {
     const std::lock_guard lock(mutex_);
     recorder_->event(time::measured_now(), kind, text);

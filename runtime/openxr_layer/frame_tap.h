@@ -68,6 +68,11 @@ class FrameTap {
         last_head_ = head ? std::optional(Placed{newest.time_ns, *head}) : std::nullopt;
     }
 
+    /// The number that the next frame to be handed over gets.
+    [[nodiscard]] std::uint64_t next_index();
+    /// How long the GPU took to composite a frame: the run's first pass.
+    void composited(std::uint64_t index, std::int64_t gpu_ns);
+
     void event(std::string_view kind, std::string_view text);
     /// Writes what is left. What went wrong; empty: nothing.
     std::string close();

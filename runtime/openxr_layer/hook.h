@@ -62,15 +62,42 @@ struct Guarded<Next, Work, XrResult(XRAPI_PTR*)(First, Rest...)> {
 struct Hook {
     std::string_view name;
     PFN_xrVoidFunction function;
-    /// Whether the one below has it: without, there is nothing to stand in for.
-    bool (*is_below)(const NextFunctions&);
+    /// Whether an instance has it: where the one below has none, there is nothing to stand in for.
+    bool (*is_there)(const LayeredInstance&);
 };
 
 template <auto Next, auto Work>
 Hook hook(std::string_view name) {
     using Function = std::remove_cvref_t<decltype(std::declval<NextFunctions>().*Next)>;
     return {name, reinterpret_cast<PFN_xrVoidFunction>(&Guarded<Next, Work, Function>::call),
-            [](const NextFunctions& next) { return next.*Next != nullptr; }};
+            [](const LayeredInstance& layered) { return layered.next.*Next != nullptr; }};
+}
+
+template <auto Work, typename Function>
+struct Own;
+
+/// A function that is the layer's alone.
+template <auto Work, typename First, typename... Rest>
+struct Own<Work, XrResult(XRAPI_PTR*)(First, Rest...)> {
+    static XRAPI_ATTR XrResult XRAPI_CALL call(First first, Rest... rest) noexcept {
+        const Instances::Pointer instance = Instances::all().of(first);
+        if (instance == nullptr) {
+            return XR_ERROR_HANDLE_INVALID;
+        }
+        try {
+            return Work(instance, first, rest...);
+        } catch (const std::exception& error) {
+            say(LogLevel::Warning, error.what());
+        } catch (...) {
+            say(LogLevel::Warning, "an error without a name");
+        }
+        return XR_ERROR_RUNTIME_FAILURE;
+    }
+};
+
+template <typename Function, auto Work>
+Hook own_hook(std::string_view name, bool (*is_there)(const LayeredInstance&)) {
+    return {name, reinterpret_cast<PFN_xrVoidFunction>(&Own<Work, Function>::call), is_there};
 }
 
 // The hooked functions, by what they concern.
@@ -78,6 +105,8 @@ std::span<const Hook> instance_hooks();
 std::span<const Hook> action_hooks();
 std::span<const Hook> space_hooks();
 std::span<const Hook> frame_hooks();
+std::span<const Hook> foveation_hooks();
+std::span<const Hook> quad_view_hooks();
 
 /// The structure of that type in a chain; null where there is none.
 template <typename Structure>
@@ -87,6 +116,14 @@ Structure* in_chain(void* next, XrStructureType type) {
         link = link->next;
     }
     return reinterpret_cast<Structure*>(link);
+}
+template <typename Structure>
+const Structure* in_chain(const void* next, XrStructureType type) {
+    const auto* link = static_cast<const XrBaseInStructure*>(next);
+    while (link != nullptr && link->type != type) {
+        link = link->next;
+    }
+    return reinterpret_cast<const Structure*>(link);
 }
 
 }  // namespace gazeloop::openxr_layer

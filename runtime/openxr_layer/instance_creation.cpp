@@ -79,6 +79,21 @@ bool runtime_supports_eye_gaze(const LayeredInstance& layered) {
            eyes.supportsEyeGazeInteraction == XR_TRUE;
 }
 
+/// Whether a runtime has four views of its own (not every one lists the extension for them).
+bool runtime_has_quad_views(const LayeredInstance& layered) {
+    XrSystemGetInfo get{};
+    get.type = XR_TYPE_SYSTEM_GET_INFO;
+    get.formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY;
+    XrSystemId system = XR_NULL_SYSTEM_ID;
+    std::array<XrViewConfigurationType, 16> types{};
+    std::uint32_t count = 0;
+    return XR_SUCCEEDED(layered.next.GetSystem(layered.handle, &get, &system)) &&
+           XR_SUCCEEDED(layered.next.EnumerateViewConfigurations(
+               layered.handle, system, static_cast<std::uint32_t>(types.size()), &count,
+               types.data())) &&
+           std::ranges::find(types, kQuadViews) != types.end();
+}
+
 std::string runtime_name(const LayeredInstance& layered) {
     XrInstanceProperties properties{};
     properties.type = XR_TYPE_INSTANCE_PROPERTIES;
@@ -107,10 +122,28 @@ struct Extensions {
     Names wanted;     ///< by the application
     Names passed_on;  ///< of them and of the layer's own wishes, to the one below
     bool eye_gaze_passed = false;
+    OwnExtensions own;
 };
 
+/// Those that the layer can give where the runtime has them not.
+struct Given {
+    std::string_view name;
+    bool OwnExtensions::* own;
+    std::string LayerSettings::* setting;
+};
+constexpr std::array kGiven{Given{XR_FB_FOVEATION_EXTENSION_NAME,
+                                  &OwnExtensions::foveation_profiles, &LayerSettings::foveation},
+                            Given{XR_FB_FOVEATION_CONFIGURATION_EXTENSION_NAME,
+                                  &OwnExtensions::foveation_profiles, &LayerSettings::foveation},
+                            Given{XR_FB_SWAPCHAIN_UPDATE_STATE_EXTENSION_NAME,
+                                  &OwnExtensions::swapchain_state, &LayerSettings::foveation},
+                            Given{newer::kFoveationEyeTrackedName, &OwnExtensions::foveation_state,
+                                  &LayerSettings::foveation},
+                            Given{XR_VARJO_QUAD_VIEWS_EXTENSION_NAME, &OwnExtensions::quad_views,
+                                  &LayerSettings::quad_views}};
+
 Extensions extensions_of(const XrInstanceCreateInfo& info, PFN_xrGetInstanceProcAddr next,
-                         std::string_view eye_gaze) {
+                         const LayerSettings& settings) {
     Extensions extensions;
     extensions.wanted.assign(info.enabledExtensionNames,
                              info.enabledExtensionNames + info.enabledExtensionCount);
@@ -118,13 +151,26 @@ Extensions extensions_of(const XrInstanceCreateInfo& info, PFN_xrGetInstanceProc
     const bool is_below = lists(offered, kEyeGaze);
     for (const char* const name : extensions.wanted) {
         const std::string_view text = name;
-        const bool layers_own =
-            text == kSamples || (text == kEyeGaze && (!is_below || eye_gaze == "always"));
+        const auto given = std::ranges::find(kGiven, text, &Given::name);
+        const bool gives =
+            given != kGiven.end() && settings.*(given->setting) != "never" && !lists(offered, text);
+        if (gives) {
+            extensions.own.*(given->own) = true;
+        }
+        const bool layers_own = gives || text == kSamples ||
+                                (text == kEyeGaze && (!is_below || settings.eye_gaze == "always"));
         if (!layers_own) {
             extensions.passed_on.push_back(name);
         }
     }
     extensions.eye_gaze_passed = has(extensions.passed_on, kEyeGaze);
+    // Since 1.1 they need no extension, and insets are composited with Vulkan alone.
+    const bool has_vulkan = has(extensions.wanted, XR_KHR_VULKAN_ENABLE_EXTENSION_NAME) ||
+                            has(extensions.wanted, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME);
+    const bool in_core = info.applicationInfo.apiVersion >= XR_MAKE_VERSION(1, 1, 0) &&
+                         settings.quad_views != "never" &&
+                         !has(extensions.passed_on, XR_VARJO_QUAD_VIEWS_EXTENSION_NAME);
+    extensions.own.quad_views = has_vulkan && (extensions.own.quad_views || in_core);
     if (lists(offered, kTimes) && !has(extensions.passed_on, kTimes)) {
         extensions.passed_on.push_back(kTimes);
     }
@@ -148,7 +194,13 @@ void set_up(LayeredInstance& layered, const XrInstanceCreateInfo& info,
         layered.eye_gaze = runtimes ? EyeGazeBy::Runtime : EyeGazeBy::Layer;
     }
     const bool records = !settings.record.empty();
-    layered.passes_through = !layered.provides_eye_gaze() && !records;
+    layered.owns = extensions.own;
+    layered.owns.quad_views = layered.owns.quad_views && !runtime_has_quad_views(layered);
+    layered.inset_policy = {.periphery = settings.periphery,
+                            .blend = settings.blend,
+                            .margin_deg = layered.configuration.values.gaze.widen_error_deg,
+                            .acuity = {.slope = settings.mar}};
+    layered.passes_through = !layered.provides_eye_gaze() && !layered.owns.any() && !records;
     layered.sighting = {.application = layered.application,
                         .executable = executable(),
                         .pid = ::getpid(),
@@ -160,8 +212,9 @@ void set_up(LayeredInstance& layered, const XrInstanceCreateInfo& info,
                         .read_gaze_utc = "",
                         .recording = ""};
     if (!layered.passes_through) {
-        auto feed =
-            settings.eye_gaze == "never" && !records ? nullptr : open_feed(layered.configuration);
+        auto feed = settings.eye_gaze == "never" && !layered.owns.any() && !records
+                        ? nullptr
+                        : open_feed(layered.configuration);
         if (!feed) {
             say(LogLevel::Warning, feed.error().message + ": there is no gaze");
         } else if (*feed == nullptr) {
@@ -207,7 +260,7 @@ XrResult make(const XrInstanceCreateInfo& info, const XrApiLayerCreateInfo& laye
         try {
             layered->configuration = configuration_or_none();
             extensions = extensions_of(info, own.nextGetInstanceProcAddr,
-                                       layered->configuration.values.layer.eye_gaze);
+                                       layered->configuration.values.layer);
             passed_on.enabledExtensionCount =
                 static_cast<std::uint32_t>(extensions.passed_on.size());
             passed_on.enabledExtensionNames = extensions.passed_on.data();
@@ -271,10 +324,11 @@ XRAPI_ATTR XrResult XRAPI_CALL get_instance_proc_addr(XrInstance instance, const
         *function = reinterpret_cast<PFN_xrVoidFunction>(&get_instance_proc_addr);
         return XR_SUCCESS;
     }
-    for (const auto& hooks : {&instance_hooks, &action_hooks, &space_hooks, &frame_hooks}) {
+    for (const auto& hooks : {&instance_hooks, &action_hooks, &space_hooks, &frame_hooks,
+                              &foveation_hooks, &quad_view_hooks}) {
         for (const Hook& hook : hooks()) {
             // The end of the instance is heard of in any case.
-            if (hook.name == name && hook.is_below(layered->next) &&
+            if (hook.name == name && hook.is_there(*layered) &&
                 (!layered->passes_through || hook.name == "xrDestroyInstance")) {
                 *function = hook.function;
                 return XR_SUCCESS;

@@ -42,6 +42,14 @@ XrResult poll_event(Call<&Next::PollEvent>& call, XrInstance instance, XrEventDa
 XrResult get_system_properties(Call<&Next::GetSystemProperties>& call, XrInstance instance,
                                XrSystemId system, XrSystemProperties* properties) {
     const XrResult result = call.down(instance, system, properties);
+    if (XR_SUCCEEDED(result) && call.instance().owns.foveation_state) {
+        auto* const foveation = in_chain<newer::SystemFoveationEyeTrackedProperties>(
+            properties->next, newer::kSystemFoveationEyeTrackedProperties);
+        if (foveation != nullptr) {
+            foveation->supportsFoveationEyeTracked =
+                call.instance().feed != nullptr ? XR_TRUE : XR_FALSE;
+        }
+    }
     if (XR_SUCCEEDED(result) && call.instance().provides_eye_gaze()) {
         auto* const eyes = in_chain<XrSystemEyeGazeInteractionPropertiesEXT>(
             properties->next, XR_TYPE_SYSTEM_EYE_GAZE_INTERACTION_PROPERTIES_EXT);
@@ -83,6 +91,9 @@ session::SessionHeader header_of(const LayeredInstance& layered) {
     header.meta.target = "openxr";
     header.meta.display.name = "that of " + layered.runtime;
     header.config = layered.configuration.list;
+    if (layered.owns.quad_views) {
+        header.passes = frame::PassList{"composite"};
+    }
     header.device = {{"target", "openxr"},
                      {"application", layered.application},
                      {"openxr_runtime", layered.runtime}};
@@ -118,6 +129,22 @@ XrSpace reference_space(const LayeredInstance& layered, XrSession session,
                                                                                    : XR_NULL_HANDLE;
 }
 
+/// Four views are composited with Vulkan alone; null for another session.
+std::shared_ptr<QuadSession> quad_session(const LayeredInstance& layered,
+                                          const XrSessionCreateInfo& info, XrSession session) {
+    const auto* const vulkan =
+        in_chain<XrGraphicsBindingVulkanKHR>(info.next, XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR);
+    const auto full = recommended_size(layered.next, layered.handle, info.systemId);
+    if (vulkan == nullptr || !full) {
+        return nullptr;
+    }
+    return std::make_shared<QuadSession>(
+        layered.next, session,
+        ApplicationDevice{vulkan->instance, vulkan->physicalDevice, vulkan->device,
+                          vulkan->queueFamilyIndex, vulkan->queueIndex},
+        quad_sizes(*full, layered.inset_policy), layered.inset_policy);
+}
+
 XrResult create_session(Call<&Next::CreateSession>& call, XrInstance instance,
                         const XrSessionCreateInfo* info, XrSession* session) {
     const XrResult result = call.down(instance, info, session);
@@ -126,6 +153,7 @@ XrResult create_session(Call<&Next::CreateSession>& call, XrInstance instance,
     }
     LayeredInstance& layered = call.instance();
     Instances::all().add_child(*session, call.pointer(), *session);
+    auto quad = layered.owns.quad_views ? quad_session(layered, *info, *session) : nullptr;
     const XrSpace view = reference_space(layered, *session, XR_REFERENCE_SPACE_TYPE_VIEW);
     const XrSpace local = reference_space(layered, *session, XR_REFERENCE_SPACE_TYPE_LOCAL);
     const std::lock_guard lock(layered.mutex);
@@ -134,6 +162,10 @@ XrResult create_session(Call<&Next::CreateSession>& call, XrInstance instance,
     made.view_space = view;
     made.local_space = local;
     made.feed = layered.feed;
+    made.quad = std::move(quad);
+    if (layered.owns.foveation_state || layered.owns.quad_views) {
+        made.foveae.emplace(gaze::fovea_policy(layered.configuration.values.gaze));
+    }
     made.active.reserve(16);
     made.synced.reserve(16);
     made.tap = open_tap(layered);

@@ -44,9 +44,9 @@ Instances::Pointer Instances::of_child(const Key& child) const {
     return instances_.empty() ? nullptr : instances_.back();
 }
 
-XrSession Instances::session_of(XrSpace space) const {
+XrSession Instances::session_of_child(const Key& child) const {
     const std::lock_guard lock(mutex_);
-    const auto found = children_.find(key(space));
+    const auto found = children_.find(child);
     return found != children_.end() ? found->second.session : XR_NULL_HANDLE;
 }
 

@@ -43,8 +43,11 @@ class Instances {
     [[nodiscard]] Pointer of(Handle child) const {
         return of_child(key(child));
     }
-    /// The session that a space was made of; null where that is not known.
-    [[nodiscard]] XrSession session_of(XrSpace space) const;
+    /// The session that something was made of; null where that is not known.
+    template <typename Handle>
+    [[nodiscard]] XrSession session_of(Handle child) const {
+        return session_of_child(key(child));
+    }
 
   private:
     /// Handles of different types may have the same value.
@@ -65,12 +68,15 @@ class Instances {
     static constexpr std::uint64_t type_of(XrSpace) { return 2; }
     static constexpr std::uint64_t type_of(XrActionSet) { return 3; }
     static constexpr std::uint64_t type_of(XrAction) { return 4; }
+    static constexpr std::uint64_t type_of(XrSwapchain) { return 5; }
+    static constexpr std::uint64_t type_of(XrFoveationProfileFB) { return 6; }
     template <typename Handle>
     static Key key(Handle handle) {
         return {reinterpret_cast<std::uint64_t>(handle), type_of(handle)};
     }
 
     [[nodiscard]] Pointer of_child(const Key& child) const;
+    [[nodiscard]] XrSession session_of_child(const Key& child) const;
 
     mutable std::mutex mutex_;
     std::vector<Pointer> instances_;  ///< in the order in which they were made

@@ -13,6 +13,8 @@ std::string_view text_of(GazePermission::Verdict verdict) {
             return "allowed";
         case GazePermission::Verdict::Denied:
             return "denied";
+        case GazePermission::Verdict::FoveationOnly:
+            return "foveation only";
         case GazePermission::Verdict::Asked:
             return "asks";
     }
@@ -22,8 +24,18 @@ std::string_view text_of(GazePermission::Verdict verdict) {
 }  // namespace
 
 bool LayeredInstance::permits_gaze(std::int64_t now_ns) {
+    return verdict(now_ns) == GazePermission::Verdict::Allowed;
+}
+
+bool LayeredInstance::permits_foveation(std::int64_t now_ns) {
+    const auto given = verdict(now_ns);
+    return given == GazePermission::Verdict::Allowed ||
+           given == GazePermission::Verdict::FoveationOnly;
+}
+
+std::optional<GazePermission::Verdict> LayeredInstance::verdict(std::int64_t now_ns) {
     if (!permission) {
-        return false;
+        return std::nullopt;
     }
     const GazePermission::Verdict verdict = permission->verdict(now_ns);
     const std::string_view text = text_of(verdict);
@@ -32,6 +44,9 @@ bool LayeredInstance::permits_gaze(std::int64_t now_ns) {
         keep(sighting);
         if (verdict == GazePermission::Verdict::Allowed) {
             say(LogLevel::Info, fmt::format("{} may have gaze", sighting.executable));
+        } else if (verdict == GazePermission::Verdict::FoveationOnly) {
+            say(LogLevel::Info,
+                fmt::format("{} may have foveation, and no gaze", sighting.executable));
         } else {
             say(LogLevel::Warning,
                 fmt::format("{0} gets no gaze ({1}): gazeloop layer allow {0}", sighting.executable,
@@ -39,7 +54,20 @@ bool LayeredInstance::permits_gaze(std::int64_t now_ns) {
                                                                       : "it is denied"));
         }
     }
-    return verdict == GazePermission::Verdict::Allowed;
+    return verdict;
+}
+
+void LayeredInstance::note_foveation_read(LayeredSession& session) {
+    if (session.foveation_was_read) {
+        return;
+    }
+    session.foveation_was_read = true;
+    const std::string text = fmt::format("{} ({}) follows where it is looked, by {}", application,
+                                         sighting.executable, configuration.values.layer.gaze);
+    say(LogLevel::Info, text);
+    if (session.tap != nullptr) {
+        session.tap->event("foveation-read", text);
+    }
 }
 
 void LayeredInstance::note_gaze_read(LayeredSession& session) {

@@ -5,15 +5,18 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "runtime/openxr_layer/eye_bindings.h"
+#include "runtime/openxr_layer/followed_foveae.h"
 #include "runtime/openxr_layer/frame_tap.h"
 #include "runtime/openxr_layer/gaze_feed.h"
 #include "runtime/openxr_layer/layer_configuration.h"
 #include "runtime/openxr_layer/next_functions.h"
 #include "runtime/openxr_layer/permissions.h"
+#include "runtime/openxr_layer/quad_views/quad_session.h"
 #include "runtime/openxr_layer/sightings.h"
 #include "runtime/openxr_layer/time_line.h"
 
@@ -32,8 +35,11 @@ struct LayeredSession {
     // The layer's own; null where the runtime gave none.
     XrSpace view_space = XR_NULL_HANDLE;
     XrSpace local_space = XR_NULL_HANDLE;
-    std::shared_ptr<GazeFeed> feed;  ///< null: there is no gaze
-    std::unique_ptr<FrameTap> tap;   ///< null: nothing is recorded
+    std::shared_ptr<GazeFeed> feed;        ///< null: there is no gaze
+    std::unique_ptr<FrameTap> tap;         ///< null: nothing is recorded
+    std::optional<FollowedFoveae> foveae;  ///< none: the application asked for no foveation
+    std::shared_ptr<QuadSession> quad;     ///< null: it cannot have four views
+    std::optional<XrTime> display;         ///< of the frame that was waited for last
     std::vector<XrActionSet> attached;
     bool profile_told = false;      ///< that the eye gaze profile is bound
     std::vector<XrAction> active;   ///< driven by the eyes since the last xrSyncActions
@@ -42,6 +48,22 @@ struct LayeredSession {
     std::vector<XrSpace> view_spaces;   ///< the application's own that are fixed to the head
     XrSpace views_in = XR_NULL_HANDLE;  ///< the space that the recorded views are in
     bool gaze_was_read = false;
+    bool foveation_was_read = false;
+    std::set<XrFoveationProfileFB> foveation_profiles;
+    /// The profile of each of the application's swapchains; null: none was applied.
+    std::map<XrSwapchain, XrFoveationProfileFB> foveation;
+};
+
+/// What the layer gives an instance because the runtime has it not, and the application asked.
+struct OwnExtensions {
+    bool foveation_profiles = false;  ///< XR_FB_foveation
+    bool swapchain_state = false;     ///< XR_FB_swapchain_update_state
+    bool foveation_state = false;     ///< XR_META_foveation_eye_tracked
+    bool quad_views = false;          ///< XR_VARJO_quad_views, or what OpenXR 1.1 made of it
+
+    [[nodiscard]] bool any() const {
+        return foveation_profiles || swapchain_state || foveation_state || quad_views;
+    }
 };
 
 /// Who provides XR_EXT_eye_gaze_interaction to an instance that has enabled it.
@@ -63,6 +85,8 @@ struct LayeredInstance {
     std::string runtime;
     EyeGazeBy eye_gaze = EyeGazeBy::Nobody;
     bool tells_samples = false;  ///< XR_GAZELOOP_gaze_sample is enabled
+    OwnExtensions owns;
+    InsetPolicy inset_policy;
     XrPath eyes = XR_NULL_PATH;  ///< /user/eyes_ext
     XrPath gaze_pose = XR_NULL_PATH;
     XrPath profile = XR_NULL_PATH;
@@ -75,6 +99,7 @@ struct LayeredInstance {
     std::map<XrSession, LayeredSession> sessions;
     std::deque<XrEventDataBuffer> events;  ///< of the layer, to be polled before the runtime's
     Sighting sighting;
+    std::uint64_t made_handles = 0;  ///< of the layer's own objects
 
     /// Null: it is none of this instance's.
     [[nodiscard]] LayeredSession* session(XrSession session) {
@@ -85,8 +110,15 @@ struct LayeredInstance {
 
     /// Whether the application may have gaze now; tells of what changes. Under `mutex`.
     [[nodiscard]] bool permits_gaze(std::int64_t now_ns);
+    /// Whether its pictures may follow the gaze: who may have gaze may have that too.
+    [[nodiscard]] bool permits_foveation(std::int64_t now_ns);
     /// The application was given gaze: the first time is told. Under `mutex`.
     void note_gaze_read(LayeredSession& session);
+    /// It was given where its pictures are to be fine. Under `mutex`.
+    void note_foveation_read(LayeredSession& session);
+
+  private:
+    [[nodiscard]] std::optional<GazePermission::Verdict> verdict(std::int64_t now_ns);
 };
 
 }  // namespace gazeloop::openxr_layer

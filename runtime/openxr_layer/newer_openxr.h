@@ -51,4 +51,27 @@ struct SpaceVelocities {
 
 using LocateSpaces = XrResult(XRAPI_PTR*)(XrSession, const SpacesLocateInfo*, SpaceLocations*);
 
+// XR_META_foveation_eye_tracked.
+
+inline constexpr const char* kFoveationEyeTrackedName = "XR_META_foveation_eye_tracked";
+inline constexpr auto kFoveationEyeTrackedState = static_cast<XrStructureType>(1000200001);
+inline constexpr auto kSystemFoveationEyeTrackedProperties =
+    static_cast<XrStructureType>(1000200002);
+inline constexpr XrFlags64 kFoveationEyeTrackedStateValid = 1;
+
+struct FoveationEyeTrackedState {
+    XrStructureType type;
+    void* next;
+    XrVector2f foveationCenter[2];
+    XrFlags64 flags;
+};
+
+struct SystemFoveationEyeTrackedProperties {
+    XrStructureType type;
+    void* next;
+    XrBool32 supportsFoveationEyeTracked;
+};
+
+using GetFoveationEyeTrackedState = XrResult(XRAPI_PTR*)(XrSession, FoveationEyeTrackedState*);
+
 }  // namespace gazeloop::openxr_layer::newer

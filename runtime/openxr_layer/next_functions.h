@@ -17,6 +17,17 @@ namespace gazeloop::openxr_layer {
     FUNCTION(PathToString)                      \
     FUNCTION(CreateSession)                     \
     FUNCTION(DestroySession)                    \
+    FUNCTION(BeginSession)                      \
+    FUNCTION(EnumerateViewConfigurations)       \
+    FUNCTION(GetViewConfigurationProperties)    \
+    FUNCTION(EnumerateViewConfigurationViews)   \
+    FUNCTION(EnumerateEnvironmentBlendModes)    \
+    FUNCTION(CreateSwapchain)                   \
+    FUNCTION(DestroySwapchain)                  \
+    FUNCTION(EnumerateSwapchainImages)          \
+    FUNCTION(AcquireSwapchainImage)             \
+    FUNCTION(WaitSwapchainImage)                \
+    FUNCTION(ReleaseSwapchainImage)             \
     FUNCTION(CreateReferenceSpace)              \
     FUNCTION(CreateActionSpace)                 \
     FUNCTION(DestroySpace)                      \
@@ -44,6 +55,7 @@ struct NextFunctions {
 #undef GAZELOOP_LAYER_MEMBER
     newer::LocateSpaces LocateSpaces = nullptr;     ///< 1.1
     newer::LocateSpaces LocateSpacesKHR = nullptr;  ///< XR_KHR_locate_spaces
+    PFN_xrGetVisibilityMaskKHR GetVisibilityMaskKHR = nullptr;
     PFN_xrConvertTimeToTimespecTimeKHR ConvertTimeToTimespecTimeKHR = nullptr;
     PFN_xrConvertTimespecTimeToTimeKHR ConvertTimespecTimeToTimeKHR = nullptr;
 };
@@ -63,6 +75,7 @@ inline NextFunctions next_functions(PFN_xrGetInstanceProcAddr get, XrInstance in
     GAZELOOP_LAYER_NEXT(GAZELOOP_LAYER_FIND)
     GAZELOOP_LAYER_FIND(LocateSpaces)
     GAZELOOP_LAYER_FIND(LocateSpacesKHR)
+    GAZELOOP_LAYER_FIND(GetVisibilityMaskKHR)
     GAZELOOP_LAYER_FIND(ConvertTimeToTimespecTimeKHR)
     GAZELOOP_LAYER_FIND(ConvertTimespecTimeToTimeKHR)
 #undef GAZELOOP_LAYER_FIND

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
+#include <array>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -16,6 +18,10 @@ namespace {
 
 constexpr std::size_t kMostListBytes = 1'000'000;
 constexpr std::int64_t kLookAgain_ns = 1'000'000'000;
+
+using Answer = Permissions::Answer;
+constexpr std::array<std::pair<std::string_view, Answer>, 3> kAnswers{
+    {{"allow", Answer::Allowed}, {"foveation", Answer::FoveationOnly}, {"deny", Answer::Denied}}};
 
 }  // namespace
 
@@ -46,12 +52,13 @@ Expected<Permissions> Permissions::parse(std::string_view text, std::string_view
     Permissions permissions;
     try {
         for (const auto& [key, node] : toml::parse(text, name)) {
-            const auto answer = node.value<std::string_view>();
-            if (answer != "allow" && answer != "deny") {
-                return refuse(node.source(), "\"EXECUTABLE\" = \"allow\" or \"deny\" is expected");
+            const auto found = std::ranges::find(kAnswers, node.value_or(std::string_view{}),
+                                                 &decltype(kAnswers)::value_type::first);
+            if (found == kAnswers.end()) {
+                return refuse(node.source(),
+                              "\"EXECUTABLE\" = \"allow\", \"foveation\" or \"deny\" is expected");
             }
-            permissions.set(std::string(key.str()),
-                            answer == "allow" ? Answer::Allowed : Answer::Denied);
+            permissions.set(std::string(key.str()), found->second);
         }
     } catch (const toml::parse_error& error) {
         return refuse(error.source(), error.description());
@@ -75,7 +82,9 @@ void Permissions::set(const std::string& executable, Answer answer) {
 std::string Permissions::text() const {
     toml::table table;
     for (const auto& [executable, answer] : answers_) {
-        table.insert(executable, answer == Answer::Allowed ? "allow" : "deny");
+        table.insert(
+            executable,
+            std::ranges::find(kAnswers, answer, &decltype(kAnswers)::value_type::second)->first);
     }
     std::ostringstream out;
     out << table << '\n';
@@ -84,9 +93,10 @@ std::string Permissions::text() const {
 
 GazePermission::GazePermission(std::string executable, std::string_view unknown)
     : executable_(std::move(executable)),
-      unknown_(unknown == "allow" ? Verdict::Allowed
-               : unknown == "ask" ? Verdict::Asked
-                                  : Verdict::Denied),
+      unknown_(unknown == "allow"       ? Verdict::Allowed
+               : unknown == "foveation" ? Verdict::FoveationOnly
+               : unknown == "ask"       ? Verdict::Asked
+                                        : Verdict::Denied),
       file_(Permissions::file()) {}
 
 GazePermission::Verdict GazePermission::verdict(std::int64_t now_ns) {
@@ -117,6 +127,9 @@ void GazePermission::look() {
             return;
         case Permissions::Answer::Allowed:
             verdict_ = Verdict::Allowed;
+            return;
+        case Permissions::Answer::FoveationOnly:
+            verdict_ = Verdict::FoveationOnly;
             return;
         case Permissions::Answer::Denied:
             verdict_ = Verdict::Denied;

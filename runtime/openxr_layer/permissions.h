@@ -14,7 +14,12 @@ namespace gazeloop::openxr_layer {
 /// Whether applications get gaze, by their executables: what the user decided.
 class Permissions {
   public:
-    enum class Answer : std::uint8_t { Unknown, Allowed, Denied };
+    enum class Answer : std::uint8_t {
+        Unknown,
+        Allowed,
+        FoveationOnly,  ///< pictures may follow the gaze, which is not told
+        Denied
+    };
 
     /// layer-applications.toml among the user's settings; none where there is no home.
     [[nodiscard]] static std::optional<std::filesystem::path> file();
@@ -38,7 +43,7 @@ class Permissions {
 /// that a decision counts in a program that runs.
 class GazePermission {
   public:
-    enum class Verdict : std::uint8_t { Allowed, Denied, Asked };
+    enum class Verdict : std::uint8_t { Allowed, FoveationOnly, Denied, Asked };
 
     /// `unknown`: layer.unknown_applications.
     GazePermission(std::string executable, std::string_view unknown);

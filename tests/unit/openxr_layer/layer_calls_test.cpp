@@ -4,33 +4,21 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "runtime/time/clock.h"
 #include "tests/support/allocation_counter.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/unit/openxr_layer/any_call.h"
 #include "tests/unit/openxr_layer/mock_application.h"
+#include "tests/unit/openxr_layer/mock_home.h"
 #include "tests/unit/openxr_layer/mock_runtime.h"
 
 namespace gazeloop::openxr_layer {
 namespace {
 
 constexpr XrSpaceLocationFlags kAll = 0xF;
-
-void set_settings(const std::string& lines) { setenv("GAZELOOP_LAYER_SETTINGS", lines.c_str(), 1); }
-
-/// Files of the layer go into a folder of the test's.
-struct Home {
-    Home() {
-        for (const char* const name : {"XDG_CONFIG_HOME", "XDG_STATE_HOME", "XDG_DATA_HOME"}) {
-            setenv(name, folder.path().c_str(), 1);
-        }
-    }
-    tests::TemporaryFolder folder;
-};
 
 /// An application that reads gaze: one action, its space, VIEW and LOCAL.
 void set_up(MockApplication& application) {
@@ -119,91 +107,18 @@ TEST(LayerCalls, AllocateNothingInSteadyState) {
     RecordProperty("frame_p99_ns", std::to_string(own_ns[594]));
 }
 
-/// One call that an application may make at any time, with what it holds.
-void any_call(MockApplication& application) {
-    const auto any = [](auto& list) {
-        using Handle = std::decay_t<decltype(list[0])>;
-        return list.empty() || *rc::gen::inRange(0, 30) == 0
-                   ? Handle{}
-                   : list[*rc::gen::inRange<std::size_t>(0, list.size())];
-    };
-    const XrPath eyes = application.path("/user/eyes_ext");
-    const XrPath user = *rc::gen::element(XrPath{XR_NULL_PATH}, eyes);
-    XrResult result = XR_SUCCESS;
-    switch (*rc::gen::inRange(0, 16)) {
-        case 0:
-            application.make_set(*rc::gen::inRange(0U, 3U));
-            break;
-        case 1:
-            application.make_action(any(application.sets), *rc::gen::arbitrary<bool>());
-            break;
-        case 2:
-            application.suggest(application.actions);
-            break;
-        case 3:
-            application.attach();
-            break;
-        case 4:
-            application.make_gaze_space(any(application.actions), user);
-            break;
-        case 5:
-            application.make_reference_space(
-                *rc::gen::element(XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL));
-            break;
-        case 6:
-            application.call<PFN_xrDestroySpace>("xrDestroySpace")(any(application.spaces));
-            break;
-        case 7:
-            application.call<PFN_xrDestroyAction>("xrDestroyAction")(any(application.actions));
-            break;
-        case 8:
-            application.call<PFN_xrDestroyActionSet>("xrDestroyActionSet")(any(application.sets));
-            break;
-        case 9:
-            application.frame(any(application.spaces));
-            break;
-        case 10:
-            MockRuntime::the().set_focused(*rc::gen::arbitrary<bool>());
-            break;
-        case 11:
-            MockRuntime::the().fail_next(
-                *rc::gen::element<std::string>("xrLocateSpace", "xrSyncActions", "xrWaitFrame",
-                                               "xrCreateSession", "xrLocateViews"),
-                *rc::gen::element(XR_ERROR_SESSION_LOST, XR_ERROR_RUNTIME_FAILURE));
-            break;
-        case 12:
-            application.call<PFN_xrDestroySession>("xrDestroySession")(application.session);
-            application.make_session();
-            break;
-        case 13:
-        case 14:
-            application.sync(user);
-            break;
-        default: {
-            const XrTime time =
-                *rc::gen::element<XrTime>(0, -1, 1, std::numeric_limits<XrTime>::max(),
-                                          MockRuntime::now(), MockRuntime::now() - 50'000'000);
-            const XrSpaceLocation location =
-                application.locate(any(application.spaces), any(application.spaces), time, result);
-            if (XR_SUCCEEDED(result) && location.locationFlags != 0) {
-                const auto pose = openxr::from_xr(location.pose);
-                RC_ASSERT(pose.has_value());
-            }
-        }
-    }
-}
-
 RC_GTEST_PROP(LayerCalls, ComeInAnyOrder, ()) {
     const Home home;
     set_settings(*rc::gen::element<std::string>(
         "layer.gaze=fixed:1,2", "layer.gaze=sim", "", "layer.gaze=fixed:0,0\nlayer.eye_gaze=always",
         "layer.gaze=fixed:0,0\nlayer.unknown_applications=deny",
         "layer.gaze=sim\nlayer.record=" + home.folder.path().string()));
-    MockApplication application;
+    MockApplication application(every_extension());
     application.make_session();
     const int calls = *rc::gen::inRange(0, 150);
     for (int call = 0; call < calls; ++call) {
-        any_call(application);
+        any_call(application,
+                 [](std::size_t many) { return *rc::gen::inRange<std::size_t>(0, many); });
     }
     RC_ASSERT(!MockRuntime::the().saw_eyes());
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/openxr_layer/gazeloop_gaze_sample.h"
+#include "runtime/openxr_layer/newer_openxr.h"
 #include "tests/unit/openxr_layer/mock_runtime.h"
 
 namespace gazeloop::openxr_layer {
@@ -148,8 +149,125 @@ class MockApplication {
         call<PFN_xrEndFrame>("xrEndFrame")(session, &end);
     }
 
+    /// All that it holds; its actions end.
+    void forget() {
+        for (const XrAction action : actions) {
+            call<PFN_xrDestroyAction>("xrDestroyAction")(action);
+        }
+        for (const XrActionSet set : sets) {
+            call<PFN_xrDestroyActionSet>("xrDestroyActionSet")(set);
+        }
+        actions.clear();
+        sets.clear();
+        spaces.clear();
+        swapchains.clear();
+        synced.clear();
+    }
+
+    // Four views. What is drawn cannot be composited: the session's device is none.
+
+    XrResult make_vulkan_session() {
+        auto binding =
+            openxr::typed<XrGraphicsBindingVulkanKHR>(XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR);
+        auto info = openxr::typed<XrSessionCreateInfo>(XR_TYPE_SESSION_CREATE_INFO);
+        info.next = &binding;
+        return call<PFN_xrCreateSession>("xrCreateSession")(instance, &info, &session);
+    }
+    XrResult begin(XrViewConfigurationType type) const {
+        auto info = openxr::typed<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
+        info.primaryViewConfigurationType = type;
+        return call<PFN_xrBeginSession>("xrBeginSession")(session, &info);
+    }
+    XrResult make_swapchain() {
+        auto info = openxr::typed<XrSwapchainCreateInfo>(XR_TYPE_SWAPCHAIN_CREATE_INFO);
+        info.usageFlags = XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT;
+        info.width = info.height = 100;
+        info.sampleCount = info.faceCount = info.mipCount = 1;
+        info.arraySize = 4;
+        XrSwapchain swapchain = XR_NULL_HANDLE;
+        const XrResult result =
+            call<PFN_xrCreateSwapchain>("xrCreateSwapchain")(session, &info, &swapchain);
+        if (XR_SUCCEEDED(result)) {
+            swapchains.push_back(swapchain);
+        }
+        return result;
+    }
+    /// Into its next image, which is then released, or kept.
+    XrResult draw(XrSwapchain swapchain, bool released = true) const {
+        std::uint32_t index = 0;
+        for (const XrResult result :
+             {call<PFN_xrAcquireSwapchainImage>("xrAcquireSwapchainImage")(swapchain, nullptr,
+                                                                           &index),
+              call<PFN_xrWaitSwapchainImage>("xrWaitSwapchainImage")(swapchain, nullptr)}) {
+            if (XR_FAILED(result)) {
+                return result;
+            }
+        }
+        return released ? call<PFN_xrReleaseSwapchainImage>("xrReleaseSwapchainImage")(swapchain,
+                                                                                       nullptr)
+                        : XR_SUCCESS;
+    }
+    [[nodiscard]] XrResult locate_four(XrSpace space, std::array<XrView, 4>& views,
+                                       std::uint32_t capacity, std::uint32_t& count) const {
+        views.fill(openxr::typed<XrView>(XR_TYPE_VIEW));
+        auto info = openxr::typed<XrViewLocateInfo>(XR_TYPE_VIEW_LOCATE_INFO);
+        info.viewConfigurationType = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_QUAD_VARJO;
+        info.displayTime = MockRuntime::now();
+        info.space = space;
+        auto state = openxr::typed<XrViewState>(XR_TYPE_VIEW_STATE);
+        return call<PFN_xrLocateViews>("xrLocateViews")(session, &info, &state, capacity, &count,
+                                                        views.data());
+    }
+    /// A frame of one projection layer whose views are squares of the layers of one swapchain.
+    XrResult end_with_four(XrSwapchain swapchain, XrSpace space, std::uint32_t view_count = 4,
+                           std::int32_t side = 100) const {
+        std::array<XrView, 4> seen{};
+        std::uint32_t count = 0;
+        static_cast<void>(locate_four(space, seen, 4, count));
+        std::array<XrCompositionLayerProjectionView, 4> pictures{};
+        for (std::uint32_t i = 0; i < pictures.size(); ++i) {
+            pictures[i] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW,
+                           nullptr,
+                           seen[i].pose,
+                           seen[i].fov,
+                           {swapchain, {{0, 0}, {side, side}}, i}};
+        }
+        auto projection =
+            openxr::typed<XrCompositionLayerProjection>(XR_TYPE_COMPOSITION_LAYER_PROJECTION);
+        projection.space = space;
+        projection.viewCount = view_count;
+        projection.views = pictures.data();
+        const auto* const layer =
+            reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection);
+        auto info = openxr::typed<XrFrameEndInfo>(XR_TYPE_FRAME_END_INFO);
+        info.displayTime = MockRuntime::now();
+        info.layerCount = 1;
+        info.layers = &layer;
+        return call<PFN_xrEndFrame>("xrEndFrame")(session, &info);
+    }
+    /// As an application that foveates itself does in each frame; the state's flags.
+    std::uint64_t foveate(XrSwapchain swapchain) const {
+        const auto info =
+            openxr::typed<XrFoveationProfileCreateInfoFB>(XR_TYPE_FOVEATION_PROFILE_CREATE_INFO_FB);
+        XrFoveationProfileFB profile = XR_NULL_HANDLE;
+        call<PFN_xrCreateFoveationProfileFB>("xrCreateFoveationProfileFB")(session, &info,
+                                                                           &profile);
+        auto state =
+            openxr::typed<XrSwapchainStateFoveationFB>(XR_TYPE_SWAPCHAIN_STATE_FOVEATION_FB);
+        state.profile = profile;
+        call<PFN_xrUpdateSwapchainFB>("xrUpdateSwapchainFB")(
+            swapchain, reinterpret_cast<const XrSwapchainStateBaseHeaderFB*>(&state));
+        call<PFN_xrDestroyFoveationProfileFB>("xrDestroyFoveationProfileFB")(profile);
+        newer::FoveationEyeTrackedState eyes{};
+        eyes.type = newer::kFoveationEyeTrackedState;
+        call<newer::GetFoveationEyeTrackedState>("xrGetFoveationEyeTrackedStateMETA")(session,
+                                                                                      &eyes);
+        return eyes.flags;
+    }
+
     XrInstance instance = XR_NULL_HANDLE;
     XrSession session = XR_NULL_HANDLE;
+    std::vector<XrSwapchain> swapchains;
     std::vector<XrActionSet> sets;
     std::vector<XrAction> actions;
     std::vector<XrSpace> spaces;

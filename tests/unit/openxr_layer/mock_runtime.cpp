@@ -73,6 +73,76 @@ XrResult destroy_session(XrSession session) {
     mock().end(number(session));
     return XR_SUCCESS;
 }
+XrResult enumerate_configurations(XrInstance instance, XrSystemId, std::uint32_t capacity,
+                                  std::uint32_t* count, XrViewConfigurationType* types) {
+    GAZELOOP_MOCK_CHECK("xrEnumerateViewConfigurations", instance)
+    *count = 1;
+    if (capacity > 0) {
+        types[0] = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+    }
+    return XR_SUCCESS;
+}
+XrResult get_configuration_properties(XrInstance instance, XrSystemId, XrViewConfigurationType type,
+                                      XrViewConfigurationProperties* properties) {
+    GAZELOOP_MOCK_CHECK("xrGetViewConfigurationProperties", instance)
+    if (type != XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO) {
+        return XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED;
+    }
+    properties->viewConfigurationType = type;
+    properties->fovMutable = XR_FALSE;
+    return XR_SUCCESS;
+}
+XrResult enumerate_views(XrInstance instance, XrSystemId, XrViewConfigurationType type,
+                         std::uint32_t capacity, std::uint32_t* count,
+                         XrViewConfigurationView* views) {
+    GAZELOOP_MOCK_CHECK("xrEnumerateViewConfigurationViews", instance)
+    if (type != XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO) {
+        return XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED;
+    }
+    *count = 2;
+    for (std::uint32_t i = 0; i < 2 && capacity >= 2; ++i) {
+        void* const next = views[i].next;
+        views[i] = {XR_TYPE_VIEW_CONFIGURATION_VIEW, next, 1600, 4096, 1600, 4096, 1, 1};
+    }
+    return XR_SUCCESS;
+}
+XrResult begin_session(XrSession session, const XrSessionBeginInfo* info) {
+    GAZELOOP_MOCK_CHECK("xrBeginSession", session)
+    return info->primaryViewConfigurationType == XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO
+               ? XR_SUCCESS
+               : XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED;
+}
+XrResult enumerate_images(XrSwapchain swapchain, std::uint32_t capacity, std::uint32_t* count,
+                          XrSwapchainImageBaseHeader* images) {
+    GAZELOOP_MOCK_CHECK("xrEnumerateSwapchainImages", swapchain)
+    *count = 3;
+    for (std::uint32_t i = 0; i < 3 && capacity >= 3; ++i) {
+        reinterpret_cast<XrSwapchainImageVulkanKHR*>(images)[i].image = VK_NULL_HANDLE;
+    }
+    return XR_SUCCESS;
+}
+XrResult acquire_image(XrSwapchain swapchain, const XrSwapchainImageAcquireInfo*,
+                       std::uint32_t* index) {
+    GAZELOOP_MOCK_CHECK("xrAcquireSwapchainImage", swapchain)
+    return mock().acquire(number(swapchain), *index);
+}
+XrResult wait_image(XrSwapchain swapchain, const XrSwapchainImageWaitInfo*) {
+    GAZELOOP_MOCK_CHECK("xrWaitSwapchainImage", swapchain)
+    return mock().wait(number(swapchain));
+}
+XrResult release_image(XrSwapchain swapchain, const XrSwapchainImageReleaseInfo*) {
+    GAZELOOP_MOCK_CHECK("xrReleaseSwapchainImage", swapchain)
+    return mock().release(number(swapchain));
+}
+XrResult create_swapchain(XrSession session, const XrSwapchainCreateInfo*, XrSwapchain* swapchain) {
+    GAZELOOP_MOCK_CHECK("xrCreateSwapchain", session)
+    return make(swapchain);
+}
+XrResult destroy_swapchain(XrSwapchain swapchain) {
+    GAZELOOP_MOCK_CHECK("xrDestroySwapchain", swapchain)
+    mock().end(number(swapchain));
+    return XR_SUCCESS;
+}
 XrResult create_reference_space(XrSession session, const XrReferenceSpaceCreateInfo*,
                                 XrSpace* space) {
     GAZELOOP_MOCK_CHECK("xrCreateReferenceSpace", session)
@@ -207,8 +277,9 @@ XrResult begin_frame(XrSession session, const XrFrameBeginInfo*) {
     GAZELOOP_MOCK_CHECK("xrBeginFrame", session)
     return XR_SUCCESS;
 }
-XrResult end_frame(XrSession session, const XrFrameEndInfo*) {
+XrResult end_frame(XrSession session, const XrFrameEndInfo* info) {
     GAZELOOP_MOCK_CHECK("xrEndFrame", session)
+    mock().see_layers(*info);
     return XR_SUCCESS;
 }
 XrResult to_timespec(XrInstance instance, XrTime time, timespec* host) {
@@ -249,6 +320,16 @@ XrResult get_proc(XrInstance, const char* name, PFN_xrVoidFunction* function) {
         {"xrStringToPath", as_void(&string_to_path)},
         {"xrCreateSession", as_void(&create_session)},
         {"xrDestroySession", as_void(&destroy_session)},
+        {"xrEnumerateViewConfigurations", as_void(&enumerate_configurations)},
+        {"xrGetViewConfigurationProperties", as_void(&get_configuration_properties)},
+        {"xrEnumerateViewConfigurationViews", as_void(&enumerate_views)},
+        {"xrBeginSession", as_void(&begin_session)},
+        {"xrEnumerateSwapchainImages", as_void(&enumerate_images)},
+        {"xrAcquireSwapchainImage", as_void(&acquire_image)},
+        {"xrWaitSwapchainImage", as_void(&wait_image)},
+        {"xrReleaseSwapchainImage", as_void(&release_image)},
+        {"xrCreateSwapchain", as_void(&create_swapchain)},
+        {"xrDestroySwapchain", as_void(&destroy_swapchain)},
         {"xrCreateReferenceSpace", as_void(&create_reference_space)},
         {"xrCreateActionSpace", as_void(&create_action_space)},
         {"xrDestroySpace", as_void(&destroy_space)},
@@ -279,7 +360,8 @@ XrResult make_instance(const XrInstanceCreateInfo* info, const XrApiLayerCreateI
                        XrInstance* instance) {
     for (const char* const name :
          std::span(info->enabledExtensionNames, info->enabledExtensionCount)) {
-        if (std::string_view(name) != XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME) {
+        if (std::string_view(name) != XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME &&
+            std::string_view(name) != XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME) {
             return XR_ERROR_EXTENSION_NOT_PRESENT;
         }
     }
@@ -295,6 +377,8 @@ MockRuntime& MockRuntime::the() {
 
 void MockRuntime::reset() {
     live_.clear();
+    acquired_.clear();
+    view_counts_.clear();
     failures_.clear();
     focused_ = true;
 }
@@ -321,6 +405,54 @@ PFN_xrVoidFunction MockRuntime::find_through_layer(XrInstance instance, const ch
 }
 
 XrTime MockRuntime::now() { return time::monotonic_ns(); }
+
+XrResult MockRuntime::acquire(std::uint64_t swapchain, std::uint32_t& index) {
+    Acquired& acquired = acquired_[swapchain];
+    if (acquired.images == kImages) {
+        return XR_ERROR_CALL_ORDER_INVALID;
+    }
+    index = acquired.next++ % kImages;
+    ++acquired.images;
+    return XR_SUCCESS;
+}
+
+XrResult MockRuntime::wait(std::uint64_t swapchain) {
+    Acquired& acquired = acquired_[swapchain];
+    if (acquired.images == 0 || acquired.waited) {
+        return XR_ERROR_CALL_ORDER_INVALID;
+    }
+    acquired.waited = true;
+    return XR_SUCCESS;
+}
+
+XrResult MockRuntime::release(std::uint64_t swapchain) {
+    Acquired& acquired = acquired_[swapchain];
+    if (!acquired.waited) {
+        return XR_ERROR_CALL_ORDER_INVALID;
+    }
+    acquired.waited = false;
+    --acquired.images;
+    return XR_SUCCESS;
+}
+
+std::uint32_t MockRuntime::acquired_images() const {
+    std::uint32_t images = 0;
+    for (const auto& [swapchain, acquired] : acquired_) {
+        images += acquired.images;
+    }
+    return images;
+}
+
+void MockRuntime::see_layers(const XrFrameEndInfo& info) {
+    view_counts_.clear();
+    for (const XrCompositionLayerBaseHeader* const layer :
+         std::span(info.layers, info.layers != nullptr ? info.layerCount : 0)) {
+        if (layer->type == XR_TYPE_COMPOSITION_LAYER_PROJECTION) {
+            view_counts_.push_back(
+                reinterpret_cast<const XrCompositionLayerProjection*>(layer)->viewCount);
+        }
+    }
+}
 
 XrResult MockRuntime::failure_of(const char* function) {
     const auto found = failures_.find(std::string_view(function));

@@ -33,6 +33,10 @@ class MockRuntime {
     [[nodiscard]] static XrTime now();
     /// Paths and extensions that only the layer should know came through to here.
     [[nodiscard]] bool saw_eyes() const { return saw_eyes_; }
+    /// Images of all swapchains that are acquired and not released.
+    [[nodiscard]] std::uint32_t acquired_images() const;
+    /// Of the projection layers of the frame that ended last.
+    [[nodiscard]] const std::vector<std::uint32_t>& view_counts() const { return view_counts_; }
     [[nodiscard]] bool focused() const { return focused_; }
     void set_focused(bool focused) { focused_ = focused; }
 
@@ -46,12 +50,26 @@ class MockRuntime {
     XrPath path_of(const std::string& text);
     [[nodiscard]] bool is_of_eyes(XrPath path) const;
     void see_eyes() { saw_eyes_ = true; }
+    // As the specification orders them, each swapchain with kImages images.
+    XrResult acquire(std::uint64_t swapchain, std::uint32_t& index);
+    XrResult wait(std::uint64_t swapchain);
+    XrResult release(std::uint64_t swapchain);
+    void see_layers(const XrFrameEndInfo& info);
 
   private:
+    static constexpr std::uint32_t kImages = 3;
+    struct Acquired {
+        std::uint32_t next = 0;
+        std::uint32_t images = 0;
+        bool waited = false;
+    };
+
     static PFN_xrVoidFunction find_through_layer(XrInstance instance, const char* name);
 
     std::uint64_t last_ = 1000;
     std::set<std::uint64_t> live_;
+    std::map<std::uint64_t, Acquired> acquired_;
+    std::vector<std::uint32_t> view_counts_;
     std::map<std::string, XrPath> paths_;
     std::map<std::string, XrResult, std::less<>> failures_;
     bool saw_eyes_ = false;
