@@ -111,7 +111,8 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
      {"acuity.luminance_cd_m2", "acuity.nasal", "render.depth", "render.frames_in_flight",
       "render.profile", "render.require", "render.wait_before_latch"}},
     {Concerns::Machine,
-     {"layer.eye_gaze", "layer.gaze", "layer.record", "layer.unknown_applications",
+     {"layer.blend", "layer.eye_gaze", "layer.foveation", "layer.gaze", "layer.mar",
+      "layer.periphery", "layer.quad_views", "layer.record", "layer.unknown_applications",
       "lightfield.memory_mib", "monitor.interval_s", "monitor.window_s", "openxr.patience_s",
       "profile.budget", "target.name", "target.validation", "vulkan.device", "vulkan.validation"}}};
 
