@@ -99,6 +99,11 @@ std::vector<Figure> front(const Options& options);
 /// each scene, a plot.
 std::vector<Figure> rivals(const Options& options);
 
+/// What the OpenXR API layer adds to a frame of an application that reads gaze, on Monado's null
+/// compositor, frame by frame in turns with and without it; its allocations. Without and with a
+/// recording.
+std::vector<Figure> layer(const Options& options);
+
 /// Table 1 of Guenter et al. 2012 on the built-in scene of meshes, at 1920x1080 on the paper's
 /// display: content by content (a case each), frames by layers for three eyes and at full
 /// resolution with three antialiasings, as times and as ratios to full resolution.
