@@ -84,6 +84,8 @@ void add_layer_command(Command program) {
         });
     };
     decides("allow", Answer::Allowed, "let an application have gaze");
+    decides("foveation", Answer::FoveationOnly,
+            "let an application's pictures follow the gaze, and have no gaze");
     decides("deny", Answer::Denied, "let an application have no gaze");
     decides("forget", Answer::Unknown, "decide no more on an application");
     Command run = app.command("run", "run one application with it: gazeloop layer run -- PROGRAM");

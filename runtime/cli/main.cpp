@@ -10,9 +10,11 @@
 #include <cstring>
 #include <exception>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "drivers/device/last_words.h"
 #include "runtime/cli/commands.h"
 #include "runtime/run/interrupt.h"
 #include "runtime/version.h"
@@ -39,6 +41,8 @@ int gazeloop_main(int count, char** arguments) {
     const auto log = spdlog::stderr_color_mt("gazeloop");
     log->set_pattern("%^%l%$: %v");
     spdlog::set_default_logger(log);
+    gazeloop::drivers::set_last_words(
+        [](std::string_view line) noexcept { spdlog::warn("{}", line); });
     // Writing to a closed pipe or past a file size limit is an error to report; it must not kill.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
