@@ -65,6 +65,12 @@ mesh::Light default_sun() {
     return light;
 }
 
+/// Whether both read the same texels.
+bool same(const mesh::TextureUse& a, const mesh::TextureUse& b) {
+    return a.image == b.image && a.uv_set == b.uv_set && a.transform == b.transform &&
+           a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v && a.nearest == b.nearest;
+}
+
 template <typename T>
 std::span<const std::byte> bytes_of(const std::vector<T>& objects) {
     return std::as_bytes(std::span(objects));
@@ -202,7 +208,10 @@ void MeshContent::make_materials(const mesh::MeshData& data) {
                                               sizeof(MaterialUniforms));
         device.updateDescriptorSets(
             vk::WriteDescriptorSet(*state.set, 0, 0, Type::eUniformBuffer, {}, buffer), {});
-        PipelineKey key{0, state.masked, state.kind};
+        PipelineKey key{
+            .masked = state.masked,
+            .shares_texel = same(material.occlusion_texture, material.metallic_roughness_texture),
+            .kind = state.kind};
         std::uint32_t binding = 1;
         for (const mesh::TextureUse* use : textures_of(material)) {
             const bool there = use->image != mesh::kNone;
@@ -228,7 +237,8 @@ void MeshContent::make_pipelines(MaterialState& state, const PipelineKey& key) {
     const vk::raii::Device& device = context_->device();
     const std::array constants{vulkan::ShaderConstant{0, key.textures},
                                vulkan::ShaderConstant{1, key.masked ? 1U : 0U},
-                               vulkan::ShaderConstant{2, static_cast<std::uint32_t>(key.kind)}};
+                               vulkan::ShaderConstant{2, static_cast<std::uint32_t>(key.kind)},
+                               vulkan::ShaderConstant{4, key.shares_texel ? 1U : 0U}};
     Pipelines pipelines{.key = key};
     pipelines.depth = vulkan::make_raster_pipeline(device, mesh_layout_,
                                                    {.vertex = "depth.vert",
@@ -431,7 +441,7 @@ void MeshContent::choose(Pass pass, const mesh::Frustum& frustum,
         draws);
 }
 
-void MeshContent::face(const std::vector<mesh::Draw>& draws, const glm::vec3& eye_m,
+void MeshContent::face(const std::vector<mesh::Draw>& draws, const mesh::Frustum& frustum,
                        std::span<std::uint32_t> indices, std::uint32_t& used,
                        FacingIndices& facing) const {
     facing.ranges.clear();
@@ -439,9 +449,9 @@ void MeshContent::face(const std::vector<mesh::Draw>& draws, const glm::vec3& ey
         FacingIndices::Range range{.first = used, .count = std::nullopt};
         const bool both_sides = materials_[primitives_[draw.primitive].material].double_sided;
         if (!both_sides) {
-            const glm::mat4x3& frame = world_from_local_[draw.instance];
-            const glm::vec3 local_eye = glm::inverse(glm::mat3(frame)) * (eye_m - frame[3]);
-            range.count = clusters_.facing(draw.primitive, local_eye, indices.subspan(used));
+            range.count = clusters_.facing(
+                draw.primitive, mesh::Clusters::view_of(frustum, world_from_local_[draw.instance]),
+                indices.subspan(used));
             used += range.count.value_or(0);
         }
         facing.ranges.push_back(range);

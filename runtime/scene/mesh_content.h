@@ -58,9 +58,9 @@ class MeshContent {
     enum class Pass : std::uint8_t { Depth, Surfaces, Glass };
     /// What of a pass may be seen, the nearest first.
     void choose(Pass pass, const mesh::Frustum& frustum, std::vector<mesh::Draw>& draws) const;
-    /// Writes the indices of what of these draws may face an eye, from `used` on, which is moved
-    /// on. What finds no room is drawn whole.
-    void face(const std::vector<mesh::Draw>& draws, const glm::vec3& eye_m,
+    /// Writes the indices of what of these draws may be seen, from `used` on, which is moved on.
+    /// What finds no room is drawn whole.
+    void face(const std::vector<mesh::Draw>& draws, const mesh::Frustum& frustum,
               std::span<std::uint32_t> indices, std::uint32_t& used, FacingIndices& facing) const;
     /// Records draws of a pass into the targets that are bound; null: all of their triangles.
     void draw(const vk::raii::CommandBuffer& commands, Pass pass, vk::DescriptorSet view,
@@ -83,6 +83,7 @@ class MeshContent {
     struct PipelineKey {
         std::uint32_t textures = 0;
         bool masked = false;
+        bool shares_texel = false;  ///< occlusion is in the texel of metallic and roughness
         TexelKind kind = TexelKind::Surface;
         friend bool operator==(const PipelineKey&, const PipelineKey&) = default;
     };

@@ -91,17 +91,19 @@ class MeshPictures final : public MeshSceneBase {
             EyeSlot& at = slots_[slot][e];
             const std::span<std::uint32_t> indices = at.index_span();
             std::uint32_t used = 0;
-            content().face(eyes_[e].surface_draws, frustum.eye_m, indices, used, at.surfaces);
-            content().face(eyes_[e].glass_draws, frustum.eye_m, indices, used, at.glass);
+            content().face(eyes_[e].surface_draws, frustum, indices, used, at.surfaces);
+            content().face(eyes_[e].glass_draws, frustum, indices, used, at.glass);
         }
         if (content().shadows_due()) {
             content().draw_shadows(recorder.begin("shadow"));
         }
         if (needs.depth_first) {
             const vk::raii::CommandBuffer& commands = recorder.begin("depth");
-            for_eyes(slot, [&](Eye& eye, const EyeSlot& at) {
+            for_eyes(slot, [&](Eye& eye, const EyeSlot& /*at*/) {
                 eye.surfaces.depth_use.use(commands, vulkan::Use::DepthTarget,
                                            vulkan::Keep::Nothing);
+            });
+            for_eyes(slot, [&](Eye& eye, const EyeSlot& at) {
                 begin(commands, eye.extent, nullptr, eye.surfaces, vk::AttachmentLoadOp::eClear);
                 content().draw(commands, MeshContent::Pass::Depth, *at.view_set, eye.surface_draws,
                                &at.surfaces);
@@ -113,12 +115,16 @@ class MeshPictures final : public MeshSceneBase {
             draw_glass(recorder.begin("glass"), slot);
         }
         const vk::raii::CommandBuffer& commands = recorder.begin("sky");
-        for_eyes(slot, [&](Eye& eye, const EyeSlot& at) {
+        for_eyes(slot, [&](Eye& eye, const EyeSlot& /*at*/) {
             eye.surfaces.color_use.use(commands, vulkan::Use::ColorTarget);
             eye.surfaces.depth_use.use(commands, vulkan::Use::DepthTarget);
+        });
+        for_eyes(slot, [&](Eye& eye, const EyeSlot& at) {
             begin(commands, eye.extent, &eye.surfaces, eye.surfaces, vk::AttachmentLoadOp::eLoad);
             content().draw_sky(commands, *at.view_set);
             commands.endRendering();
+        });
+        for_eyes(slot, [&](Eye& eye, const EyeSlot& /*at*/) {
             eye.surfaces.color_use.use(commands, vulkan::Use::Sampled);
             eye.surfaces.depth_use.use(commands, vulkan::Use::Sampled);
         });
@@ -216,6 +222,8 @@ class MeshPictures final : public MeshSceneBase {
         }
     }
 
+    /// Barriers of both eyes come before the drawing of either: between the eyes, they would have
+    /// the second one's vertices wait for the first one's pixels.
     template <typename Draw>
     void for_eyes(std::size_t slot, const Draw& draw) {
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
@@ -252,10 +260,12 @@ class MeshPictures final : public MeshSceneBase {
 
     void draw_surfaces(const vk::raii::CommandBuffer& commands, std::size_t slot) {
         const bool depth_first = content().needs().depth_first;
-        for_eyes(slot, [&](Eye& eye, const EyeSlot& at) {
+        for_eyes(slot, [&](Eye& eye, const EyeSlot& /*at*/) {
             eye.surfaces.color_use.use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
             eye.surfaces.depth_use.use(commands, vulkan::Use::DepthTarget,
                                        depth_first ? vulkan::Keep::Content : vulkan::Keep::Nothing);
+        });
+        for_eyes(slot, [&](Eye& eye, const EyeSlot& at) {
             // What nothing is drawn over, the sky is: its colours need no clearing.
             begin(commands, eye.extent, &eye.surfaces, vk::AttachmentLoadOp::eDontCare,
                   eye.surfaces,
@@ -267,21 +277,29 @@ class MeshPictures final : public MeshSceneBase {
     }
 
     void draw_glass(const vk::raii::CommandBuffer& commands, std::size_t slot) {
-        for_eyes(slot, [&](Eye& eye, const EyeSlot& at) {
-            // Only what is nearer than every surface is drawn.
+        // Only what is nearer than every surface is drawn.
+        for_eyes(slot, [&](Eye& eye, const EyeSlot& /*at*/) {
             eye.surfaces.depth_use.use(commands, vulkan::Use::CopySource);
             eye.glass.depth_use.use(commands, vulkan::Use::CopyTarget, vulkan::Keep::Nothing);
+            eye.glass.color_use.use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
+        });
+        for_eyes(slot, [&](Eye& eye, const EyeSlot& /*at*/) {
             const vk::ImageSubresourceLayers depth(vk::ImageAspectFlagBits::eDepth, 0, 0, 1);
             commands.copyImage(eye.surfaces.depth.image(), vk::ImageLayout::eTransferSrcOptimal,
                                eye.glass.depth.image(), vk::ImageLayout::eTransferDstOptimal,
                                vk::ImageCopy(depth, {}, depth, {}, vk::Extent3D(eye.extent, 1)));
-            eye.glass.color_use.use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
+        });
+        for_eyes(slot, [&](Eye& eye, const EyeSlot& /*at*/) {
             eye.glass.depth_use.use(commands, vulkan::Use::DepthTarget);
+        });
+        for_eyes(slot, [&](Eye& eye, const EyeSlot& at) {
             begin(commands, eye.extent, &eye.glass, vk::AttachmentLoadOp::eClear, eye.glass,
                   vk::AttachmentLoadOp::eLoad);
             content().draw(commands, MeshContent::Pass::Glass, *at.view_set, eye.glass_draws,
                            &at.glass);
             commands.endRendering();
+        });
+        for_eyes(slot, [&](Eye& eye, const EyeSlot& /*at*/) {
             eye.glass.color_use.use(commands, vulkan::Use::Sampled);
             eye.glass.depth_use.use(commands, vulkan::Use::Sampled);
         });

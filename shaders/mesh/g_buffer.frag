@@ -13,6 +13,8 @@ layout(location = 0) out uvec4 packed;
 // A constant, no uniform: what control flow depends on would have lavapipe compile for every draw.
 layout(constant_id = 2) const uint kKind = kKindSurface;
 layout(constant_id = 3) const bool kSpecularFilter = true;
+// The usual packing: occlusion is the red of the texel that holds roughness and metallic.
+layout(constant_id = 4) const bool kSharesTexel = false;
 
 vec3 unit_or(vec3 v, vec3 otherwise) {
     float square = dot(v, v);
@@ -25,13 +27,18 @@ void main() {
         color *= texture(base_color_texture, texture_place(kBaseColor, both_uv));
     }
     vec2 rough_metal = material.factors.yx;
+    float open = 1.0;
     if (has_texture(kMetallicRoughness)) {
-        rough_metal *=
-            texture(metallic_roughness_texture, texture_place(kMetallicRoughness, both_uv)).gb;
+        vec3 texel =
+            texture(metallic_roughness_texture, texture_place(kMetallicRoughness, both_uv)).rgb;
+        open = texel.r;
+        rough_metal *= texel.gb;
     }
     float occlusion = 1.0;
     if (has_texture(kOcclusion)) {
-        float open = texture(occlusion_texture, texture_place(kOcclusion, both_uv)).r;
+        if (!kSharesTexel) {
+            open = texture(occlusion_texture, texture_place(kOcclusion, both_uv)).r;
+        }
         occlusion = 1.0 + material.factors.w * (open - 1.0);
     }
     vec3 emitted = material.emissive.rgb;

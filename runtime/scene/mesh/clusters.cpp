@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <map>
 #include <utility>
 
@@ -78,18 +79,40 @@ Clusters::Cluster Clusters::around(const MeshData& data, const Primitive& primit
     return cluster;
 }
 
-std::optional<std::uint32_t> Clusters::facing(std::uint32_t primitive, const glm::vec3& eye_m,
+Clusters::View Clusters::view_of(const Frustum& frustum, const glm::mat4x3& world_from_local) {
+    const glm::mat3 axes(world_from_local);
+    View view;
+    view.eye_m = glm::inverse(axes) * (frustum.eye_m - world_from_local[3]);
+    for (std::size_t i = 0; i < view.planes.size(); ++i) {
+        const glm::vec3 inwards(frustum.planes.at(i));
+        view.planes.at(i) =
+            glm::vec4(glm::transpose(axes) * inwards,
+                      glm::dot(inwards, world_from_local[3]) + frustum.planes.at(i).w);
+    }
+    return view;
+}
+
+bool Clusters::is_shown(const Cluster& cluster, const View& view) {
+    // A little more than the sphere, for rounding.
+    const float reach_m = cluster.radius_m * 1.001F;
+    const glm::vec3 way = cluster.centre_m - view.eye_m;
+    // Every triangle turns its back: the eye lies behind each one's plane.
+    if (glm::dot(way, cluster.axis) > cluster.sine * glm::length(way) + reach_m) {
+        return false;
+    }
+    return std::ranges::none_of(view.planes, [&](const glm::vec4& plane) {
+        const glm::vec3 inwards(plane);
+        return glm::dot(inwards, cluster.centre_m) + plane.w < -reach_m * glm::length(inwards);
+    });
+}
+
+std::optional<std::uint32_t> Clusters::facing(std::uint32_t primitive, const View& view,
                                               std::span<std::uint32_t> out) const {
     const Range& range = ranges_[primitive];
     std::uint32_t written = 0;
     std::uint32_t number = range.first_cluster;
     for (std::uint32_t i = 0; i < range.index_count; i += 3 * kTriangles, ++number) {
-        const Cluster& cluster = clusters_[number];
-        const glm::vec3 way = cluster.centre_m - eye_m;
-        // Every triangle turns its back: the eye lies behind each one's plane.
-        const bool away = glm::dot(way, cluster.axis) >
-                          cluster.sine * glm::length(way) + cluster.radius_m * 1.001F;
-        if (away) {
+        if (!is_shown(clusters_[number], view)) {
             continue;
         }
         const std::uint32_t count = std::min(3 * kTriangles, range.index_count - i);
