@@ -491,6 +491,7 @@ class FrameRun {
                               .prediction = facts.prediction,
                               .trace = trace_,
                               .monitor = monitor_,
+                              .left_out = {scene_->skipped(), scene_->passes()},
                               .hash = request_.hash ? &hash_ : nullptr,
                               .check = check_ ? &*check_ : nullptr,
                               .clock = request_.clock,

@@ -20,6 +20,7 @@ std::string run_summary_text(const RunSummary& run, bool quiet) {
         text += report::summary_text(run.report, run.clock == RunClock::Wall
                                                      ? report::lag_paragraph(run.reasons)
                                                      : report::lag_text(run.reasons));
+        text += left_out_text(run.left_out, run.report);
         text += run.trace.text();
         text += run.monitor.text();
     }
@@ -34,6 +35,7 @@ std::string run_summary_text(const RunSummary& run, bool quiet) {
 
 nlohmann::ordered_json run_summary_json(const RunSummary& run) {
     nlohmann::ordered_json json = report::summary_json(run.report);
+    json["left_out"] = left_out_json(run.left_out, run.report);
     run.trace.add_to(json);
     run.monitor.add_to(json);
     json["why_the_fovea_lags"] = report::lag_json(run.reasons);

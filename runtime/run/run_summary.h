@@ -7,6 +7,7 @@
 #include "runtime/report/lag_reasons.h"
 #include "runtime/report/trace_account.h"
 #include "runtime/run/frame_run.h"
+#include "runtime/run/left_out.h"
 #include "runtime/run/run_monitor.h"
 #include "runtime/session/replay_check.h"
 
@@ -19,6 +20,7 @@ struct RunSummary {
     latency::PredictionCheck prediction;
     const report::TraceAccount& trace;
     const RunMonitor& monitor;
+    LeftOut left_out{};
     const session::ReplayHash* hash = nullptr;    ///< null: not asked for
     const session::ReplayCheck* check = nullptr;  ///< null: no replay of a session
     RunClock clock = RunClock::Wall;
