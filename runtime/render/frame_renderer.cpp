@@ -7,9 +7,11 @@
 #include <xxhash.h>
 
 #include <chrono>
+#include <cmath>
 
 #include "runtime/error.h"
 #include "runtime/render/frame_uniforms.h"
+#include "runtime/render/passes/antialiased_passes.h"
 #include "runtime/vulkan/pipelines.h"
 
 namespace gazeloop::render {
@@ -17,6 +19,36 @@ namespace {
 
 constexpr std::uint32_t kBytesPerPixel = 4;
 constexpr std::uint32_t kMostInFlight = 3;
+
+/// The views whose pixel centres lie where these have theirs moved by so many pixels.
+gaze::StereoView moved_aside(const gaze::StereoView& views, const glm::dvec2& offset_px) {
+    gaze::StereoView moved = views;
+    const auto move = [](double& from_rad, double& to_rad, double share) {
+        const double from = std::tan(from_rad);
+        const double to = std::tan(to_rad);
+        const double by = share * (to - from);
+        from_rad = std::atan(from + by);
+        to_rad = std::atan(to + by);
+    };
+    for (gaze::EyeView& view : moved) {
+        move(view.fov.left_rad, view.fov.right_rad, offset_px.x / view.width_px);
+        move(view.fov.up_rad, view.fov.down_rad, offset_px.y / view.height_px);
+    }
+    return moved;
+}
+
+void check(const Antialiasing& wanted) {
+    if (wanted.footprint_taps < 1 || wanted.footprint_taps > Antialiasing::kMostFootprintTaps) {
+        throw SetupError(ErrorKind::Usage,
+                         fmt::format("render.footprint_taps = {}: must lie in [1, {}]",
+                                     wanted.footprint_taps, Antialiasing::kMostFootprintTaps));
+    }
+    if (wanted.post_filter_px > Antialiasing::kMostPostFilter_px) {
+        throw SetupError(ErrorKind::Usage,
+                         fmt::format("render.post_filter = {}: must lie in [0, {}]",
+                                     wanted.post_filter_px, Antialiasing::kMostPostFilter_px));
+    }
+}
 
 /// The scene's passes, then the method's.
 frame::PassList pass_list(const frame::PassList& scene, const frame::PassList& method) {
@@ -57,6 +89,7 @@ FrameRenderer::FrameRenderer(const vulkan::Context& context, scene::Scene& scene
                          fmt::format("render.frames_in_flight = {}: must lie in [1, {}]",
                                      config.frames_in_flight, kMostInFlight));
     }
+    check(config.antialiasing);
     own_scene_ = scene.for_renderer({.extents = config.extents, .slots = config.frames_in_flight});
     scene_ = own_scene_ ? own_scene_.get() : &scene;
     const vk::raii::Device& device = context.device();
@@ -64,20 +97,23 @@ FrameRenderer::FrameRenderer(const vulkan::Context& context, scene::Scene& scene
     frame_layout_ =
         vulkan::make_set_layout(device, kFrameBindings, vk::ShaderStageFlagBits::eFragment);
     empty_layout_ = vulkan::make_set_layout(device, {}, {});
-    method_ = make_passes({.context = context,
-                           .scene = *scene_,
-                           .frame_layout = *frame_layout_,
-                           .empty_layout = *empty_layout_,
-                           .samples = config.samples,
-                           .extents = config.extents,
-                           .format = config.format,
-                           .depth_format = config.depth_format,
-                           .slots = config.frames_in_flight,
-                           .seen_depth = config.seen_depth,
-                           .lp_gaussian = config.lp_gaussian == FilterUse::On ||
-                                          (config.lp_gaussian == FilterUse::AsSceneNeeds &&
-                                           scene_->is_point_sampled()),
-                           .unshaded = config.unshaded});
+    method_ = make_antialiased_passes(
+        {.context = context,
+         .scene = *scene_,
+         .frame_layout = *frame_layout_,
+         .empty_layout = *empty_layout_,
+         .samples = config.samples,
+         .extents = config.extents,
+         .format = config.format,
+         .depth_format = config.depth_format,
+         .slots = config.frames_in_flight,
+         .seen_depth = config.seen_depth,
+         .lp_gaussian =
+             config.lp_gaussian == FilterUse::On ||
+             (config.lp_gaussian == FilterUse::AsSceneNeeds && scene_->is_point_sampled()),
+         .antialiasing = config.antialiasing,
+         .unshaded = config.unshaded},
+        make_passes);
     passes_ = pass_list(scene_->passes(), method_->passes());
     const std::uint32_t sets =
         config.frames_in_flight * static_cast<std::uint32_t>(gaze::kEyeCount);
@@ -156,14 +192,28 @@ void FrameRenderer::wait_for(vk::Semaphore timeline, std::uint64_t value) const 
     }
 }
 
-FrameRecording FrameRenderer::recording(Slot& slot) {
+/// How far the samples of the next frame are moved aside, in pixels.
+glm::dvec2 FrameRenderer::next_offset() {
+    if (!config_.antialiasing.over_frames) {
+        return {};
+    }
+    if (!in_run_.follows) {
+        jitter_.reset();
+    }
+    const glm::dvec2 offset = jitter_.offset();
+    jitter_.advance();
+    return offset;
+}
+
+FrameRecording FrameRenderer::recording(Slot& slot, const gaze::FrameFovea* fovea) {
     FrameRecording frame{.view = *view_,
                          .in_run = in_run_,
                          .slot = slot.number,
                          .frame_sets = {},
                          .scene_sets = {},
                          .color = slot.color,
-                         .depth = slot.depth};
+                         .depth = slot.depth,
+                         .fovea = fovea};
     for (const gaze::Eye eye : gaze::kEyes) {
         frame.frame_sets[gaze::index(eye)] = *slot.eyes[gaze::index(eye)].set;
         frame.scene_sets[gaze::index(eye)] = scene_->inputs_of(eye, slot.number);
@@ -178,17 +228,24 @@ void FrameRenderer::begin(const FrameView& view) {
     slot.recorder.reset();
     slot.frame_index = view.index;
     in_run_ = {view.index, last_views_.begin(view.index, view.views)};
+    const glm::dvec2 aside_px = next_offset();
+    // Several samples fill their cell already.
+    const glm::dvec2 aside = aside_px / std::sqrt(static_cast<double>(config_.samples));
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
-        slot.eyes[e].uniforms.write(
-            frame_uniforms(view.views[e], view.scene_time_s, config_.samples, last_views_.of(eye)));
+        slot.eyes[e].uniforms.write(frame_uniforms(view.views[e], view.scene_time_s,
+                                                   config_.samples, last_views_.of(eye), aside));
         slot.color[e] = vulkan::TrackedImage::of_earlier_frames(view.targets[e].image,
                                                                 vk::ImageAspectFlagBits::eColor);
         slot.depth[e] = vulkan::TrackedImage::of_earlier_frames(view.targets[e].depth_image,
                                                                 vk::ImageAspectFlagBits::eDepth);
     }
-    scene_->record_geometry(slot.recorder, view.views, view.scene_time_s, slot.number);
-    method_->record_before_gaze(slot.recorder, recording(slot));
+    // What is drawn by pixels is drawn for pixels that lie aside.
+    scene_->record_geometry(
+        slot.recorder,
+        config_.antialiasing.over_frames ? moved_aside(view.views, aside_px) : view.views,
+        view.scene_time_s, slot.number);
+    method_->record_before_gaze(slot.recorder, recording(slot, nullptr));
     if (slot.recorder.any()) {
         slot.recorder.submit(*begun_, ++begun_submitted_);
     }
@@ -215,7 +272,7 @@ frame::SampleCounts FrameRenderer::finish(const gaze::FrameFovea& fovea) {
         counts.pixels_output += std::uint64_t{view.width_px} * view.height_px;
         counts.pixels_hidden += hidden != nullptr ? hidden->hidden_pixels() : 0;
     }
-    const FrameRecording frame = recording(slot);
+    const FrameRecording frame = recording(slot, &fovea);
     method_->record_after_gaze(slot.recorder, frame, plans_);
     if (config_.hash || method_->keeps_depth()) {
         record_copies(slot, frame, fovea);

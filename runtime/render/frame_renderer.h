@@ -9,7 +9,9 @@
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/seen_depth.h"
 #include "runtime/gaze/view.h"
+#include "runtime/render/antialiasing.h"
 #include "runtime/render/frame_view.h"
+#include "runtime/render/jitter.h"
 #include "runtime/render/last_views.h"
 #include "runtime/render/passes/method_passes.h"
 #include "runtime/scene/scene.h"
@@ -34,6 +36,7 @@ struct RendererConfig {
     std::uint32_t frames_in_flight = 2;  ///< [1, 3]
     /// The 3 x 3 Gaussian over a log-polar buffer's periphery.
     FilterUse lp_gaussian = FilterUse::AsSceneNeeds;
+    Antialiasing antialiasing{};
     /// Radiance that cells outside the plan hold; unset: anything, since no pixel reads them.
     std::optional<std::array<float, 4>> unshaded;
 };
@@ -99,7 +102,8 @@ class FrameRenderer {
     struct Slot;
 
     void make_slots();
-    [[nodiscard]] FrameRecording recording(Slot& slot);
+    [[nodiscard]] FrameRecording recording(Slot& slot, const gaze::FrameFovea* fovea);
+    [[nodiscard]] glm::dvec2 next_offset();
     void record_copies(Slot& slot, const FrameRecording& frame, const gaze::FrameFovea& fovea);
     [[nodiscard]] frame::FrameGpuRecord collect(Slot& slot);
     void wait_for(vk::Semaphore timeline, std::uint64_t value) const;
@@ -123,6 +127,7 @@ class FrameRenderer {
     foveation::FrameInRun in_run_;     ///< of the frame that was begun last
     gaze::PerEye<foveation::EyePlan> plans_;
     LastViews last_views_;
+    Jitter jitter_;
     gaze::SeenDepth seen_depth_;
     std::vector<std::unique_ptr<Slot>> slots_;
 };

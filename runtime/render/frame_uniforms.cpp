@@ -46,12 +46,12 @@ std::array<glm::dvec2, kMaxSamples> sample_offsets(std::uint32_t samples) {
 }
 
 FrameUniforms frame_uniforms(const gaze::EyeView& view, double scene_time_s, std::uint32_t samples,
-                             const gaze::EyeView* last) {
+                             const gaze::EyeView* last, const glm::dvec2& aside) {
     FrameUniforms uniforms;
     uniforms.camera_and_time = {glm::vec3(view.pose.position_m), static_cast<float>(scene_time_s)};
     uniforms.view_axes = axes_of(view.pose);
     uniforms.tangents = tangents_of(view.fov);
-    uniforms.image = {view.width_px, view.height_px, 0.0F, 0.0F};
+    uniforms.image = glm::vec4(glm::dvec4(view.width_px, view.height_px, aside.x, aside.y));
     if (last != nullptr) {
         uniforms.last_camera = {glm::vec3(last->pose.position_m), 1.0F};
         uniforms.last_view_axes = axes_of(last->pose);

@@ -31,8 +31,9 @@ static_assert(sizeof(FrameUniforms) == 16 * std::size_t{11 + kMaxSamples});
 [[nodiscard]] std::array<glm::dvec2, kMaxSamples> sample_offsets(std::uint32_t samples);
 
 /// The uniforms of an eye's picture. `last`: the same eye's view in the last frame; null: there is
-/// none.
+/// none. `aside`: how far samples are moved in their cells, in (-.5, .5) each.
 [[nodiscard]] FrameUniforms frame_uniforms(const gaze::EyeView& view, double scene_time_s,
-                                           std::uint32_t samples, const gaze::EyeView* last);
+                                           std::uint32_t samples, const gaze::EyeView* last,
+                                           const glm::dvec2& aside = {});
 
 }  // namespace gazeloop::render

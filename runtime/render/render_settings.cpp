@@ -9,6 +9,13 @@
 
 namespace gazeloop::render {
 
+Antialiasing antialiasing_of(const RenderSettings& render) {
+    return {.post_filter_px = static_cast<std::uint32_t>(render.post_filter_px),
+            .footprint_taps = static_cast<std::uint32_t>(render.footprint_taps),
+            .over_frames = render.over_frames,
+            .forget_at_landings = render.forget_at_landings};
+}
+
 std::vector<settings::SettingRow> rows_of(RenderSettings& render,
                                           std::vector<std::string> methods) {
     using settings::Choice;
@@ -21,6 +28,13 @@ std::vector<settings::SettingRow> rows_of(RenderSettings& render,
     return {
         {"render.depth", "give depth images to the runtime where it takes them", &render.depth,
          Concerns::Output},
+        {"render.footprint",
+         "fade detail that is finer than the samples lie apart: highlights of meshes, the floor of "
+         "raymarch",
+         &render.footprint, Concerns::Picture},
+        {"render.footprint_taps",
+         "places within a pixel at which an LP-buffer is read; 1: its centre",
+         Whole{&render.footprint_taps, 1, Antialiasing::kMostFootprintTaps}, Concerns::Picture},
         {"render.frames_in_flight", "frames that the GPU may work on at once",
          Whole{&render.frames_in_flight, 1, 3}, Concerns::Output},
         {"render.hidden_area", "do not shade what the headset shows to no eye", &render.hidden_area,
@@ -31,6 +45,9 @@ std::vector<settings::SettingRow> rows_of(RenderSettings& render,
          Choice{.value = &render.lp_gaussian, .names = {"off", "on", "scene"}}, Concerns::Picture},
         {"render.method", "foveation method: which samples a picture takes",
          Choice{.value = &render.method, .names = std::move(methods)}, Concerns::Picture},
+        {"render.post_filter",
+         "largest size of the Gaussian over the resolved periphery (KFR's eta), px; 0: none",
+         Whole{&render.post_filter_px, 0, Antialiasing::kMostPostFilter_px}, Concerns::Picture},
         {"render.profile", "time every pass separately, with one submit per pass", &render.profile,
          Concerns::Output},
         {"render.require",
@@ -44,8 +61,15 @@ std::vector<settings::SettingRow> rows_of(RenderSettings& render,
                 .names = {scene::scene_names().begin(), scene::scene_names().end()},
                 .file_extensions = std::move(files)},
          Concerns::Picture},
+        {"render.specular_filter",
+         "make highlights of meshes as wide as surfaces turn within a pixel",
+         &render.specular_filter, Concerns::Picture},
         {"render.spp", "samples per texel or pixel", Whole{&render.spp, 1, kMaxSamples},
          Concerns::Picture},
+        {"render.taa", "move samples from frame to frame and mix in what the last frames showed",
+         &render.over_frames, Concerns::Picture},
+        {"render.taa_reset", "with render.taa: forget the last frames where a saccade lands",
+         &render.forget_at_landings, Concerns::Picture},
         {"render.wait_before_latch",
          "read the gaze only when the GPU has finished what needs no gaze",
          &render.wait_before_latch, Concerns::Output},

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/render/antialiasing.h"
 #include "runtime/settings/setting_row.h"
 
 namespace gazeloop::render {
@@ -14,6 +15,12 @@ struct RenderSettings {
     std::string scene = "raymarch";
     std::string require = "scene";
     std::string lp_gaussian = "scene";
+    bool specular_filter = true;
+    bool footprint = false;
+    std::int64_t footprint_taps = 1;
+    std::int64_t post_filter_px = 0;
+    bool over_frames = false;
+    bool forget_at_landings = true;
     std::int64_t spp = 1;
     double scale = 1.0;
     bool profile = true;
@@ -22,6 +29,9 @@ struct RenderSettings {
     std::int64_t frames_in_flight = 2;
     bool wait_before_latch = false;
 };
+
+/// What they say of antialiasing.
+[[nodiscard]] Antialiasing antialiasing_of(const RenderSettings& render);
 
 /// `methods`: the names that render.method may have.
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(RenderSettings& render,

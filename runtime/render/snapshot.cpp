@@ -24,6 +24,13 @@ void blacken_unshaded(Picture& picture, const foveation::ShadedGrid& grid) {
 
 }  // namespace
 
+Picture picture_of(const vulkan::Context& context, const BufferPicture& buffer) {
+    Picture picture = read_back(context, buffer.image->image(), buffer.image->extent(),
+                                buffer.image->format(), vk::ImageLayout::eShaderReadOnlyOptimal);
+    blacken_unshaded(picture, *buffer.grid);
+    return picture;
+}
+
 Expected<void> make_snapshot_folder(const std::filesystem::path& folder) {
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
@@ -114,11 +121,7 @@ Expected<std::vector<std::filesystem::path>> Snapshot::write(OffScreen* full,
             written = write_marked(shown, "result");
         }
         for (const BufferPicture& buffer : renderer_->buffers(eye)) {
-            Picture between =
-                read_back(*context_, buffer.image->image(), buffer.image->extent(),
-                          buffer.image->format(), vk::ImageLayout::eShaderReadOnlyOptimal);
-            blacken_unshaded(between, *buffer.grid);
-            written = written ? write(between, buffer.name) : written;
+            written = written ? write(picture_of(*context_, buffer), buffer.name) : written;
         }
         if (full != nullptr && written) {
             written = write_marked(

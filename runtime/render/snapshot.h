@@ -10,6 +10,9 @@
 
 namespace gazeloop::render {
 
+/// A picture between scene and result as it lies on the GPU, cells that the plan left out black.
+Picture picture_of(const vulkan::Context& context, const BufferPicture& buffer);
+
 struct SnapshotOptions {
     std::filesystem::path folder;  ///< created if missing
     bool mark_fovea = false;

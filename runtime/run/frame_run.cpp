@@ -92,9 +92,11 @@ class FrameRun {
         config_ = renderer_config();
         check_recorded_target(request_, config_);
         check_picture(request_, config_);
-        scene_ = scene::make_scene(
-            *context_, values_.render.scene,
-            {.require_all = values_.render.require == "all", .light_field = values_.light_field});
+        scene_ = scene::make_scene(*context_, values_.render.scene,
+                                   {.require_all = values_.render.require == "all",
+                                    .specular_filter = values_.render.specular_filter,
+                                    .footprint = values_.render.footprint,
+                                    .light_field = values_.light_field});
         render::FrameRenderer renderer(*context_, *scene_, make_passes(values_.render.method),
                                        config_);
         spdlog::info("Vulkan: {} ({})", context_->device_name(), context_->driver());
@@ -157,6 +159,7 @@ class FrameRun {
                                : values_.render.lp_gaussian == "off"
                                    ? render::FilterUse::Off
                                    : render::FilterUse::AsSceneNeeds,
+                .antialiasing = render::antialiasing_of(values_.render),
                 .unshaded = std::nullopt};
     }
 
@@ -533,6 +536,8 @@ class FrameRun {
                 render::RendererConfig config = config_;
                 config.hash = false;
                 config.seen_depth = false;
+                // A frame by itself has no last ones.
+                config.antialiasing = {};
                 config.depth_format = vk::Format::eUndefined;
                 full.emplace(*context_, *scene_, make_passes(full_resolution), config);
             }

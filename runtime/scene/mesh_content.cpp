@@ -79,8 +79,8 @@ std::span<const std::byte> bytes_of(const std::vector<T>& objects) {
 }  // namespace
 
 MeshContent::MeshContent(const vulkan::Context& context, const mesh::MeshData& data,
-                         const MeshNeeds& needs)
-    : context_(&context), needs_(needs), primitives_(data.primitives) {
+                         const MeshNeeds& needs, const HighlightFilters& filters)
+    : context_(&context), needs_(needs), filters_(filters), primitives_(data.primitives) {
     value_or_throw(mesh::check_mesh_data(data));
     draw_list_ = mesh::DrawList(data);
     clusters_ = mesh::Clusters(data);
@@ -238,6 +238,7 @@ void MeshContent::make_pipelines(MaterialState& state, const PipelineKey& key) {
     const std::array constants{vulkan::ShaderConstant{0, key.textures},
                                vulkan::ShaderConstant{1, key.masked ? 1U : 0U},
                                vulkan::ShaderConstant{2, static_cast<std::uint32_t>(key.kind)},
+                               vulkan::ShaderConstant{3, filters_.pixel ? 1U : 0U},
                                vulkan::ShaderConstant{4, key.shares_texel ? 1U : 0U}};
     Pipelines pipelines{.key = key};
     pipelines.depth = vulkan::make_raster_pipeline(device, mesh_layout_,
@@ -366,7 +367,8 @@ void MeshContent::make_lights(const mesh::MeshData& data) {
                   {kPlainLights, static_cast<std::uint32_t>(lights.size()) - shadowed},
                   {kHasGlass, needs_.glass ? 1U : 0U},
                   {kReflectionSteps, needs_.reflections ? kReflectionStepCount : 0U},
-                  {kOcclusionTaps, kOcclusionTapCount}};
+                  {kOcclusionTaps, kOcclusionTapCount},
+                  {kFootprint, filters_.footprint ? 1U : 0U}};
     make_shadow_maps();
 }
 

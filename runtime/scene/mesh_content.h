@@ -32,12 +32,19 @@ struct FacingIndices {
     std::vector<Range> ranges;  ///< by draw
 };
 
+/// What keeps highlights from flickering.
+struct HighlightFilters {
+    bool pixel = true;       ///< they are as wide as normals turn within a pixel
+    bool footprint = false;  ///< within what a sample stands for
+};
+
 /// What all renderers of a scene of meshes share on the GPU: vertices, textures, materials,
 /// pipelines, the sky, the shadow maps.
 class MeshContent {
   public:
     /// Throws SetupError: data that check_mesh_data() refuses (BadInput), no memory (NoDevice).
-    MeshContent(const vulkan::Context& context, const mesh::MeshData& data, const MeshNeeds& needs);
+    MeshContent(const vulkan::Context& context, const mesh::MeshData& data, const MeshNeeds& needs,
+                const HighlightFilters& filters);
 
     [[nodiscard]] const vulkan::Context& context() const { return *context_; }
     [[nodiscard]] const MeshNeeds& needs() const { return needs_; }
@@ -112,6 +119,7 @@ class MeshContent {
 
     const vulkan::Context* context_;
     MeshNeeds needs_;
+    HighlightFilters filters_;
     std::vector<vulkan::ShaderConstant> constants_;
     mesh::DrawList draw_list_;
     mesh::Clusters clusters_;

@@ -323,8 +323,9 @@ class MeshScene final : public MeshSceneBase {
 
 std::unique_ptr<Scene> make_mesh_scene(const vulkan::Context& context, const mesh::MeshData& data,
                                        const SceneOptions& options) {
-    return std::make_unique<MeshScene>(
-        std::make_shared<MeshContent>(context, data, needs_of(data, options.require_all)));
+    return std::make_unique<MeshScene>(std::make_shared<MeshContent>(
+        context, data, needs_of(data, options.require_all),
+        HighlightFilters{.pixel = options.specular_filter, .footprint = options.footprint}));
 }
 
 }  // namespace gazeloop::scene

@@ -62,7 +62,8 @@ enum MeshConstantId : std::uint32_t {
     kPlainLights = 17,
     kHasGlass = 18,
     kReflectionSteps = 19,
-    kOcclusionTaps = 20
+    kOcclusionTaps = 20,
+    kFootprint = 21
 };
 
 /// Kinds of a G-buffer's texel (shaders/lib/g_buffer.glsl).

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "runtime/scene/scene.h"
@@ -10,11 +11,20 @@ namespace gazeloop::scene {
 /// before.
 class RayScene final : public Scene {
   public:
-    explicit RayScene(std::string_view shader) : shader_(shader) {}
+    /// `footprint`: detail that is finer than the samples lie apart fades.
+    RayScene(std::string_view shader, bool footprint)
+        : shader_(shader), constants_{vulkan::ShaderConstant{kFootprint, footprint ? 1U : 0U}} {}
     [[nodiscard]] std::string_view shader() const override { return shader_; }
+    [[nodiscard]] std::span<const vulkan::ShaderConstant> constants() const override {
+        return constants_;
+    }
 
   private:
+    /// constant_id in shaders/scenes/raymarch.glsl.
+    static constexpr std::uint32_t kFootprint = 16;
+
     std::string shader_;
+    std::array<vulkan::ShaderConstant, 1> constants_;
 };
 
 }  // namespace gazeloop::scene

@@ -62,7 +62,7 @@ std::unique_ptr<Scene> make_scene(const vulkan::Context& context, std::string_vi
     if (name == kGallery) {
         return make_mesh_scene(context, gallery::gallery_scene(), options);
     }
-    return std::make_unique<RayScene>(name);
+    return std::make_unique<RayScene>(name, options.footprint);
 }
 
 }  // namespace gazeloop::scene

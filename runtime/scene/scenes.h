@@ -15,6 +15,11 @@ namespace gazeloop::scene {
 struct SceneOptions {
     /// Draw and light as if the scene needed everything, to measure what leaving out saves.
     bool require_all = false;
+    /// Highlights of meshes are as wide as normals turn within a pixel.
+    bool specular_filter = true;
+    /// Detail that is finer than the samples lie apart fades: highlights of meshes, the floor of
+    /// raymarch.
+    bool footprint = false;
     LightFieldSettings light_field{};
 };
 

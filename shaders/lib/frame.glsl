@@ -4,7 +4,8 @@ layout(std140, set = 0, binding = 0) uniform FrameUniforms {
     vec4 camera_and_time;  // eye position in world, m; scene time, s
     vec4 view_axes[3];     // columns of the view's rotation into world
     vec4 tangents;         // of the field of view: left, right, up, down
-    vec4 image;            // width, height, px; unused
+    vec4 image;            // width, height, px; how far samples are moved aside in this frame: x,
+                           // y in cells, in (-.5, .5)
     vec4 last_camera;      // the last frame's eye position in world, m; 1, or 0 where there is none
     vec4 last_view_axes[3];
     vec4 last_tangents;
@@ -14,6 +15,9 @@ layout(std140, set = 0, binding = 0) uniform FrameUniforms {
 // Samples per texel or pixel. A constant of the pipeline: where control flow depends on a uniform,
 // lavapipe 22.3 compiles the shader anew for every draw.
 layout(constant_id = 1) const int kSamples = 1;
+
+// Whether samples are moved aside, for what accumulates over frames.
+layout(constant_id = 10) const bool kJittered = false;
 
 const float kGreatestRadiance = 60000.0;  // what RGBA16F holds, with room for a filter's sum
 

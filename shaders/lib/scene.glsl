@@ -4,7 +4,10 @@ struct SamplePlace {
     vec2 position_px;   // in the picture; may lie off screen
     vec3 origin_m;      // of the ray, in world
     vec3 direction;     // unit, in world
+    mat2 footprint_px;  // columns: from here to the places of the neighbouring samples
 };
+
+const mat2 kPixel = mat2(1.0);  // the footprint of samples that lie a pixel apart
 
 struct SceneSample {
     vec3 radiance;      // linear Rec.709, finite, not negative

@@ -42,7 +42,8 @@ void main() {
                                        direction_at(row, tables.turns[s].xy));
         vec2 position = direct ? gl_FragCoord.xy + offset : in_map;
         sum += sum_of_views(
-            SamplePlace(position, eye.camera_and_time.xyz, ray_direction(position)), first, end);
+            SamplePlace(position, eye.camera_and_time.xyz, ray_direction(position), kPixel), first,
+            end);
     }
     if (!needed) {
         discard;

@@ -18,7 +18,8 @@ void main() {
         vec2 position = now.covers.xy +
                         (gl_FragCoord.xy + now.cells.zw + eye.offsets[s].xy) * px_per_cell;
         SceneSample seen = scene_sample(
-            SamplePlace(position, eye.camera_and_time.xyz, ray_direction(position)),
+            SamplePlace(position, eye.camera_and_time.xyz, ray_direction(position),
+                        mat2(px_per_cell.x, 0.0, 0.0, px_per_cell.y)),
             eye.camera_and_time.w);
         sum += vec4(seen.radiance, seen.nearness);
     }

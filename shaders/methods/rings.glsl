@@ -15,7 +15,8 @@ void main() {
     for (int s = 0; s < samples; ++s) {
         vec2 position = (gl_FragCoord.xy + eye.offsets[s].xy) * width;
         SceneSample seen = scene_sample(
-            SamplePlace(position, eye.camera_and_time.xyz, ray_direction(position)),
+            SamplePlace(position, eye.camera_and_time.xyz, ray_direction(position),
+                        width * kPixel),
             eye.camera_and_time.w);
         sum += vec4(seen.radiance, seen.nearness);
     }

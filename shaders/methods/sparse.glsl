@@ -23,7 +23,7 @@ void main() {
     for (int s = 0; s < samples; ++s) {
         vec2 position = pixel + eye.offsets[s].xy;
         SceneSample seen = scene_sample(
-            SamplePlace(position, eye.camera_and_time.xyz, ray_direction(position)),
+            SamplePlace(position, eye.camera_and_time.xyz, ray_direction(position), kPixel),
             eye.camera_and_time.w);
         sum += vec4(seen.radiance, seen.nearness);
     }

@@ -16,6 +16,7 @@ layout(constant_id = 17) const int kPlainLights = 0;      // after those
 layout(constant_id = 18) const bool kHasGlass = false;    // a second G-buffer in front
 layout(constant_id = 19) const int kReflectionSteps = 0;  // 0: reflections show the sky alone
 layout(constant_id = 20) const int kOcclusionTaps = 0;    // [0, 8]
+layout(constant_id = 21) const bool kFootprint = false;   // surfaces over a sample's footprint
 
 const int kMostLights = 16;
 const int kMostShadowMaps = 8;
@@ -134,6 +135,37 @@ float roughly_unshadowed(int light, vec3 point_m, vec3 normal) {
     vec3 place = at.xyz / max(at.w, 1e-4);
     float depth = textureLod(shadow_maps, vec3(place.xy, float(map)), 0.0).r;
     return depth <= place.z + mesh.shadow_texels[map].z ? 1.0 : 0.0;
+}
+
+// A surface as a sample sees it that stands for more than a pixel: its normal is the mean over the
+// footprint, and its highlights are wider by how much normals differ there (Tokuyoshi and Kaplanyan
+// 2019, of normals that are read instead of derived). What lies elsewhere in depth, or is of another
+// kind, is another surface.
+Surface over_footprint(Surface s, ivec2 texel, float depth, mat2 footprint_px) {
+    vec3 sum = s.normal;
+    float count = 1.0;
+    float longest_px = max(dot(footprint_px[0], footprint_px[0]),
+                           dot(footprint_px[1], footprint_px[1]));
+    // A pixel's own are in the G-buffer already. What is no number is not larger either.
+    int taps = s.kind != kKindUnlit && longest_px > 2.0 && longest_px < 1e5 ? 4 : 0;
+    for (int i = 0; i < taps; ++i) {
+        // Apart by as much as a Gaussian of the footprint's width spreads.
+        vec2 aside = footprint_px * (0.4 * vec2(2 * (i & 1) - 1, (i & 2) - 1));
+        ivec2 other = texel_at(vec2(texel) + 0.5 + aside);
+        Surface there = unpacked_surface(texelFetch(g_buffer, other, 0));
+        float there_depth = texelFetch(g_depth, other, 0).r;
+        bool same = there.kind == s.kind && abs(there_depth - depth) < 0.1 * depth;
+        sum += same ? there.normal : vec3(0.0);
+        count += same ? 1.0 : 0.0;
+    }
+    vec3 mean = sum / count;
+    float square = dot(mean, mean);
+    float spread = clamp(1.0 - square, 0.0, 1.0);
+    float alpha2 = s.roughness * s.roughness;
+    alpha2 *= alpha2;
+    s.roughness = sqrt(sqrt(min(alpha2 + 2.0 * spread, 1.0)));
+    s.normal = square > 1e-4 ? mean * inversesqrt(square) : s.normal;
+    return s;
 }
 
 struct Shading {
@@ -273,7 +305,10 @@ Shading shading_of(Surface s, vec3 point_m) {
 
 // What a surface sends to the eye by itself. What it lets through of what is behind it goes to
 // `through`.
-vec3 lit(Surface s, ivec2 texel, float depth, out vec3 through) {
+vec3 lit(Surface s, ivec2 texel, float depth, mat2 footprint_px, out vec3 through) {
+    if (kFootprint && s.kind == kKindSurface) {
+        s = over_footprint(s, texel, depth, footprint_px);
+    }
     vec3 radiance = s.emitted;
     through = vec3(0.0);
     // Groups of pixels that show nothing but sky leave here: `if` would only mask them. The counts
@@ -349,7 +384,7 @@ SceneSample scene_sample(SamplePlace place, float time_s) {
     ivec2 at = behind;
     for (int layer = 0; layer < layers; ++layer) {
         vec3 through;
-        vec3 own = lit(unpacked_surface(shown), at, depth, through);
+        vec3 own = lit(unpacked_surface(shown), at, depth, place.footprint_px, through);
         radiance = through * radiance + own;
         shown = front;
         depth = nearest;

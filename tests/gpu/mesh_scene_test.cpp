@@ -265,6 +265,30 @@ class FilterTest : public MeshSceneTest {
         }
         return asked;
     }
+
+    /// A mirror-like surface that is bent finely, under one sun: highlights of a few pixels and
+    /// less.
+    static MeshData rippled() {
+        scene::mesh::Material glossy;
+        glossy.metallic = 1.0F;
+        glossy.roughness = 0.15F;
+        MeshData data = dark(square(4.0F, moved({0.0F, 0.0F, -5.0F}), glossy));
+        constexpr std::uint32_t kSide = 256;
+        data.images.push_back({.width = kSide, .height = kSide, .texels = {}});
+        for (std::uint32_t y = 0; y < kSide; ++y) {
+            for (std::uint32_t x = 0; x < kSide; ++x) {
+                for (const double lean : {std::sin(0.7 * x), std::sin(0.7 * y)}) {
+                    data.images[0].texels.push_back(
+                        static_cast<std::byte>(std::lround(128 + 40 * lean)));
+                }
+                data.images[0].texels.push_back(std::byte{240});
+                data.images[0].texels.push_back(std::byte{255});
+            }
+        }
+        data.materials[0].normal_texture.image = 0;
+        data.lights = {sun({0.1F, -0.2F, -1.0F}, 1.0F)};
+        return data;
+    }
 };
 
 TEST_F(FilterTest, ReadsNoCellThatWasNotShaded) {
@@ -334,6 +358,57 @@ TEST_F(FilterTest, KeepsAnEvenPictureAndCalmsTheGallery) {
     RecordProperty("without", std::to_string(without));
     RecordProperty("with", std::to_string(with));
     EXPECT_LT(with, 0.85 * without) << "codes of 255";
+}
+
+// The flicker of Meng et al. 2018, Fig. 13: what foveation makes of small highlights.
+TEST_F(FilterTest, CalmsHighlights) {
+    const MeshData data = rippled();
+    // How much the picture changes while the head turns by a quarter of a pixel, over how bright it
+    // is: wider highlights are more pixels, each dimmer.
+    const auto change = [&](const scene::SceneOptions& options, Method method) {
+        const auto made = scene::make_mesh_scene(context(), data, options);
+        const MethodConfig of = coarse(FilterUse::Off, method);
+        OffScreen off_screen(context(), *made, passes_of(of), of);
+        std::array<Picture, 2> seen;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            const FrameRequest asked = turned(of, 0.0025 * static_cast<double>(i));
+            off_screen.render(asked, asked.fovea());
+            seen.at(i) = off_screen.picture(gaze::Eye::Left);
+        }
+        double changes = 0.0;
+        double codes = 0.0;
+        for (std::size_t i = 0; i < seen[0].pixels.size(); ++i) {
+            changes += std::abs(seen[0].pixels[i][1] - seen[1].pixels[i][1]);
+            codes += seen[0].pixels[i][1];
+        }
+        return changes / codes;
+    };
+    const double bare = change({.specular_filter = false}, Method::Full);
+    const double by_pixel = change({}, Method::Full);
+    EXPECT_LT(by_pixel, 0.8 * bare) << "full resolution";
+    const double amplified = change({}, Method::Kfr);
+    const double by_sample = change({.footprint = true}, Method::Kfr);
+    EXPECT_LT(by_sample, 0.7 * amplified) << "KFR";
+    RecordProperty("changes", std::to_string(bare) + " " + std::to_string(by_pixel) + " " +
+                                  std::to_string(amplified) + " " + std::to_string(by_sample));
+}
+
+TEST_F(FilterTest, HighlightsOfAFlatSurfaceStayAsTheyAre) {
+    MeshData data = rippled();
+    data.materials[0].normal_texture = {};
+    for (const Method method : {Method::Full, Method::Kfr, Method::Acuity}) {
+        const auto seen = [&](const scene::SceneOptions& options) {
+            const auto made = scene::make_mesh_scene(context(), data, options);
+            const MethodConfig of = coarse(FilterUse::Off, method);
+            OffScreen off_screen(context(), *made, passes_of(of), of);
+            const FrameRequest asked = turned(of, 0.0);
+            off_screen.render(asked, asked.fovea());
+            return off_screen.picture(gaze::Eye::Left);
+        };
+        const Picture plain = seen({});
+        EXPECT_LE(largest_difference(seen({.footprint = true}), plain), 1);
+        EXPECT_LE(largest_difference(seen({.specular_filter = false}), plain), 1);
+    }
 }
 
 TEST_F(MeshSceneTest, RefusesBrokenData) {

@@ -24,12 +24,16 @@ class FixedPlan final : public MethodPlan {
         return held_.fits(views);
     }
     Expected<void> prepare(const gaze::StereoView& /*views*/) override { return {}; }
-    void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
-              const HiddenArea* hidden, const FrameInRun& frame, EyePlan& plan) const override {
+    [[nodiscard]] gaze::FoveaPoint followed(const gaze::EyeView& view,
+                                            const gaze::FoveaPoint& fovea) const override {
         gaze::FoveaPoint ahead = fovea;
         ahead.direction = kStraightAhead;
         ahead.position = gaze::project(kStraightAhead, view);
-        held_.plan(eye, view, ahead, hidden, frame, plan);
+        return ahead;
+    }
+    void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
+              const HiddenArea* hidden, const FrameInRun& frame, EyePlan& plan) const override {
+        held_.plan(eye, view, followed(view, fovea), hidden, frame, plan);
         plan.ring_px = 0.0;  // it would be drawn around the gaze
     }
 

@@ -64,6 +64,12 @@ class MethodPlan {
     /// the pictures.
     virtual Expected<void> prepare(const gaze::StereoView& views) = 0;
 
+    /// The fovea that it plans for where this is the gaze's.
+    [[nodiscard]] virtual gaze::FoveaPoint followed(const gaze::EyeView& /*view*/,
+                                                    const gaze::FoveaPoint& fovea) const {
+        return fovea;
+    }
+
     /// Plans one eye's picture at one gaze, in microseconds. Reuses the plan's memory: only the
     /// first call after a prepare() allocates, wherever the gaze is. `hidden` must be of this
     /// picture; null: nothing is hidden. Precondition: prepare() for views that this one belongs

@@ -16,8 +16,9 @@ std::vector<vulkan::ShaderConstant> with_scene(
     return all;
 }
 
-bool encodes_srgb(vk::Format format) {
-    return format == vk::Format::eR8G8B8A8Srgb || format == vk::Format::eB8G8R8A8Srgb;
+bool takes_linear(vk::Format format) {
+    return format == vk::Format::eR8G8B8A8Srgb || format == vk::Format::eB8G8R8A8Srgb ||
+           format == vk::Format::eR16G16B16A16Sfloat;
 }
 
 void begin_rendering(const vk::raii::CommandBuffer& commands, vk::ImageView view,

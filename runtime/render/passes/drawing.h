@@ -22,15 +22,17 @@ enum ShaderConstantId : std::uint32_t {
     kSamples = 1,
     kInGazeFrame = 2,
     kWithDisc = 3,
-    kOfMethod = 4  ///< and beyond: what one method alone knows
+    kOfMethod = 4,  ///< and beyond: what one method alone knows
+    kJittered = 10
 };
 
 /// The constants of a pass that asks the scene, and the scene's own.
 [[nodiscard]] std::vector<vulkan::ShaderConstant> with_scene(
     const scene::Scene& scene, std::initializer_list<vulkan::ShaderConstant> constants);
 
-/// Whether a format encodes sRGB by itself; else the pass that writes it does.
-[[nodiscard]] bool encodes_srgb(vk::Format format);
+/// Whether a format takes linear light: it encodes sRGB by itself, or it holds floats. Else the
+/// pass that writes it encodes.
+[[nodiscard]] bool takes_linear(vk::Format format);
 
 /// Begins rendering into a colour image and, unless its view is null, a depth image; viewport and
 /// scissor are the whole. Cleared depth is infinitely far.

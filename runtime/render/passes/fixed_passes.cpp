@@ -27,6 +27,10 @@ class FixedPasses final : public MethodPasses {
         held_->record_after_gaze(recorder, frame, plans);
     }
 
+    [[nodiscard]] bool is_foveated() const override { return held_->is_foveated(); }
+    [[nodiscard]] double row_angle_rad(gaze::Eye eye) const override {
+        return held_->row_angle_rad(eye);
+    }
     [[nodiscard]] bool keeps_depth() const override { return held_->keeps_depth(); }
     void record_depth_copies(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
                              const gaze::PerEye<foveation::EyePlan>& plans,

@@ -18,9 +18,10 @@ class FullPasses final : public PlannedPasses<foveation::FullPlan> {
           layout_(vulkan::make_pipeline_layout(setup.context.device(),
                                                {setup.frame_layout, setup.scene.inputs(), {}},
                                                setup.empty_layout)) {
-        const auto constants = with_scene(
-            setup.scene,
-            {{kEncodeSrgb, encodes_srgb(setup.format) ? 0U : 1U}, {kSamples, setup.samples}});
+        const auto constants =
+            with_scene(setup.scene, {{kEncodeSrgb, takes_linear(setup.format) ? 0U : 1U},
+                                     {kSamples, setup.samples},
+                                     {kJittered, setup.antialiasing.over_frames ? 1U : 0U}});
         // A variant of its own: the mere statement of a depth costs a third of a resolve.
         const std::string_view suffix =
             setup.depth_format == vk::Format::eUndefined ? "frag" : "depth.frag";
@@ -42,6 +43,8 @@ class FullPasses final : public PlannedPasses<foveation::FullPlan> {
             draw_visible(commands, frame.view.hidden[e].get());
         });
     }
+
+    [[nodiscard]] bool is_foveated() const override { return false; }
 
   private:
     PassSetup setup_;

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <numbers>
 #include <vector>
 
 #include "runtime/render/fovea_depth.h"
@@ -124,6 +125,10 @@ class Kfr3dPasses final : public PlannedPasses<Kfr3dPlan> {
         });
     }
 
+    [[nodiscard]] double row_angle_rad(gaze::Eye eye) const override {
+        return 2.0 * std::numbers::pi / plan().lp(eye, 0).height;
+    }
+
     [[nodiscard]] bool keeps_depth() const override { return setup_.seen_depth; }
 
     void record_depth_copies(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
@@ -184,7 +189,7 @@ class Kfr3dPasses final : public PlannedPasses<Kfr3dPlan> {
         const std::string resolve = resolve_shader("kfr3d", setup_);
         for (const std::uint32_t disc : {0U, 1U}) {
             const std::array constants{
-                vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup_.format) ? 0U : 1U},
+                vulkan::ShaderConstant{kEncodeSrgb, takes_linear(setup_.format) ? 0U : 1U},
                 vulkan::ShaderConstant{kWithDisc, disc},
                 vulkan::ShaderConstant{kRegions, regions_}};
             (disc == 1 ? resolve_disc_ : resolve_) =

@@ -44,7 +44,7 @@ LayersPipelines::LayersPipelines(const PassSetup& setup, const LayersConfig& con
             continue;
         }
         const std::array composing{
-            vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup.format) ? 0U : 1U},
+            vulkan::ShaderConstant{kEncodeSrgb, takes_linear(setup.format) ? 0U : 1U},
             vulkan::ShaderConstant{kLayers, static_cast<std::uint32_t>(config.layers)},
             vulkan::ShaderConstant{kKept, kKeptLayers.at(kept)}};
         composites_.at(kept) = vulkan::make_pipeline(device, composite_layout_,

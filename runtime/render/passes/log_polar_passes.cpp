@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <numbers>
+
 #include "runtime/foveation/plans/acuity_plan.h"
 #include "runtime/foveation/plans/kfr_plan.h"
 #include "runtime/render/fovea_depth.h"
@@ -24,6 +26,9 @@ constexpr std::array kBindings{kMapBindings[0],
                                kMapBindings[4],
                                Type::eCombinedImageSampler,
                                Type::eCombinedImageSampler};
+
+/// Constants of the resolve.
+enum Constant : std::uint32_t { kFootprintTaps = kOfMethod };
 
 /// Places of the grids in log_polar_grids().
 constexpr std::size_t kTexels = 0;
@@ -121,6 +126,10 @@ class LogPolarPasses final : public PlannedPasses<foveation::LogPolarMethodPlan>
         });
     }
 
+    [[nodiscard]] double row_angle_rad(gaze::Eye eye) const override {
+        return 2.0 * std::numbers::pi / plan().lp(eye).height;
+    }
+
     [[nodiscard]] bool keeps_depth() const override { return setup_.seen_depth; }
 
     void record_depth_copies(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
@@ -175,8 +184,10 @@ class LogPolarPasses final : public PlannedPasses<foveation::LogPolarMethodPlan>
     void make_pipelines() {
         const vk::raii::Device& device = setup_.context.device();
         const std::uint32_t in_gaze_frame = plan().in_gaze_frame() ? 1 : 0;
-        const auto pass_constants =
-            with_scene(setup_.scene, {{kSamples, setup_.samples}, {kInGazeFrame, in_gaze_frame}});
+        const std::uint32_t jittered = setup_.antialiasing.over_frames ? 1 : 0;
+        const auto pass_constants = with_scene(
+            setup_.scene,
+            {{kSamples, setup_.samples}, {kInGazeFrame, in_gaze_frame}, {kJittered, jittered}});
         pass_i_ = vulkan::make_pipeline(
             device, layout_,
             {.vertex = "tiles.vert",
@@ -192,9 +203,11 @@ class LogPolarPasses final : public PlannedPasses<foveation::LogPolarMethodPlan>
         const std::string resolve = resolve_shader("log_polar", setup_);
         for (const std::uint32_t disc : {0U, 1U}) {
             const std::array constants{
-                vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup_.format) ? 0U : 1U},
+                vulkan::ShaderConstant{kEncodeSrgb, takes_linear(setup_.format) ? 0U : 1U},
                 vulkan::ShaderConstant{kInGazeFrame, in_gaze_frame},
-                vulkan::ShaderConstant{kWithDisc, disc}};
+                vulkan::ShaderConstant{kWithDisc, disc},
+                vulkan::ShaderConstant{kJittered, jittered},
+                vulkan::ShaderConstant{kFootprintTaps, setup_.antialiasing.footprint_taps}};
             (disc == 1 ? resolve_disc_ : resolve_) =
                 vulkan::make_pipeline(device, layout_,
                                       {.vertex = "full_screen.vert",

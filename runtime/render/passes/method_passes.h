@@ -9,6 +9,7 @@
 #include "runtime/foveation/plans/method_plan.h"
 #include "runtime/frame/frame_record.h"
 #include "runtime/gaze/seen_depth.h"
+#include "runtime/render/antialiasing.h"
 #include "runtime/render/frame_view.h"
 #include "runtime/render/passes/make_passes.h"
 #include "runtime/scene/scene.h"
@@ -31,6 +32,7 @@ struct PassSetup {
     std::uint32_t slots = 1;                           ///< frames that may be in flight
     bool seen_depth = false;   ///< depth around the foveae is to be read back
     bool lp_gaussian = false;  ///< smooth the LP-buffer's periphery before the resolve
+    Antialiasing antialiasing{};
     /// Radiance that cells outside the plan hold; unset: anything, since no pixel reads them.
     std::optional<std::array<float, 4>> unshaded;
 };
@@ -44,6 +46,7 @@ struct FrameRecording {
     gaze::PerEye<vk::DescriptorSet> scene_sets;  ///< set 1; null: none
     gaze::PerEye<vulkan::TrackedImage>& color;   ///< of the targets
     gaze::PerEye<vulkan::TrackedImage>& depth;   ///< of the targets, where they have depth
+    const gaze::FrameFovea* fovea;               ///< null before the gaze is read
 };
 
 /// A picture between scene and result, for people to look at.
@@ -77,6 +80,12 @@ class MethodPasses {
     /// DepthTarget) after it.
     virtual void record_after_gaze(vulkan::PassRecorder& recorder, const FrameRecording& frame,
                                    const gaze::PerEye<foveation::EyePlan>& plans) = 0;
+
+    /// Whether samples lie farther apart somewhere than elsewhere.
+    [[nodiscard]] virtual bool is_foveated() const { return true; }
+    /// The angle around the fovea between neighbouring samples of a log-polar method, rad. 0: it
+    /// has none. Precondition: prepare().
+    [[nodiscard]] virtual double row_angle_rad(gaze::Eye) const { return 0.0; }
 
     /// Whether it keeps the depth around the foveae for the host.
     [[nodiscard]] virtual bool keeps_depth() const { return false; }

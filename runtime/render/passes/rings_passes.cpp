@@ -36,7 +36,7 @@ class RingsPasses final : public PlannedPasses<foveation::RingsPlan> {
                                    .format = kLpFormat,
                                    .constants = samples});
         const std::array encode{
-            vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup.format) ? 0U : 1U}};
+            vulkan::ShaderConstant{kEncodeSrgb, takes_linear(setup.format) ? 0U : 1U}};
         resolve_ = vulkan::make_pipeline(device, layout_,
                                          {.vertex = "full_screen.vert",
                                           .fragment = resolve_shader("rings", setup),

@@ -124,7 +124,7 @@ class SparsePasses final : public PlannedPasses<SparsePlan> {
                                    .format = kLpFormat,
                                    .constants = samples});
         const std::array filling{
-            vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup_.format) ? 0U : 1U},
+            vulkan::ShaderConstant{kEncodeSrgb, takes_linear(setup_.format) ? 0U : 1U},
             vulkan::ShaderConstant{kNeighbours, config_.plan.neighbours},
             vulkan::ShaderConstant{kDepthGuided, config_.depth_guided ? 1U : 0U},
             vulkan::ShaderConstant{kAccumulated, config_.accumulate ? 1U : 0U}};
