@@ -36,8 +36,13 @@ struct Options {
 std::vector<Figure> kfr_raycast(const Options& options);
 
 /// Speed of KFR and of the acuity-derived map over full resolution on the built-in scene of meshes,
-/// with the time of each stage under the paper's names; gaze in the middle.
+/// with the time of each stage under the paper's names; gaze in the middle. Beside it what leaving
+/// out saves, and pass II against a plain blit.
 std::vector<Figure> kfr_mesh(const Options& options);
+
+/// How old the gaze is when the first pass that needs it begins, read before the G-buffer is drawn,
+/// once that is submitted, and once it is finished; and what each costs a frame.
+std::vector<Figure> latch(const Options& options);
 
 /// The frame loop's own work: from gaze to fovea, CPU time outside Vulkan and OpenXR, allocations,
 /// memory over 10,000 frames, and the program's start-up.

@@ -22,6 +22,7 @@ struct Named {
 };
 constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
                               Named{"kfr-mesh", kfr_mesh},
+                              Named{"latch", latch},
                               Named{"acuity", acuity},
                               Named{"loop", loop},
                               Named{"maps", maps},
