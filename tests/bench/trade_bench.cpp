@@ -113,7 +113,7 @@ void add_headlines(const trade::SweepSheet& sheet, const Asked& asked,
                    std::optional<double> acuity_target, std::vector<Figure>& figures) {
     const trade::SweepRow& published = row_of(sheet.rows, kPublished);
     const std::string scene = std::filesystem::path(sheet.of.scene).stem().string();
-    const auto add = [&](const std::string& name, const char* metric, double value,
+    const auto add = [&](const std::string& name, const std::string& metric, double value,
                          const char* unit, const char* better = "higher",
                          std::optional<double> target = {}) {
         figures.push_back({"headline", fmt::format("{}-{}", name, size),
@@ -131,7 +131,7 @@ void add_headlines(const trade::SweepSheet& sheet, const Asked& asked,
             has_target ? std::optional(0.8) : std::nullopt);
         add(one.name, "quality", row.figures.front().mean, "", "lower");
         for (const auto& [pass, ms] : row.pass_ms) {
-            add(one.name, pass.c_str(), ms, "ms", "lower");
+            add(one.name, "pass " + pass, ms, "ms", "lower");
         }
     }
     if (!asked.equal_quality) {
