@@ -6,6 +6,8 @@
 #include <array>
 #include <iterator>
 
+#include "runtime/report/recorded_application.h"
+
 namespace gazeloop::report {
 namespace {
 
@@ -105,8 +107,9 @@ std::string loss_remedy(const LagFacts& facts) {
             return fmt::format("Try first to calibrate the tracker anew, or a lower {}.",
                                now("gaze.minimum_confidence"));
         case LossCause::OutsideField:
-            return fmt::format("Try first a wider {}, or look whether the axes are right (--axes).",
-                               now("gaze.field_deg"));
+            return fmt::format("Try first a wider {}, or look whether the axes are right{}.",
+                               now("gaze.field_deg"),
+                               is_of_another_program(facts) ? "" : " (--axes)");
         case LossCause::Unplugged:
             return "Look first after the tracker's cable and port.";
         case LossCause::Stopped:

@@ -6,6 +6,7 @@
 #include "runtime/gaze/gaze_motion.h"
 #include "runtime/report/lag_loss.h"
 #include "runtime/report/lag_reasons.h"
+#include "runtime/report/recorded_application.h"
 #include "runtime/time/milliseconds.h"
 
 // The rules of the paragraph. Each sentence stands alone and names what it speaks of.
@@ -47,6 +48,10 @@ std::string now(const LagFacts& facts, std::string_view setting) {
 
 /// What makes the GPU's work less, by the method that was used.
 std::string less_gpu_work(const LagFacts& facts) {
+    if (is_of_another_program(facts)) {
+        return fmt::format("a lower resolution or quality in {}, or of the runtime's pictures",
+                           facts.device_value("application"));
+    }
     const std::string_view method = facts.setting("render.method");
     const std::string scale = "a lower render.scale" + now(facts, "render.scale");
     if (method == "full") {
@@ -181,7 +186,9 @@ constexpr std::array kCost{
             [](const LagFacts& f) { return cost(f, "on the way from the tracker to the host"); }},
     LagRule{"cost-queue", dearest_is<Stage::Queue>,
             [](const LagFacts& f) {
-                return cost(f, "while the sample waits for the loop to read it");
+                return cost(f, is_of_another_program(f)
+                                   ? "while the sample waits to be read"
+                                   : "while the sample waits for the loop to read it");
             }},
     LagRule{"cost-filter", dearest_is<Stage::Filter>,
             [](const LagFacts& f) {
@@ -343,10 +350,13 @@ constexpr std::array kRemedy{
             },
             [](const LagFacts& f) {
                 return fmt::format(
-                    "No GPU drew these pictures but the processor ({}): use a machine with a GPU "
-                    "(gazeloop doctor lists what it finds), or try the rest with a small picture: "
-                    "a lower render.scale{}.",
-                    f.device_value("vulkan device"), now(f, "render.scale"));
+                    "No GPU drew these pictures but the processor ({}): use a machine with a GPU"
+                    "{}, or try the rest with a small picture: "
+                    "{}.",
+                    f.device_value("vulkan device"),
+                    is_of_another_program(f) ? "" : " (gazeloop doctor lists what it finds)",
+                    is_of_another_program(f) ? less_gpu_work(f)
+                                             : "a lower render.scale" + now(f, "render.scale"));
             }},
     LagRule{"try-keeping-up",
             [](const LagFacts& f) { return f.report->verdict == Verdict::NotRealTime; },
@@ -370,9 +380,10 @@ constexpr std::array kRemedy{
             },
             [](const LagFacts& f) {
                 return fmt::format(
-                    "That is the delay of the tracker profile{}: --tracker names "
+                    "That is the delay of the tracker profile{}: {} names "
                     "the one that recorded the trace.",
-                    now(f, "profile.tracker"));
+                    now(f, "profile.tracker"),
+                    is_of_another_program(f) ? "profile.tracker" : "--tracker");
             }},
     LagRule{"try-another-tracker", dearest_is<Stage::Tracker>,
             [](const LagFacts&) {
@@ -398,7 +409,7 @@ constexpr std::array kRemedy{
                     "Try a higher rate of the tracker{}{}.",
                     f.smoothing.rate_hz > 0.0 ? fmt::format(" (now {:.0f} Hz)", f.smoothing.rate_hz)
                                               : "",
-                    f.setting("render.wait_before_latch") == "true"
+                    is_of_another_program(f) || f.setting("render.wait_before_latch") == "true"
                         ? ""
                         : ", or render.wait_before_latch=true, which reads the gaze later");
             }},
@@ -412,10 +423,13 @@ constexpr std::array kRemedy{
             [](const LagFacts& f) {
                 return dearest_is<Stage::Filter>(f) || dearest_is<Stage::Submit>(f);
             },
-            [](const LagFacts&) {
-                return std::string(
-                    "Try to leave the loop more of the CPU: close other programs, or "
-                    "raise its priority (gazeloop doctor says how).");
+            [](const LagFacts& f) {
+                return is_of_another_program(f)
+                           ? fmt::format("Try to leave {} more of the CPU: close other programs.",
+                                         f.device_value("application"))
+                           : std::string(
+                                 "Try to leave the loop more of the CPU: close other programs, or "
+                                 "raise its priority (gazeloop doctor says how).");
             }},
     LagRule{"try-less-gpu-work", dearest_is<Stage::Gpu>,
             [](const LagFacts& f) { return "Try " + less_gpu_work(f) + "."; }},
@@ -453,18 +467,26 @@ constexpr std::array kRemedy{
             [](const LagFacts& f) {
                 return dearest_is_unaccounted(f) && row_of(f, Stage::Gpu).count == 0;
             },
-            [](const LagFacts&) {
-                return std::string(
-                    "It lies between the last submit and the display, because the "
-                    "GPU's times are unknown: gazeloop doctor says what its driver "
-                    "lacks.");
+            [](const LagFacts& f) {
+                return is_of_another_program(f)
+                           ? fmt::format(
+                                 "It lies between the frame that {} handed over and the display, "
+                                 "where a layer sees nothing: its GPU, the compositor and the wait "
+                                 "for the display. Try {}.",
+                                 f.device_value("application"), less_gpu_work(f))
+                           : std::string(
+                                 "It lies between the last submit and the display, because the "
+                                 "GPU's times are unknown: gazeloop doctor says what its driver "
+                                 "lacks.");
             }},
     LagRule{"try-a-free-gpu", dearest_is_unaccounted,
             [](const LagFacts& f) {
                 return fmt::format(
                     "It is mostly the driver's queue, before the GPU begins: close "
-                    "what else uses the GPU, or try render.frames_in_flight=1{}.",
-                    now(f, "render.frames_in_flight"));
+                    "what else uses the GPU{}.",
+                    is_of_another_program(f)
+                        ? ""
+                        : ", or try render.frames_in_flight=1" + now(f, "render.frames_in_flight"));
             }},
 };
 
@@ -502,22 +524,26 @@ constexpr std::array kUnknown{
                     "time for them that can be.",
                     unknown_in(f.report->frames.display_unknown, f.report->frames.rendered));
             }},
-    LagRule{"unknown-gpu-time",
-            [](const LagFacts& f) { return without(f, row_of(f, Stage::Gpu)) > 0; },
-            [](const LagFacts& f) {
-                return fmt::format(
-                    "When the GPU was done is {}, so that it is not known whether "
-                    "they were shown in time: a driver with "
-                    "VK_EXT_calibrated_timestamps tells it.",
-                    unknown_in(without(f, row_of(f, Stage::Gpu)), f.report->frames.with_gaze()));
-            }},
+    LagRule{
+        "unknown-gpu-time", [](const LagFacts& f) { return without(f, row_of(f, Stage::Gpu)) > 0; },
+        [](const LagFacts& f) {
+            return fmt::format(
+                "When the GPU was done is {}, so that it is not known whether "
+                "they were shown in time: {}.",
+                unknown_in(without(f, row_of(f, Stage::Gpu)), f.report->frames.with_gaze()),
+                is_of_another_program(f) ? "the layer does not see it, a runtime's own metrics may "
+                                           "(--runtime-metrics)"
+                                         : "a driver with VK_EXT_calibrated_timestamps tells it");
+        }},
     LagRule{"unknown-display",
             [](const LagFacts& f) { return has_age(f) && !f.report->config.switching_ns; },
-            [](const LagFacts&) {
-                return std::string(
+            [](const LagFacts& f) {
+                return fmt::format(
                     "How long the display's pixels take to switch is unknown and "
-                    "comes on top: a display profile that states it (--display) "
-                    "tells it.");
+                    "comes on top{}.",
+                    is_of_another_program(f)
+                        ? ""
+                        : ": a display profile that states it (--display) tells it");
             }},
 };
 

@@ -284,6 +284,30 @@ TEST(LagRules, WriteWholeShortSentences) {
     }
 }
 
+/// What the layer recorded was drawn by a program that has none of our settings but those of gaze.
+TEST(LagRules, AdviseTheUserOfAnotherProgramNothingOfOurs) {
+    const std::vector<NamedValue> device{
+        {"application", "a game"}, {"vulkan device", "llvmpipe"}, {"processor", "some CPU"}};
+    for (const RuleCase& one : cases()) {
+        Made made;
+        one.make(made);
+        if (made.report.verdict == Verdict::VirtualTime) {
+            continue;  // which the layer does not have
+        }
+        made.facts.device = device;
+        for (const LagSentence& sentence : made.reasons().paragraph) {
+            for (const char* const ours : {"render.", "kfr.", "acuity.", "--method", "--display",
+                                           "--axes", "--tracker", "gazeloop doctor", "the loop"}) {
+                EXPECT_THAT(sentence.text, Not(HasSubstr(ours))) << sentence.rule;
+            }
+        }
+    }
+    Made late;
+    late.facts.device = device;
+    late.set(Stage::Gpu, 14.0);
+    EXPECT_THAT(late.text(), HasSubstr("Try a lower resolution or quality in a game"));
+}
+
 TEST(LagReasons, SpeakOncePerSubjectInOrder) {
     Made made;
     made.facts.budget = &made.budget;
