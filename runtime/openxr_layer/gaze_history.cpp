@@ -62,14 +62,18 @@ void GazeHistory::add(const gaze::GazeSample& sample) {
         }
     }
     if (!any(eyes)) {
-        motion_.lose(seen.time_ns);
+        if (policy_.motion.is_on()) {
+            motion_.lose(seen.time_ns);
+        }
         cyclopean_.add({});
         return;
     }
-    motion_.add(seen.time_ns, eyes, std::nullopt);
+    if (policy_.motion.is_on()) {
+        motion_.add(seen.time_ns, eyes, std::nullopt);
+    }
     if (const auto middle = cyclopean_.add(eyes)) {
         seen.in_head = gaze::Pose{turn_to(*middle), origin_of(sample)};
-        seen.event = motion_.event();
+        seen.event = policy_.motion.is_on() ? motion_.event() : gaze::EyeEvent::Lost;
     } else {
         seen.nominal = false;  // the eyes look in opposite directions
     }

@@ -211,6 +211,8 @@ void set_up(LayeredInstance& layered, const XrInstanceCreateInfo& info,
                         .permission = "",
                         .read_gaze_utc = "",
                         .recording = ""};
+    // What the eyes do is worked out for whoever is told.
+    layered.configuration.values.gaze.events |= layered.tells_samples;
     if (!layered.passes_through) {
         auto feed = settings.eye_gaze == "never" && !layered.owns.any() && !records
                         ? nullptr

@@ -107,7 +107,7 @@ HistoryPolicy policy_of(const gaze::GazeSettings& gaze) {
                          .stale_ns = time::ms_to_ns(gaze.stale_ms),
                          .hold_ns = time::ms_to_ns(gaze.hold_ms),
                          .motion = gaze::fovea_policy(gaze).motion};
-    policy.motion.tell_events = true;
+    policy.motion.tell_events = gaze.events;
     return policy;
 }
 
@@ -191,14 +191,24 @@ Expected<void> check_gaze(const LayerConfiguration& configuration) {
 
 Expected<std::shared_ptr<GazeFeed>> open_feed(const LayerConfiguration& configuration) {
     static std::mutex mutex;
-    static std::map<std::string, std::weak_ptr<GazeFeed>> feeds;
+    struct Open {
+        std::weak_ptr<GazeFeed> feed;
+        bool events = false;
+    };
+    static std::map<std::string, Open> feeds;
     const LayerValues& values = configuration.values;
     const std::string& name = values.layer.gaze;
     if (name.empty()) {
         return nullptr;
     }
     const std::lock_guard lock(mutex);
-    if (auto open = feeds[name].lock()) {
+    Open& known = feeds[name];
+    if (auto open = known.feed.lock()) {
+        if (values.gaze.events && !known.events) {
+            say(LogLevel::Info, fmt::format("{} is read already, without what the eyes do: events "
+                                            "of its samples are unknown here",
+                                            name));
+        }
         return open;
     }
     drivers::set_last_words([](std::string_view line) noexcept { say(LogLevel::Warning, line); });
@@ -209,7 +219,7 @@ Expected<std::shared_ptr<GazeFeed>> open_feed(const LayerConfiguration& configur
     auto feed = std::make_shared<GazeFeed>(
         name, dressed(std::move(*make), run::is_device(name), configuration.calibration),
         policy_of(values.gaze));
-    feeds[name] = feed;
+    known = {feed, values.gaze.events};
     return feed;
 }
 
