@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "runtime/openxr_layer/control/layer_files.h"
+#include "runtime/openxr_layer/newer_openxr.h"
 #include "runtime/openxr_layer/sightings.h"
 #include "tests/openxr/layered_application.h"
 
@@ -49,14 +50,16 @@ struct Reader {
     XrSpace local = XR_NULL_HANDLE;
 };
 
-TEST(GazeLayer, ListsEyeGazeOnce) {
+TEST(GazeLayer, ListsItsExtensionsOnce) {
     const LayeredHome home({"layer.gaze=fixed:0,0"});
     std::uint32_t count = 0;
     ASSERT_EQ(xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr), XR_SUCCESS);
     std::vector<XrExtensionProperties> all(count, {XR_TYPE_EXTENSION_PROPERTIES, nullptr, "", 0});
     ASSERT_EQ(xrEnumerateInstanceExtensionProperties(nullptr, count, &count, all.data()),
               XR_SUCCESS);
-    for (const char* name : {"XR_EXT_eye_gaze_interaction", "XR_GAZELOOP_gaze_sample"}) {
+    for (const char* name :
+         {"XR_EXT_eye_gaze_interaction", "XR_GAZELOOP_gaze_sample", "XR_FB_foveation",
+          "XR_META_foveation_eye_tracked", "XR_VARJO_quad_views"}) {
         EXPECT_EQ(std::ranges::count_if(
                       all, [&](const auto& one) { return std::string(one.extensionName) == name; }),
                   1)
@@ -148,6 +151,26 @@ TEST(GazeLayer, RefusesWhatTheSpecificationRefuses) {
         XR_SUCCESS);
     ASSERT_EQ(count, 1U);
     EXPECT_EQ(bound[0], application.path("/user/eyes_ext/input/gaze_ext/pose"));
+}
+
+/// Through the loader, for an application that may have foveation and no gaze.
+TEST(GazeLayer, TellsWhereItIsLookedWithoutTellingTheGaze) {
+    const LayeredHome home({"layer.gaze=fixed:10,5", "layer.unknown_applications=foveation"});
+    Reader reader({"XR_FB_foveation", "XR_FB_foveation_configuration",
+                   openxr_layer::newer::kFoveationEyeTrackedName});
+    reader.application.sync_for(reader.eyes, 0.05);
+    EXPECT_FALSE(reader.application.active(reader.eyes.action));
+    EXPECT_EQ(reader.application.locate(reader.space, reader.view, reader.application.now()).flags,
+              0U);
+    openxr_layer::newer::FoveationEyeTrackedState state{};
+    state.type = openxr_layer::newer::kFoveationEyeTrackedState;
+    const auto get = openxr::xr_function<openxr_layer::newer::GetFoveationEyeTrackedState>(
+        reader.application.instance(), "xrGetFoveationEyeTrackedStateMETA");
+    ASSERT_EQ(get(reader.application.session(), &state), XR_SUCCESS);
+    EXPECT_EQ(state.flags, openxr_layer::newer::kFoveationEyeTrackedStateValid);
+    EXPECT_GT(state.foveationCenter[0].x, 0.05F);
+    EXPECT_GT(state.foveationCenter[0].y, 0.02F);
+    EXPECT_LT(state.foveationCenter[0].x, 1.0F);
 }
 
 TEST(GazeLayer, LetsTheSetWithTheHighestPriorityHaveTheEyes) {
