@@ -7,7 +7,7 @@ namespace gazeloop::config {
 
 /// A file of config/, built into the program so that it needs no installation.
 struct BuiltInFile {
-    std::string_view folder;  ///< budgets, displays, trackers
+    std::string_view folder;  ///< budgets, displays, governor, trackers
     std::string_view name;    ///< without .toml
     std::string_view text;
 };

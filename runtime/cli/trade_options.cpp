@@ -56,6 +56,11 @@ void TradeOptions::add_to(Command command) {
     command.option("--csv", asked.outputs.csv, "write a line per case and point")
         .type("FILE")
         .not_empty();
+    command
+        .option("--front", asked.outputs.front,
+                "write the front of time and the first figure as levels of a governor (.toml)")
+        .type("FILE")
+        .not_empty();
     command.option("--html", asked.outputs.html, "write one page with plots, tables and pictures")
         .type("FILE")
         .not_empty();

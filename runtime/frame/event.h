@@ -36,6 +36,9 @@ inline constexpr EventKind kClockEvent{"clock", EventWeight::Warning};
 inline constexpr EventKind kDisplayEvent{"display", EventWeight::Warning};
 inline constexpr EventKind kBudgetBrokenEvent{"budget-broken", EventWeight::Warning};
 inline constexpr EventKind kBudgetKeptEvent{"budget-kept", EventWeight::Notice};
+inline constexpr EventKind kQualityLevelEvent{"quality-level", EventWeight::Notice};
+/// Frames take longer than they may, and no level that is allowed takes less.
+inline constexpr EventKind kQualityFloorEvent{"quality-floor", EventWeight::Warning};
 
 // Of a runtime and its session.
 inline constexpr EventKind kSessionEvent{"session", EventWeight::Routine};  ///< its states
@@ -54,15 +57,16 @@ inline constexpr EventKind kEventsLostEvent{"events-lost", EventWeight::Warning}
 inline constexpr EventKind kSessionOddEvent{"session-odd", EventWeight::Warning};
 
 inline constexpr std::array kEventKinds{
-    kGazeEvent,       kGazeSourceEvent,     kGpuClockEvent,
-    kHiddenAreaEvent, kErrorEvent,          kTrackerEvent,
-    kAxesEvent,       kTraceEvent,          kClockEvent,
-    kDisplayEvent,    kBudgetBrokenEvent,   kBudgetKeptEvent,
-    kSessionEvent,    kMaskEvent,           kOriginEvent,
-    kHeadLostEvent,   kHeadFoundEvent,      kViewOddEvent,
-    kViewGoodEvent,   kDisplayTimeOddEvent, kDisplayTimeGoodEvent,
-    kPeriodOddEvent,  kFrameDiscardedEvent, kFrameRefusedEvent,
-    kEventsLostEvent, kSessionOddEvent,     kTrackerFaultEvent};
+    kGazeEvent,         kGazeSourceEvent,     kGpuClockEvent,
+    kHiddenAreaEvent,   kErrorEvent,          kTrackerEvent,
+    kAxesEvent,         kTraceEvent,          kClockEvent,
+    kDisplayEvent,      kBudgetBrokenEvent,   kBudgetKeptEvent,
+    kSessionEvent,      kMaskEvent,           kOriginEvent,
+    kHeadLostEvent,     kHeadFoundEvent,      kViewOddEvent,
+    kViewGoodEvent,     kDisplayTimeOddEvent, kDisplayTimeGoodEvent,
+    kPeriodOddEvent,    kFrameDiscardedEvent, kFrameRefusedEvent,
+    kEventsLostEvent,   kSessionOddEvent,     kTrackerFaultEvent,
+    kQualityLevelEvent, kQualityFloorEvent};
 
 /// A kind that is not known (of a later version's recording) is worth a line.
 [[nodiscard]] constexpr EventWeight weight_of(std::string_view kind) {

@@ -35,6 +35,7 @@ struct FrameRecord {
     FrameStamps stamps;
     std::int64_t period_ns = 0;  ///< the display's, as announced for this frame
     bool should_render = true;
+    std::optional<std::uint8_t> quality_level{};  ///< 0 the best; none: nobody governs it
     double scene_time_s = 0.0;
     gaze::Pose head;         ///< of the views, in world
     gaze::StereoView views;  ///< what was rendered

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -186,6 +187,18 @@ void visit_filtered(Visitor& visit, Stamps& stamps) {
     }
 }
 
+/// Levels that no front has are read as the last number, which none has either.
+template <typename Visitor, typename Level>
+void visit_level(Visitor& visit, Level& level) {
+    std::optional<std::uint64_t> stored = level;
+    visit("quality_level", "", stored);
+    if constexpr (!std::is_const_v<Level>) {
+        constexpr std::uint64_t kLast = std::numeric_limits<std::uint8_t>::max();
+        level = stored ? std::optional(static_cast<std::uint8_t>(std::min(*stored, kLast)))
+                       : std::nullopt;
+    }
+}
+
 template <typename Visitor, typename Record>
 void visit_frame(Visitor& visit, Record& record) {
     visit("number", "", record.index);
@@ -205,6 +218,7 @@ void visit_frame(Visitor& visit, Record& record) {
     visit_stamp(visit, "fovea_latched", record.fovea.latched);
     visit_samples(visit, record.samples);
     visit("budget", "_ns", record.budget_ns);
+    visit_level(visit, record.quality_level);
 }
 
 /// The columns of `frame` that are NULL until the GPU has finished it.

@@ -46,6 +46,7 @@ inline constexpr auto kLaterColumns = std::to_array<std::string_view>({"texels_h
                                                                        "gaze_error_rad",
                                                                        "gaze_error_no_poses_rad",
                                                                        "budget_ns",
+                                                                       "quality_level",
                                                                        "left_cov_xx_rad2",
                                                                        "left_cov_xy_rad2",
                                                                        "left_cov_yy_rad2",

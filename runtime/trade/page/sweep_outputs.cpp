@@ -5,22 +5,26 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "runtime/governor/front_file.h"
 #include "runtime/report/summary_json.h"
+#include "runtime/trade/measured_front.h"
 #include "runtime/trade/page/sweep_page.h"
 
 namespace gazeloop::trade {
 
 Expected<void> check_outputs(const SweepOutputs& outputs,
                              std::span<const report::NamedFile> inputs) {
-    for (const std::string& file : {outputs.csv, outputs.json, outputs.html}) {
+    for (const std::string& file : {outputs.csv, outputs.json, outputs.html, outputs.front}) {
         if (!file.empty()) {
             if (auto checked = report::check_output(file); !checked) {
                 return checked;
             }
         }
     }
-    const std::array<report::NamedFile, 3> files{
-        {{"--csv", outputs.csv}, {"--json", outputs.json}, {"--html", outputs.html}}};
+    const std::array<report::NamedFile, 4> files{{{"--csv", outputs.csv},
+                                                  {"--json", outputs.json},
+                                                  {"--html", outputs.html},
+                                                  {"--front", outputs.front}}};
     return report::check_apart(files, inputs);
 }
 
@@ -28,7 +32,8 @@ Expected<void> write_outputs(const SweepReport& report, const SweepOutputs& outp
     if (auto chosen = choose(report.summed_rows(), report.question); !chosen) {
         return std::unexpected(chosen.error());
     }
-    const bool taken = outputs.csv == "-" || outputs.json == "-" || outputs.html == "-";
+    const bool taken =
+        outputs.csv == "-" || outputs.json == "-" || outputs.html == "-" || outputs.front == "-";
     if (outputs.text && !taken) {
         fmt::print("{}", sweep_text(report));
     }
@@ -42,7 +47,15 @@ Expected<void> write_outputs(const SweepReport& report, const SweepOutputs& outp
         !done) {
         return done;
     }
-    return write(outputs.html, [&] { return sweep_page(report); });
+    if (auto done = write(outputs.html, [&] { return sweep_page(report); });
+        !done || outputs.front.empty()) {
+        return done;
+    }
+    const auto front = measured_front(report);
+    if (!front) {
+        return std::unexpected(front.error());
+    }
+    return report::write_text(outputs.front, governor::front_file(*front, front_source(report)));
 }
 
 }  // namespace gazeloop::trade
