@@ -139,6 +139,9 @@ class FrameLoop {
         record.stamps.display = planned_.display;
         record.period_ns = planned_.period_ns;
         choose_renderer(record.index);
+        if (parts_.chooser != nullptr) {
+            record.quality_level = parts_.chooser->quality_level();
+        }
         record.should_render = planned_.should_render;
         record.scene_time_s = planned_.scene_time_s;
         record.head = planned_.head;
@@ -182,7 +185,12 @@ class FrameLoop {
         render::FrameRenderer* const chosen = parts_.chooser->choose(
             {.index = frame,
              .shown_ns = planned_.display.known() ? planned_.display.ns : timeline_->now().ns,
-             .should_render = planned_.should_render});
+             .should_render = planned_.should_render,
+             .period_ns = planned_.period_ns,
+             .recorded_level = planned_.quality_level});
+        if (const auto event = parts_.chooser->take_event()) {
+            report_event(timeline_->now(), event->kind, event->text.view());
+        }
         if (chosen == nullptr) {
             planned_.should_render = false;
         } else if (chosen != renderer_) {

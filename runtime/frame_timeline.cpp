@@ -116,6 +116,7 @@ void RecordedTimeline::plan(const present::TargetFrame&, const gaze::HeadMotion*
     frame.views = frame_.views;
     frame.hidden = hidden_now_;
     frame.origin = origin_now_;
+    frame.quality_level = frame_.quality_level;
 }
 
 time::Stamp RecordedTimeline::latch() { return frame_.stamps.latch; }

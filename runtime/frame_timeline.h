@@ -21,6 +21,8 @@ struct PlannedFrame {
     gaze::StereoView views;  ///< in world
     gaze::HiddenMeshes hidden;
     std::optional<gaze::OriginChange> origin;  ///< the world is another than the frame before's
+    /// That a recording has of the frame; none otherwise.
+    std::optional<std::uint8_t> quality_level{};
 };
 
 /// Where times come from: the wall clock, a model of it, or a recording. The loop asks here for

@@ -2,14 +2,19 @@
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/gaze_run_options.h"
+#include "runtime/run/govern.h"
 
 namespace gazeloop::cli {
 namespace {
 
 ExitCode run(const GazeRunOptions& options, const std::string& command_line) {
     run::ProgramSettings settings;
-    const auto request = options.prepare(settings, command_line);
-    return request ? exit_code(run::frame_run(*request)) : ExitCode::Ok;
+    auto request = options.prepare(settings, command_line);
+    if (!request) {
+        return ExitCode::Ok;
+    }
+    const auto governed = run::govern(settings, *request);
+    return exit_code(run::frame_run(*request));
 }
 
 }  // namespace

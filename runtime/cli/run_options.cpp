@@ -99,7 +99,7 @@ Expected<void> RunOptions::set_in(settings::Settings& settings, bool standard_fi
     }
     for (const Switch& one : switches) {
         if (one.given) {
-            named.push_back({one.key, "true", one.flag});
+            named.push_back({one.key, one.text, one.flag});
         }
     }
     return settings::apply({standard_files, config_files, assignments, named}, settings);

@@ -51,16 +51,19 @@ struct RunOptions {
         {"--spp", "render.spp", "samples per texel or pixel, 1 to 16"},
         {"--axes", "trace.axes", "turn a trace's directions: none, -x, swap-eyes, -z, -x-z"},
     };
-    /// Options that switch a setting on: the flag, its key, whether given.
+    /// Options that switch a setting on: the flag, its key, whether given, what it is set to.
     struct Switch {
         const char* flag;
         const char* key;
         const char* meaning;
         bool given = false;
+        const char* text = "true";
     };
     std::vector<Switch> switches{
         {"--accept-repairs", "trace.accept_repairs",
          "read a trace of which much was dropped or changed"},
+        {"--governor", "governor.use",
+         "keep frames within their budget by moving along a measured front", false, "on"},
     };
     std::optional<std::int64_t> frames;
     std::optional<double> seconds;

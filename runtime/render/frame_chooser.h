@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
+#include "runtime/fixed_text.h"
+#include "runtime/frame/event.h"
 #include "runtime/frame/frame_record.h"
 #include "runtime/frame/passes.h"
 #include "runtime/frame/sample_counts.h"
@@ -15,8 +18,17 @@ class FrameRenderer;
 /// A frame that is about to be drawn.
 struct FrameToChoose {
     std::uint64_t index = 0;
-    std::int64_t shown_ns = 0;  ///< when the display shows it, or when it began where nobody knows
-    bool should_render = true;  ///< the target wants its pictures: somebody can see them
+    std::int64_t shown_ns = 0;   ///< when the display shows it, or when it began where nobody knows
+    bool should_render = true;   ///< the target wants its pictures: somebody can see them
+    std::int64_t period_ns = 0;  ///< of the display; 0: unknown
+    /// In the replay of a session: the quality level that the frame was drawn at, if it had one.
+    std::optional<std::uint8_t> recorded_level{};
+};
+
+/// What a chooser has to say of a frame.
+struct ChooserEvent {
+    frame::EventKind kind;
+    FixedText<240> text;
 };
 
 /// Decides by whom each frame is drawn, where that changes during a run. Used on the loop's thread.
@@ -33,6 +45,11 @@ class FrameChooser {
     /// Where the foveae of the chosen frame are drawn that the gaze has at `latched`.
     [[nodiscard]] virtual gaze::FrameFovea drawn(const gaze::FrameFovea& latched,
                                                  const gaze::StereoView& views) const = 0;
+
+    /// Of the frame that was chosen last; none: the chooser has no levels.
+    [[nodiscard]] virtual std::optional<std::uint8_t> quality_level() const { return std::nullopt; }
+    /// What was decided for that frame, once; none: nothing is worth telling.
+    [[nodiscard]] virtual std::optional<ChooserEvent> take_event() { return std::nullopt; }
 
     /// Lists of the run, which hold those of every renderer.
     [[nodiscard]] virtual const frame::PassList& passes() const = 0;

@@ -63,8 +63,8 @@ std::vector<float> OffScreen::depth(gaze::Eye eye) const {
     return read_back_depth(*context_, targets_.depth(eye));
 }
 
-void warm_up(const vulkan::Context& context, FrameRenderer& renderer,
-             const gaze::StereoView& views) {
+frame::FrameGpuRecord render_unseen(const vulkan::Context& context, FrameRenderer& renderer,
+                                    const gaze::StereoView& views) {
     const RendererConfig& config = renderer.config();
     const OffScreenTargets targets(context, config.extents, config.format, config.depth_format);
     const FrameView view{.views = views, .targets = targets.targets()};
@@ -72,8 +72,16 @@ void warm_up(const vulkan::Context& context, FrameRenderer& renderer,
     renderer.begin(view);
     renderer.finish(fovea_ahead(views));
     renderer.wait_idle();
-    while (renderer.next_finished()) {
+    frame::FrameGpuRecord last;
+    while (auto finished = renderer.next_finished()) {
+        last = *finished;
     }
+    return last;
+}
+
+void warm_up(const vulkan::Context& context, FrameRenderer& renderer,
+             const gaze::StereoView& views) {
+    render_unseen(context, renderer, views);
 }
 
 gaze::FrameFovea fovea_ahead(const gaze::StereoView& views) {

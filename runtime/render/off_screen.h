@@ -59,6 +59,11 @@ class OffScreen {
     FrameRenderer renderer_;  ///< waits for its frames before the images go
 };
 
+/// Renders a frame that nobody sees, the gaze straight ahead, and waits for it. Precondition: the
+/// renderer has no frame under way.
+frame::FrameGpuRecord render_unseen(const vulkan::Context& context, FrameRenderer& renderer,
+                                    const gaze::StereoView& views);
+
 /// Renders a frame that nobody sees, so that the renderer's first frame that counts finds its
 /// shaders compiled. Precondition: the renderer has rendered nothing yet.
 void warm_up(const vulkan::Context& context, FrameRenderer& renderer,

@@ -32,6 +32,8 @@
 #include "runtime/report/trace_account.h"
 #include "runtime/run/display_mismatch.h"
 #include "runtime/run/event_log.h"
+#include "runtime/run/fitted_scale.h"
+#include "runtime/run/govern.h"
 #include "runtime/run/interrupt.h"
 #include "runtime/run/loop_end_text.h"
 #include "runtime/run/picture_device.h"
@@ -214,16 +216,23 @@ class FrameRun {
             return;
         }
         chooser_.reset(request_.chooser);
-        request_.prepare_chooser([this](const render::MakePasses& passes) {
+        if (auto front = governed_front(request_.settings->list())) {
+            levels_.emplace(std::move(*front));
+        }
+        const gaze::StereoView views = profile_views(display_, target_->extents());
+        const auto make = [this, views](const render::MakePasses& passes) {
             auto renderer =
                 std::make_unique<render::FrameRenderer>(*context_, *scene_, passes, config_);
-            const gaze::StereoView views = profile_views(display_, target_->extents());
             if (request_.clock == RunClock::Wall) {
                 render::warm_up(*context_, *renderer, views);
             } else if (request_.clock == RunClock::Virtual) {
                 renderer->prepare(views);
             }
             return renderer;
+        };
+        request_.prepare_chooser(make, [this, views](render::FrameRenderer& renderer) {
+            return request_.clock == RunClock::Wall ? frame_ms(*context_, renderer, views)
+                                                    : std::nullopt;
         });
     }
 
@@ -293,6 +302,9 @@ class FrameRun {
         }
         if (recording_ != nullptr) {
             parts.observers.push_back(recording_.get());
+        }
+        if (levels_) {
+            parts.observers.push_back(&*levels_);
         }
         monitor_.join(parts.observers);
         if (request_.hash) {
@@ -495,6 +507,7 @@ class FrameRun {
                               .trace = trace_,
                               .monitor = monitor_,
                               .left_out = {scene_->skipped(), scene_->passes()},
+                              .levels = levels_ ? &*levels_ : nullptr,
                               .hash = request_.hash ? &hash_ : nullptr,
                               .check = check_ ? &*check_ : nullptr,
                               .clock = request_.clock,
@@ -575,6 +588,7 @@ class FrameRun {
     std::unique_ptr<session::SessionRecorder> recorder_;
     std::unique_ptr<RecordingObserver> recording_;
     RunMonitor monitor_;
+    std::optional<governor::LevelAccount> levels_;  ///< of a governed run
     report::TraceAccount trace_;
     report::LagObserver lag_;
     session::ReplayHash hash_;

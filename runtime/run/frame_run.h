@@ -54,8 +54,10 @@ struct FrameRunRequest {
     render::FrameChooser* chooser = nullptr;
     using MakeRenderer =
         std::function<std::unique_ptr<render::FrameRenderer>(const render::MakePasses&)>;
-    /// Called before the first frame, with what makes the chooser's renderers.
-    std::function<void(const MakeRenderer&)> prepare_chooser{};
+    /// What a frame takes by a renderer, ms; none where that is not the wall clock's, or unknown.
+    using TimeRenderer = std::function<std::optional<double>(render::FrameRenderer&)>;
+    /// Called before the first frame, with what makes and times the chooser's renderers.
+    std::function<void(const MakeRenderer&, const TimeRenderer&)> prepare_chooser{};
     /// Called with the recording, which then has a study's tables.
     std::function<void(session::SessionRecorder&)> record_study{};
     frame::FrameObserver* observer = nullptr;  ///< is told what the loop does, unless null

@@ -7,9 +7,10 @@ namespace gazeloop::run {
 
 ProgramSettings::ProgramSettings() {
     // By name, so that none is forgotten.
-    auto& [gaze, hid, layer, light_field, methods, monitor, openxr, profile, render, sim,
+    auto& [gaze, governor, hid, layer, light_field, methods, monitor, openxr, profile, render, sim,
            steam_frame, target, trace, virtual_time, vulkan] = values_;
     add(rows_of(gaze));
+    add(rows_of(governor));
     add(rows_of(hid));
     add(rows_of(layer));
     add(rows_of(light_field));

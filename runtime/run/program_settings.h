@@ -5,6 +5,7 @@
 #include "drivers/trace/trace_settings.h"
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_settings.h"
+#include "runtime/governor/governor_settings.h"
 #include "runtime/methods/method_settings.h"
 #include "runtime/openxr_layer/layer_settings.h"
 #include "runtime/present/openxr/openxr_settings.h"
@@ -23,6 +24,7 @@ namespace gazeloop::run {
 /// Everything that can be configured, with its built-in value. Each room declares its own group.
 struct ProgramValues {
     gaze::GazeSettings gaze;
+    governor::GovernorSettings governor;
     drivers::hid::HidSettings hid;
     openxr_layer::LayerSettings layer;
     scene::LightFieldSettings light_field;

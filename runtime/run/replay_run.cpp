@@ -11,6 +11,7 @@
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/recordings/trace_of_session.h"
 #include "runtime/run/gaze_sources.h"
+#include "runtime/run/govern.h"
 #include "runtime/run/replayable_frames.h"
 #include "runtime/run/study_request.h"
 #include "runtime/session/playback.h"
@@ -21,7 +22,7 @@ namespace gazeloop::run {
 namespace {
 
 std::optional<ErrorKind> play_gaze(const Replay& replay, gaze::GazeTrace trace,
-                                   const ProgramSettings& settings, FrameRunRequest& request) {
+                                   ProgramSettings& settings, FrameRunRequest& request) {
     const profiles::TrackerProfile tracker =
         value_or_throw(profiles::tracker_in_force(settings.values().profile, settings));
     // A session knows when its samples arrived; other traces get the profile's delay.
@@ -29,6 +30,7 @@ std::optional<ErrorKind> play_gaze(const Replay& replay, gaze::GazeTrace trace,
     request.make_source = trace_player(std::move(trace), delay_ns, replay.speed);
     request.clock = replay.wall_clock ? RunClock::Wall : RunClock::Virtual;
     request.loop.end_with_source = true;
+    const auto governed = govern(settings, request);
     return frame_run(request);
 }
 
@@ -80,10 +82,11 @@ std::optional<ErrorKind> replay_session(const Replay& replay, const session::Ope
         study = value_or_throw(study::ReplayedStudy::create(trials));
         show_study(*study, settings, request);
     }
+    const auto governed = govern(settings, request);
     return frame_run(request);
 }
 
-std::optional<ErrorKind> replay_trace(const Replay& replay, const ProgramSettings& settings,
+std::optional<ErrorKind> replay_trace(const Replay& replay, ProgramSettings& settings,
                                       FrameRunRequest& request) {
     drivers::ReadOptions options = drivers::read_options(settings.values().trace);
     options.format = replay.format;

@@ -28,7 +28,7 @@ std::optional<ErrorKind> replay_session(const Replay& replay, const session::Ope
                                         ProgramSettings& settings, FrameRunRequest& request);
 
 /// The same of a trace. @throws SetupError as frame_run(); BadInput for a trace that is refused
-std::optional<ErrorKind> replay_trace(const Replay& replay, const ProgramSettings& settings,
+std::optional<ErrorKind> replay_trace(const Replay& replay, ProgramSettings& settings,
                                       FrameRunRequest& request);
 
 }  // namespace gazeloop::run

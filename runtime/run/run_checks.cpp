@@ -28,6 +28,12 @@ void check_request(const FrameRunRequest& request) {
                          "--gaze openxr: the gaze comes with the session that the pictures go "
                          "to, as it happens: use it with --target openxr and --clock wall");
     }
+    if (values.governor.use == "on" &&
+        (request.chooser == nullptr || values.governor.levels.empty())) {
+        throw SetupError(ErrorKind::Usage,
+                         fmt::format("{}: governor.use: only run and replay are governed; use off",
+                                     request.settings->origin("governor.use")));
+    }
     if (request.record) {
         value_or_throw(session::SessionRecorder::check(*request.record));
     }

@@ -30,6 +30,9 @@ std::string run_summary_text(const RunSummary& run, bool quiet) {
     if (run.hash != nullptr) {
         text += run.hash->text();
     }
+    if (run.levels != nullptr && !quiet) {
+        text += run.levels->text();
+    }
     return text;
 }
 
@@ -38,6 +41,9 @@ nlohmann::ordered_json run_summary_json(const RunSummary& run) {
     json["left_out"] = left_out_json(run.left_out, run.report);
     run.trace.add_to(json);
     run.monitor.add_to(json);
+    if (run.levels != nullptr) {
+        json["governor"] = run.levels->json();
+    }
     json["why_the_fovea_lags"] = report::lag_json(run.reasons);
     json["prediction"] = report::prediction_json(run.prediction);
     if (run.hash != nullptr) {

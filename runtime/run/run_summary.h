@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "runtime/governor/level_account.h"
 #include "runtime/latency/predicted_latency.h"
 #include "runtime/report/lag_reasons.h"
 #include "runtime/report/trace_account.h"
@@ -21,8 +22,9 @@ struct RunSummary {
     const report::TraceAccount& trace;
     const RunMonitor& monitor;
     LeftOut left_out{};
-    const session::ReplayHash* hash = nullptr;    ///< null: not asked for
-    const session::ReplayCheck* check = nullptr;  ///< null: no replay of a session
+    const governor::LevelAccount* levels = nullptr;  ///< null: nobody governs it
+    const session::ReplayHash* hash = nullptr;       ///< null: not asked for
+    const session::ReplayCheck* check = nullptr;     ///< null: no replay of a session
     RunClock clock = RunClock::Wall;
     bool fixed_in_head = false;  ///< the gaze: no tracker
 };

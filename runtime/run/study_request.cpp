@@ -7,6 +7,7 @@
 
 #include "runtime/methods/registry.h"
 #include "runtime/settings/nearest_name.h"
+#include "runtime/settings/settings_for_now.h"
 
 namespace gazeloop::run {
 namespace {
@@ -14,44 +15,14 @@ namespace {
 constexpr std::string_view kOrigin = "the study's plan";
 constexpr std::size_t kLongestSettings = 240;  // what a session's row holds
 
-/// Settings that are others for a while.
-class SettingsForNow {
-  public:
-    explicit SettingsForNow(ProgramSettings& settings) : settings_(settings) {}
-    SettingsForNow(const SettingsForNow&) = delete;
-    SettingsForNow& operator=(const SettingsForNow&) = delete;
-    ~SettingsForNow() {
-        for (auto kept = before_.rbegin(); kept != before_.rend(); ++kept) {
-            (void)settings_.set(kept->key, kept->text, kept->origin);
-        }
-    }
-    Expected<void> set(const std::string& key, const std::string& text) {
-        for (const settings::SettingRow& row : settings_.rows()) {
-            if (row.key == key) {
-                before_.push_back({key, settings::text_of(row), settings_.origin(key)});
-            }
-        }
-        return settings_.set(key, text, kOrigin);
-    }
-
-  private:
-    struct Kept {
-        std::string key;
-        std::string text;
-        std::string origin;
-    };
-    ProgramSettings& settings_;
-    std::vector<Kept> before_;
-};
-
 /// The passes of a stimulus. Errors: as Settings::set() and the method's.
 Expected<render::MakePasses> passes_of(const study::Stimulus& stimulus, ProgramSettings& settings) {
-    SettingsForNow now(settings);
-    if (auto set = now.set("render.method", stimulus.method); !set) {
+    settings::SettingsForNow now(settings);
+    if (auto set = now.set("render.method", stimulus.method, kOrigin); !set) {
         return std::unexpected(set.error());
     }
     for (const auto& [key, value] : stimulus.settings) {
-        if (auto set = now.set(key, value); !set) {
+        if (auto set = now.set(key, value, kOrigin); !set) {
             return std::unexpected(set.error());
         }
     }
@@ -61,8 +32,8 @@ Expected<render::MakePasses> passes_of(const study::Stimulus& stimulus, ProgramS
 /// Whether a factor's setting is one of the method's.
 Expected<void> check_factor(const study::Plan& plan, const study::Factor& factor,
                             ProgramSettings& settings) {
-    SettingsForNow now(settings);
-    if (auto set = now.set("render.method", plan.method); !set) {
+    settings::SettingsForNow now(settings);
+    if (auto set = now.set("render.method", plan.method, kOrigin); !set) {
         return set;
     }
     methods::MethodSettings any;
@@ -89,7 +60,8 @@ void show(Study& study, ProgramSettings& settings, FrameRunRequest& request) {
                          "out, or look at one with gazeloop run");
     }
     request.chooser = &study;
-    request.prepare_chooser = [&](const FrameRunRequest::MakeRenderer& make) {
+    request.prepare_chooser = [&](const FrameRunRequest::MakeRenderer& make,
+                                  const FrameRunRequest::TimeRenderer& /*time_of*/) {
         study.set_stimuli(std::make_unique<study::Stimuli>(
             [make, &settings](const study::Stimulus& stimulus) {
                 return make(value_or_throw(passes_of(stimulus, settings)));

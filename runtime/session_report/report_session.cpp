@@ -11,6 +11,7 @@
 #include "runtime/report/output_file.h"
 #include "runtime/report/perfetto/perfetto_file.h"
 #include "runtime/report/summary_json.h"
+#include "runtime/run/govern.h"
 #include "runtime/run/tracker_figures.h"
 #include "runtime/session_report/session_report.h"
 #include "runtime/time/milliseconds.h"
@@ -50,9 +51,13 @@ std::optional<latency::LatencyBudget> budget_of(const ReportRequest& request) {
 
 /// Plays the session; the Perfetto trace is written meanwhile.
 report::SessionSummary summary_of(const ReportRequest& request, const session::OpenSession& session,
-                                  report::page::EventLine& events) {
+                                  SessionReport& made) {
     std::optional<report::perfetto::PerfettoFile> perfetto;
-    std::vector<frame::FrameObserver*> also{&events};
+    std::vector<frame::FrameObserver*> also{&made.events};
+    if (auto front = run::governed_front(session.info().header.config)) {
+        made.levels.emplace(std::move(*front));
+        also.push_back(&*made.levels);
+    }
     const bool every_sample = !request.perfetto.empty() && request.perfetto_samples == "all";
     if (!request.perfetto.empty()) {
         perfetto.emplace(request.perfetto, session.info().header,
@@ -88,7 +93,7 @@ std::optional<Against> compared(const std::string& file, const session::OpenSess
 
 /// Everything but the outputs.
 void fill(const ReportRequest& request, const session::OpenSession& session, SessionReport& made) {
-    made.summary = summary_of(request, session, made.events);
+    made.summary = summary_of(request, session, made);
     const report::SessionSummary& summary = made.summary;
     made.prediction = latency::check_prediction(
         run::tracker_figures(made.info.header.config, summary.origin), summary.report);

@@ -23,6 +23,9 @@ std::string text_of(const SessionReport& made) {
                     report::session_text(summary, made.percentiles, report::lag_text(made.reasons)),
                     summary.trace.text(), summary.runtime.text(),
                     report::prediction_text(made.prediction, summary.report));
+    if (made.levels) {
+        text += made.levels->text();
+    }
     for (const std::string& line : report::recording_lines(made.info, summary.end)) {
         text += fmt::format("{}\n", line);
     }
@@ -44,6 +47,9 @@ nlohmann::ordered_json json_of(const SessionReport& made) {
     json["why_the_fovea_lags"] = report::lag_json(made.reasons);
     json["prediction"] = report::prediction_json(made.prediction);
     made.summary.runtime.add_to(json);
+    if (made.levels) {
+        json["governor"] = made.levels->json();
+    }
     if (made.measured) {
         json["probe"] = probe::comparison_json(*made.measured);
     }
@@ -63,6 +69,10 @@ std::string page_of(const SessionReport& made, const std::string& file) {
     if (const std::string runtime = made.summary.runtime.text(); !runtime.empty()) {
         sections.push_back(
             report::page::section_of_lines("runtime", "The runtime's own account", runtime));
+    }
+    if (made.levels) {
+        sections.push_back(
+            report::page::section_of_lines("governor", "Levels of quality", made.levels->text()));
     }
     if (made.measured) {
         sections.push_back(report::page::section_of_lines("probe", "Eye to photon, as measured",

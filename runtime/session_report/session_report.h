@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "runtime/governor/level_account.h"
 #include "runtime/latency/budget.h"
 #include "runtime/probe/comparison.h"
 #include "runtime/report/budget_gate.h"
@@ -27,6 +28,7 @@ struct SessionReport {
     report::Percentiles percentiles{};
     std::optional<latency::LatencyBudget> budget{};
     report::page::EventLine events{};
+    std::optional<governor::LevelAccount> levels{};  ///< of a governed run
     report::SessionSummary summary{};
     latency::PredictionCheck prediction{};
     report::LagReasons reasons{};

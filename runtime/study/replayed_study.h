@@ -23,15 +23,19 @@ class ReplayedStudy final : public render::FrameChooser {
     render::FrameRenderer* choose(const render::FrameToChoose& frame) override;
     [[nodiscard]] gaze::FrameFovea drawn(const gaze::FrameFovea& latched,
                                          const gaze::StereoView& views) const override;
-    [[nodiscard]] const frame::PassList& passes() const override { return stimuli_->passes(); }
-    [[nodiscard]] const frame::GridList& grids() const override { return stimuli_->grids(); }
+    [[nodiscard]] const frame::PassList& passes() const override {
+        return stimuli_->lists().passes();
+    }
+    [[nodiscard]] const frame::GridList& grids() const override {
+        return stimuli_->lists().grids();
+    }
     [[nodiscard]] frame::SampleCounts in_run(const render::FrameRenderer& renderer,
                                              const frame::SampleCounts& counts) const override {
-        return stimuli_->in_run(renderer, counts);
+        return stimuli_->lists().in_run(renderer, counts);
     }
     [[nodiscard]] frame::FrameGpuRecord in_run(const render::FrameRenderer& renderer,
                                                const frame::FrameGpuRecord& record) const override {
-        return stimuli_->in_run(renderer, record);
+        return stimuli_->lists().in_run(renderer, record);
     }
     void release() override { stimuli_.reset(); }
 

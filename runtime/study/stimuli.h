@@ -9,6 +9,7 @@
 
 #include "runtime/render/frame_chooser.h"
 #include "runtime/render/frame_renderer.h"
+#include "runtime/render/run_lists.h"
 
 namespace gazeloop::study {
 
@@ -38,12 +39,8 @@ class Stimuli {
     /// (Usage) for a pass or a grid that no sample has.
     [[nodiscard]] render::FrameRenderer& of(const Stimulus& stimulus);
 
-    [[nodiscard]] const frame::PassList& passes() const { return passes_; }
-    [[nodiscard]] const frame::GridList& grids() const { return grids_; }
-    [[nodiscard]] frame::SampleCounts in_run(const render::FrameRenderer& renderer,
-                                             const frame::SampleCounts& counts) const;
-    [[nodiscard]] frame::FrameGpuRecord in_run(const render::FrameRenderer& renderer,
-                                               const frame::FrameGpuRecord& record) const;
+    /// What the renderers draw, as the run's records have it.
+    [[nodiscard]] const render::RunLists& lists() const { return lists_; }
 
     /// The one that is drawn by, the two of the next trial, and those of the last one.
     static constexpr std::size_t kMost = 5;
@@ -56,8 +53,7 @@ class Stimuli {
 
     MakeStimulus make_;
     std::list<Made> made_;  ///< the most recently used first
-    frame::PassList passes_;
-    frame::GridList grids_;
+    render::RunLists lists_{"the study's methods"};
 };
 
 }  // namespace gazeloop::study

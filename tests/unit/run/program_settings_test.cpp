@@ -65,6 +65,8 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "acuity.mar",
       "acuity.pixels_per_degree",
       "fixed.method",
+      "governor.levels",
+      "governor.use",
       "kfr.alpha",
       "kfr.border_px",
       "kfr.close_hole",
@@ -114,8 +116,11 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "sparse.share",
       "sparse.wide_spread"}},
     {Concerns::Output,
-     {"acuity.luminance_cd_m2", "acuity.nasal", "render.depth", "render.frames_in_flight",
-      "render.profile", "render.require", "render.wait_before_latch"}},
+     {"acuity.luminance_cd_m2", "acuity.nasal", "governor.budget_ms", "governor.budget_share",
+      "governor.fit_scale", "governor.floor", "governor.floor_blink", "governor.floor_lost",
+      "governor.floor_saccade", "governor.front", "governor.patience_frames",
+      "governor.settle_frames", "render.depth", "render.frames_in_flight", "render.profile",
+      "render.require", "render.wait_before_latch"}},
     {Concerns::Machine,
      {"layer.blend", "layer.eye_gaze", "layer.foveation", "layer.gaze", "layer.mar",
       "layer.periphery", "layer.quad_views", "layer.record", "layer.unknown_applications",
@@ -150,7 +155,7 @@ TEST(ProgramSettings, OfMethodsAreInUseUnderTheirs) {
     }
     for (const SettingRow& row : settings.rows()) {
         const std::string group = row.key.substr(0, row.key.find('.'));
-        if (group == "gaze") {
+        if (group == "gaze" || group == "governor") {
             continue;  // below
         }
         if (group == "lightfield") {
@@ -201,12 +206,23 @@ TEST(ProgramSettings, OfGazeAreInUseWithTheirFilterOrPrediction) {
     }
 }
 
+TEST(ProgramSettings, OfTheGovernorAreInUseWithIt) {
+    const ProgramSettings settings;
+    for (const SettingRow& row : settings.rows()) {
+        if (row.key.starts_with("governor.") && row.key != "governor.use") {
+            EXPECT_EQ(row.only_while.key, "governor.use") << row.key;
+            EXPECT_THAT(row.only_while.values, testing::ElementsAre("on", "software")) << row.key;
+        }
+    }
+}
+
 TEST(ProgramSettings, GiveEveryMemberARow) {
     const auto expect_all = []<typename Group>(Group group) {
         EXPECT_EQ(rows_of(group).size(), tests::member_count<Group>())
             << rows_of(group).front().key;
     };
     expect_all(gaze::GazeSettings());
+    expect_all(governor::GovernorSettings());
     expect_all(drivers::hid::HidSettings());
     expect_all(openxr_layer::LayerSettings());
     expect_all(drivers::steam_frame::SteamFrameSettings());
