@@ -199,10 +199,10 @@ TEST(FoveationCalls, AreThereForWhoAsksOnly) {
 
 TEST(Permissions, KeepThatFoveationAloneIsAllowed) {
     Permissions permissions;
-    permissions.set("/usr/bin/game", Permissions::Answer::FoveationOnly);
+    permissions.set("/opt/game", Permissions::Answer::FoveationOnly);
     const auto again = Permissions::parse(permissions.text(), "list");
     ASSERT_TRUE(again) << again.error().message;
-    EXPECT_EQ(again->of("/usr/bin/game"), Permissions::Answer::FoveationOnly);
+    EXPECT_EQ(again->of("/opt/game"), Permissions::Answer::FoveationOnly);
 }
 
 }  // namespace

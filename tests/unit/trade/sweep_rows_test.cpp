@@ -156,7 +156,8 @@ TEST(SettingFit, FindsTheLawsThatThePointsFollow) {
     EXPECT_NEAR(cells.exponents[1].second, 0.3, 1e-6);
     EXPECT_LT(cells.worst_percent, 1e-3);
     EXPECT_NEAR(fits[0].laws[2].exponents[0].second, 1.5, 1e-6);
-    EXPECT_GT(fits[0].laws[1].standard_error_percent, 0.1);  // a line is no power law, and the fit says so
+    EXPECT_GT(fits[0].laws[1].standard_error_percent,
+              0.1);  // a line is no power law, and the fit says so
     ASSERT_TRUE(fits[0].time);
     EXPECT_NEAR(fits[0].time->fixed_ms, 0.5, 1e-9);
     EXPECT_NEAR(fits[0].time->ns_per_cell, 30.0, 1e-9);
