@@ -8,13 +8,15 @@ namespace gazeloop::gaze {
 /// may have done since the newest sample, `ahead_s` before the frame is shown:
 ///
 /// - At rest, for a share of the largest saccade that can have begun and landed unseen. Most that
-///   do are smaller, and one in flight is not seen by its own eye.
+///   do are smaller, and one in flight is not seen by its own eye. Where gaze is shown late, for
+///   all of it but some degrees.
 /// - Once the newest sample departs from rest, for the saccade that this may be.
 /// - In a saccade, and so after its landing until samples show it, for what the forecast leaves:
 ///   most when it has just begun.
 /// - Just found again after a loss, for what happened meanwhile.
 ///
-/// NaN counts as 0. Chosen on simulated persons (tests/support/misses), reported on others by
+/// Of the last three no more than an eye moves in `ahead_s`. NaN counts as 0. Chosen on simulated
+/// persons (tests/support/misses), reported on others by
 /// `./dev bench misses`.
 [[nodiscard]] double event_widening_deg(const SeenMotion& seen, double ahead_s);
 
