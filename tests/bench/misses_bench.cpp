@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "tests/bench/bench.h"
 #include "tests/support/misses/sharp_region.h"
@@ -56,7 +60,7 @@ std::vector<Figure> misses(const Options& options) {
                 continue;
             }
             const tests::SharpRegion sharp(tests::square_view(display.side_px, display.across_deg));
-            const auto add = [&](std::string metric, double value, const char* unit,
+            const auto add = [&](const std::string& metric, double value, const char* unit,
                                  const char* better, std::optional<double> target) {
                 figures.push_back(
                     {kBench, display.name,

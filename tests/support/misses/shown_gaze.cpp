@@ -57,9 +57,7 @@ std::vector<ShownGaze> shown_gaze(const sim::GazeSimulation& person, const Heads
                 {.error_deg = glm::degrees(gaze::angle_between(looked, point.direction)),
                  .widening_deg = glm::degrees(point.uncertainty_rad.value_or(0.0)),
                  .in_flight = truth.movement == sim::Movement::Saccade,
-                 .covered = truth.eyes[eye].openness < kPupilCovered,
-                 .state = point.state,
-                 .event = point.event});
+                 .covered = truth.eyes[eye].openness < kPupilCovered});
         }
     }
     return shown;

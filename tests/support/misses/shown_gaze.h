@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "runtime/gaze/gaze_to_fovea.h"
@@ -14,8 +13,6 @@ struct ShownGaze {
     double widening_deg = 0.0;  ///< FoveaPoint::uncertainty_rad; 0 where it is none
     bool in_flight = false;     ///< a saccade is under way: the eye sees little
     bool covered = false;       ///< the lids cover the pupil: it sees nothing
-    gaze::FoveaState state = gaze::FoveaState::Ahead;
-    std::optional<gaze::EyeEvent> event;
 };
 
 /// What is shown: pictures of these views (with the head at the origin), each read at a multiple of
