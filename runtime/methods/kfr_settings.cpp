@@ -92,11 +92,14 @@ std::vector<settings::SettingRow> rows_of(KfrSettings& kfr) {
     using settings::Concerns;
     using settings::Number;
     using settings::Whole;
-    const settings::OnlyWhile only = only_under({"kfr", "kfr3d"});
+    const settings::OnlyWhile only = only_under({"kfr", "kfr3d", "interleaved"});
     return {
         {"kfr.alpha", "exponent of the kernels power (x^alpha) and power-as-printed",
          Number{&kfr.alpha, PowerKernel::kMinAlpha, PowerKernel::kMaxAlpha}, Concerns::Picture,
          only},
+        {"kfr.aspect",
+         "LP-buffer width / height, as many texels; 0: the picture's, and .35 if interleaved",
+         Number{&kfr.aspect, 0.0, KfrParameters::kMaxAspect}, Concerns::Picture, only},
         {"kfr.border_px", "width of the blend between disc and LP-buffer, px",
          Number{&kfr.border_px, 0.0, 64.0}, Concerns::Picture, only},
         {"kfr.close_hole", "without the disc: still shade the kernel's hole at the fovea directly",
@@ -111,9 +114,9 @@ std::vector<settings::SettingRow> rows_of(KfrSettings& kfr) {
          Choice{.value = &kfr.kernel_samples}, Concerns::Picture, only},
         {"kfr.kernel_table", "a .csv or .toml file with the samples of the kernel table",
          settings::Path{&kfr.kernel_table, ""}, Concerns::Picture, only},
-        {"kfr.lp_height", "rows of the LP-buffer; 0: picture height / sigma",
+        {"kfr.lp_height", "rows of the LP-buffer; 0: by kfr.sigma and kfr.aspect",
          Whole{&kfr.lp_height, 0, foveation::LpSize::kMaxSide}, Concerns::Picture, only},
-        {"kfr.lp_width", "columns of the LP-buffer; 0: picture width / sigma",
+        {"kfr.lp_width", "columns of the LP-buffer; 0: by kfr.sigma and kfr.aspect",
          Whole{&kfr.lp_width, 0, foveation::LpSize::kMaxSide}, Concerns::Picture, only},
         {"kfr.polynomial", "coefficients of the kernel polynomial, of x, x^2, ...; sum 1",
          settings::NumberList{&kfr.polynomial}, Concerns::Picture, only},
@@ -168,6 +171,7 @@ Expected<foveation::KfrParameters> parameters(const KfrSettings& kfr,
                                     .border_px = kfr.border_px,
                                     .lp_width = static_cast<std::uint32_t>(kfr.lp_width),
                                     .lp_height = static_cast<std::uint32_t>(kfr.lp_height),
+                                    .aspect = kfr.aspect,
                                     .close_hole = kfr.close_hole};
 }
 

@@ -19,6 +19,7 @@ struct KfrSettings {
     std::string kernel_table;
     std::int64_t lp_width = 0;
     std::int64_t lp_height = 0;
+    double aspect = 0.0;
     bool disc = true;
     bool close_hole = false;
     double border_px = 6.0;

@@ -2,6 +2,7 @@
 
 #include "runtime/methods/acuity_settings.h"
 #include "runtime/methods/fixed_settings.h"
+#include "runtime/methods/interleaved_settings.h"
 #include "runtime/methods/kfr3d_settings.h"
 #include "runtime/methods/kfr_settings.h"
 #include "runtime/methods/layers_settings.h"
@@ -15,6 +16,7 @@ namespace gazeloop::methods {
 struct MethodSettings {
     AcuitySettings acuity;
     FixedSettings fixed;
+    InterleavedSettings interleaved;
     KfrSettings kfr;
     Kfr3dSettings kfr3d;
     LayersSettings layers;

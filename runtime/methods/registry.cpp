@@ -14,12 +14,13 @@ Method rings_method();
 Method sparse_method();
 Method quad_method();
 Method kfr3d_method();
+Method interleaved_method();
 Method fixed_method();
 
 std::span<const Method> all_methods() {
-    static const std::array kMethods{full_method(),   kfr_method(),   acuity_method(),
-                                     layers_method(), rings_method(), sparse_method(),
-                                     quad_method(),   kfr3d_method(), fixed_method()};
+    static const std::array kMethods{
+        full_method(),   kfr_method(),  acuity_method(), layers_method(),      rings_method(),
+        sparse_method(), quad_method(), kfr3d_method(),  interleaved_method(), fixed_method()};
     return kMethods;
 }
 

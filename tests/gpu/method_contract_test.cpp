@@ -25,6 +25,8 @@ const std::map<std::string, std::vector<NamedValue>> kEverything{
     {"layers", {{"acuity.mar", "0.0001"}, {"layers.temporal", "false"}}},
     {"quad", {{"quad.section", "1"}}},
     {"kfr3d", {{"kfr.sigma", "0.5"}}},
+    {"interleaved",
+     {{"kfr.sigma", "0.5"}, {"interleaved.every", "1"}, {"interleaved.disc_every", "1"}}},
     {"fixed", {{"kfr.sigma", "0.5"}}}};
 
 struct Situation {

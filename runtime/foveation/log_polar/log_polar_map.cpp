@@ -52,12 +52,23 @@ Expected<LpSize> lp_buffer_size(const KfrParameters& parameters, ImageSize image
                               "{} px",
                               image.width_px, image.height_px, LpSize::kMaxSide)));
     }
-    const auto side = [&](std::uint32_t stated, std::uint32_t pixels) {
-        return stated != 0 ? stated
-                           : static_cast<std::uint32_t>(std::lround(pixels / parameters.sigma));
+    if (!in_range(parameters.aspect, 0.0, KfrParameters::kMaxAspect)) {
+        return std::unexpected(usage(fmt::format("kfr.aspect = {}: must lie in [0, {}]",
+                                                 parameters.aspect, KfrParameters::kMaxAspect)));
+    }
+    double width = image.width_px / parameters.sigma;
+    double height = image.height_px / parameters.sigma;
+    if (parameters.aspect > 0.0) {
+        const double texels = width * height;
+        // No further than what is refused below.
+        constexpr double kTooLong = 2.0 * LpSize::kMaxSide;
+        width = std::min(std::sqrt(texels * parameters.aspect), kTooLong);
+        height = std::min(std::sqrt(texels / parameters.aspect), kTooLong);
+    }
+    const auto side = [](std::uint32_t stated, double texels) {
+        return stated != 0 ? stated : static_cast<std::uint32_t>(std::lround(texels));
     };
-    const LpSize size{side(parameters.lp_width, image.width_px),
-                      side(parameters.lp_height, image.height_px)};
+    const LpSize size{side(parameters.lp_width, width), side(parameters.lp_height, height)};
     if (!size.in_range()) {
         return std::unexpected(usage(fmt::format(
             "kfr.sigma = {}, kfr.lp_width = {} and kfr.lp_height = {} make an LP-buffer of {}x{} "

@@ -13,6 +13,7 @@ namespace gazeloop::foveation {
 struct KfrParameters {
     static constexpr double kMinSigma = 0.5;
     static constexpr double kMaxSigma = 32.0;
+    static constexpr double kMaxAspect = 16.0;
 
     double sigma = 1.8;  ///< picture width over LP-buffer width, [kMinSigma, kMaxSigma]
     RadialKernel kernel{};
@@ -20,12 +21,16 @@ struct KfrParameters {
     double border_px = 6.0;       ///< width of the blend from disc to LP-buffer, [0, 64]
     std::uint32_t lp_width = 0;   ///< the LP-buffer's; 0: the picture's over sigma
     std::uint32_t lp_height = 0;  ///< likewise
+    /// The LP-buffer's width over its height, [0, kMaxAspect], with as many texels as by sigma; 0:
+    /// the picture's. A side that is stated stays as it is.
+    double aspect = 0.0;
     /// Without the disc: still shade the few pixels around the fovea directly where there is less
     /// than one column per pixel (LogPolarMap::hole_radius_px).
     bool close_hole = false;
 };
 
-/// The LP-buffer's size: as stated, else W/sigma x H/sigma, rounded. Errors (Usage):
+/// The LP-buffer's size: as stated, else W/sigma x H/sigma (or as aspect says), rounded. Errors
+/// (Usage):
 ///  - a parameter out of range or not a number;
 ///  - a picture under 2 x 2 px, or an LP-buffer under 2 x 4 texels;
 ///  - a side of either over 16384.

@@ -68,6 +68,7 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "governor.levels",
       "governor.use",
       "kfr.alpha",
+      "kfr.aspect",
       "kfr.border_px",
       "kfr.close_hole",
       "kfr.disc",
@@ -78,6 +79,12 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "kfr.lp_width",
       "kfr.polynomial",
       "kfr.sigma",
+      "interleaved.disc_every",
+      "interleaved.every",
+      "interleaved.follow",
+      "interleaved.hold",
+      "interleaved.jitter",
+      "interleaved.visits",
       "kfr3d.growth",
       "kfr3d.inner",
       "kfr3d.regions",
@@ -172,6 +179,7 @@ TEST(ProgramSettings, OfMethodsAreInUseUnderTheirs) {
         }
         if (group == "kfr") {
             expected.emplace_back("kfr3d");  // whose foveal region it is
+            expected.emplace_back("interleaved");  // whose texels these are
         }
         if (group != "fixed") {
             expected.emplace_back("fixed");  // which may stand for any of them

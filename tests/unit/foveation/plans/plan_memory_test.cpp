@@ -6,6 +6,7 @@
 
 #include "runtime/foveation/plans/acuity_plan.h"
 #include "runtime/foveation/plans/full_plan.h"
+#include "runtime/foveation/plans/interleaved_plan.h"
 #include "runtime/foveation/plans/kfr3d_plan.h"
 #include "runtime/foveation/plans/kfr_plan.h"
 #include "runtime/foveation/plans/layered_plan.h"
@@ -61,6 +62,14 @@ TEST(PlanMemory, OfFullDoesNotGrowWithTheGaze) {
 TEST(PlanMemory, OfKfrDoesNotGrowWithTheGaze) {
     for (const bool disc : {true, false}) {
         KfrPlan method({.disc = disc, .close_hole = true});
+        expect_memory_of_the_first_plan(method);
+    }
+}
+
+TEST(PlanMemory, OfTexelsThatTakeTurnsDoesNotGrowWithTheGaze) {
+    for (const std::uint32_t every : {1U, 8U}) {
+        InterleavedPlan method(std::make_unique<KfrPlan>(KfrParameters{.aspect = 0.35}), {every},
+                               {every});
         expect_memory_of_the_first_plan(method);
     }
 }

@@ -1,0 +1,469 @@
+#include "runtime/render/passes/interleaved_passes.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+
+#include "runtime/foveation/plans/interleaved_plan.h"
+#include "runtime/foveation/plans/kfr_plan.h"
+#include "runtime/render/frame_uniforms.h"
+#include "runtime/render/map_buffers.h"
+#include "runtime/render/passes/drawing.h"
+#include "runtime/render/passes/log_polar_sets.h"
+#include "runtime/render/passes/planned_passes.h"
+#include "runtime/vulkan/history.h"
+#include "runtime/vulkan/pipelines.h"
+
+namespace gazeloop::render {
+namespace {
+
+using foveation::InterleavedPlan;
+using foveation::MapUniforms;
+using Type = vk::DescriptorType;
+
+/// Nothing that is kept is rounded to halves, because the error would add up; and the last bits of
+/// nearness carry more.
+constexpr vk::Format kKeptFormat = vk::Format::eR32G32B32A32Sfloat;
+
+/// Set 2: the map, InterleavedUniforms, then images.
+constexpr std::array kInterleavedBindings{kMapBindings[0],
+                                          kMapBindings[1],
+                                          kMapBindings[2],
+                                          kMapBindings[3],
+                                          kMapBindings[4],
+                                          Type::eUniformBuffer,
+                                          Type::eCombinedImageSampler,   // texels before
+                                          Type::eCombinedImageSampler,   // pixels before
+                                          Type::eCombinedImageSampler,   // cells of texels
+                                          Type::eCombinedImageSampler,   // cells of pixels
+                                          Type::eCombinedImageSampler,   // texels
+                                          Type::eCombinedImageSampler};  // pixels
+enum InterleavedBinding : std::uint32_t {
+    kUniforms = 5,
+    kBefore = 6,
+    kCells = 8,
+    kNow = 10,
+};
+
+/// Constants of the shaders (shaders/lib/interleaved.glsl, shaders/resolve/interleaved_keep.frag).
+enum InterleavedConstant : std::uint32_t {
+    kTexelBlockWidth = kOfMethod,
+    kTexelBlockHeight,
+    kPixelBlockWidth,
+    kPixelBlockHeight,
+    kFollows,
+    kPixels,
+    kHeld,
+};
+
+/// The grids of a plan.
+enum Grid : std::size_t { kOfTexels, kOfPixels, kGrids };
+constexpr std::array kEveryGrid{kOfTexels, kOfPixels};
+
+/// std140, shaders/lib/interleaved.glsl.
+struct InterleavedUniforms {
+    glm::vec4 turn{0.0F};
+    glm::vec4 cells{0.0F};
+    glm::vec4 first_bands{0.0F};
+    glm::vec4 before{0.0F};
+    glm::vec4 map_before{0.0F};
+    std::array<glm::vec4, kMaxSamples> texel_offsets{};
+    std::array<glm::vec4, kMaxSamples> pixel_offsets{};
+};
+static_assert(sizeof(InterleavedUniforms) == 16 * std::size_t{5 + 2 * kMaxSamples});
+
+constexpr std::size_t kMapVectors = sizeof(MapUniforms) / sizeof(glm::vec4);
+
+/// Sample positions of one visit: those of every frame, moved together along a sequence that fills
+/// the cell evenly (Roberts's R2), and back in where they leave it.
+std::array<glm::dvec2, kMaxSamples> visit_offsets(std::uint32_t samples, std::uint64_t visit) {
+    constexpr glm::dvec2 kStep(0.7548776662466927, 0.5698402909980532);
+    constexpr std::uint64_t kPeriod = 1024;  // so that products stay exact enough
+    const glm::dvec2 moved = kStep * static_cast<double>(visit % kPeriod);
+    auto offsets = sample_offsets(samples);
+    for (std::size_t s = 0; visit > 0 && s < samples; ++s) {
+        const glm::dvec2 at = offsets[s] + moved + 0.5;
+        offsets[s] = at - glm::floor(at) - 0.5;
+    }
+    return offsets;
+}
+
+/// The rectangle that holds every column of the bands of a table.
+foveation::Tile bounds(std::span<const std::uint32_t> bands, std::uint32_t rows) {
+    foveation::Tile all{.x0 = ~0U, .y0 = ~0U};
+    for (std::size_t band = 0; 2 * band < bands.size(); ++band) {
+        if (bands[2 * band] < bands[2 * band + 1]) {
+            const auto y0 = static_cast<std::uint32_t>(band * foveation::kBandRows);
+            all.x0 = std::min(all.x0, bands[2 * band]);
+            all.x1 = std::max(all.x1, bands[2 * band + 1]);
+            all.y0 = std::min(all.y0, y0);
+            all.y1 = std::min(y0 + foveation::kBandRows, rows);
+        }
+    }
+    return all;
+}
+
+class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
+  public:
+    InterleavedPasses(const PassSetup& setup, const InterleavedConfig& config,
+                      const foveation::KfrParameters& parameters)
+        : PlannedPasses(
+              frame::PassList{"pass_i", "disc", "keep", "resolve"},
+              std::make_unique<InterleavedPlan>(std::make_unique<foveation::KfrPlan>(parameters),
+                                                config.texels, config.pixels)),
+          setup_(setup),
+          config_(config) {
+        const vk::raii::Device& device = setup.context.device();
+        set_layout_ = vulkan::make_set_layout(device, kInterleavedBindings,
+                                              vk::ShaderStageFlagBits::eFragment);
+        layout_ = vulkan::make_pipeline_layout(
+            device, {setup.frame_layout, setup.scene.inputs(), *set_layout_}, setup.empty_layout);
+        sampler_ = make_sampler(device, vk::Filter::eNearest);
+        make_pipelines();
+        const std::uint32_t sets = setup.slots * static_cast<std::uint32_t>(gaze::kEyeCount);
+        const std::array sizes{vk::DescriptorPoolSize(Type::eUniformBuffer, 3 * sets),
+                               vk::DescriptorPoolSize(Type::eStorageBuffer, 3 * sets),
+                               vk::DescriptorPoolSize(Type::eCombinedImageSampler, 6 * sets)};
+        pool_ = vk::raii::DescriptorPool(
+            device, vk::DescriptorPoolCreateInfo(
+                        vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, sets, sizes));
+        slots_.resize(setup.slots);
+        for (auto& slot : slots_) {
+            for (EyeSlot& at : slot) {
+                constexpr auto kUniform = vk::BufferUsageFlagBits::eUniformBuffer;
+                at.map = vulkan::HostBuffer(setup.context, sizeof(MapUniforms), kUniform);
+                at.uniforms =
+                    vulkan::HostBuffer(setup.context, sizeof(InterleavedUniforms), kUniform);
+                at.set = std::move(vk::raii::DescriptorSets(
+                    device, vk::DescriptorSetAllocateInfo(*pool_, *set_layout_))[0]);
+            }
+        }
+    }
+
+    void record_after_gaze(vulkan::PassRecorder& recorder, const FrameRecording& frame,
+                           const gaze::PerEye<foveation::EyePlan>& plans) override {
+        // Sets may not change once commands have bound them.
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            advance(frame, e, plans[e]);
+        }
+        const auto any = [&](std::size_t grid) {
+            return !plans[0].grids[grid].tiles.empty() || !plans[1].grids[grid].tiles.empty();
+        };
+        const auto shade = [&](const vk::raii::CommandBuffer& commands, std::size_t grid) {
+            for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+                shade_grid(commands, frame, e, grid, plans[e].grids[grid].tiles);
+            }
+        };
+        if (any(kOfTexels)) {
+            shade(recorder.begin("pass_i"), kOfTexels);
+        }
+        if (any(kOfPixels)) {
+            shade(recorder.begin("disc"), kOfPixels);
+        }
+        const vk::raii::CommandBuffer& keeping = recorder.begin("keep");
+        for (const std::size_t grid : kEveryGrid) {
+            // A grid without any cell is not submitted for itself; what it has to prepare goes
+            // along.
+            if (!any(grid)) {
+                shade(keeping, grid);
+            }
+        }
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            for (const std::size_t grid : kEveryGrid) {
+                keep(keeping, frame, e, grid, plans[e]);
+            }
+            eyes_[e].map_before = foveation::map_uniforms_of(plans[e]);
+            eyes_[e].bands_before.assign(plans[e].table.begin(), plans[e].table.end());
+        }
+        const vk::raii::CommandBuffer& commands = recorder.begin("resolve");
+        draw_pictures(commands, frame, setup_, [&](std::size_t e) {
+            bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
+            draw_resolve(commands, e, plans[e], frame.view.hidden[e].get());
+        });
+    }
+
+  private:
+    /// What an eye keeps from frame to frame.
+    struct Eye {
+        std::optional<MapBuffers> map;
+        std::array<vulkan::History, kGrids> kept;
+        std::array<vulkan::TrackedColorImage, kGrids> cells;
+        MapUniforms map_before;
+        std::vector<std::uint32_t> bands_before;
+        std::optional<CutPlace> place_before;
+        bool any_before = false;  ///< something is kept for the frame at hand
+    };
+
+    /// What a frame owns until the GPU has finished it.
+    struct EyeSlot {
+        vulkan::HostBuffer map;
+        vulkan::HostBuffer uniforms;
+        vulkan::HostBuffer bands;
+        vk::raii::DescriptorSet set{nullptr};
+    };
+
+    [[nodiscard]] const foveation::CellTurns& turns(std::size_t grid) const {
+        return grid == kOfPixels ? config_.pixels : config_.texels;
+    }
+
+    /// Texels or pixels of a grid.
+    [[nodiscard]] vk::Extent2D extent(std::size_t e, std::size_t grid) const {
+        const foveation::LpSize lp = plan().whole().lp(gaze::kEyes.at(e));
+        return grid == kOfPixels ? setup_.extents[e] : vk::Extent2D(lp.width, lp.height);
+    }
+    [[nodiscard]] vk::Extent2D cells(std::size_t e, std::size_t grid) const {
+        const vk::Extent2D whole = extent(e, grid);
+        return {turns(grid).columns(whole.width), turns(grid).rows(whole.height)};
+    }
+
+    void attach() override {
+        const vk::raii::Device& device = setup_.context.device();
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const std::size_t e = gaze::index(eye);
+            Eye& at = eyes_[e];
+            at = {};
+            at.map.emplace(setup_.context, plan().whole().tables(eye), setup_.samples,
+                           plan().whole().lp(eye).height);
+            std::size_t bands = 0;
+            for (const std::size_t grid : kEveryGrid) {
+                using Usage = vk::ImageUsageFlagBits;
+                at.kept.at(grid) = vulkan::History(setup_.context, extent(e, grid), kKeptFormat);
+                at.cells.at(grid) = {setup_.context, cells(e, grid), kKeptFormat,
+                                     Usage::eColorAttachment | Usage::eSampled};
+                bands += InterleavedPlan::bands(cells(e, grid).height) +
+                         2 * InterleavedPlan::bands(extent(e, grid).height);
+            }
+            for (auto& slot : slots_) {
+                slot[e].bands =
+                    vulkan::HostBuffer(setup_.context, bands * sizeof(foveation::Columns),
+                                       vk::BufferUsageFlagBits::eStorageBuffer);
+                write_map(device, *slot[e].set, slot[e].map.buffer(), *at.map,
+                          slot[e].bands.buffer());
+                const vk::DescriptorBufferInfo info(slot[e].uniforms.buffer(), 0, VK_WHOLE_SIZE);
+                device.updateDescriptorSets(vk::WriteDescriptorSet(*slot[e].set, kUniforms, 0,
+                                                                   Type::eUniformBuffer, {}, info),
+                                            {});
+                for (const std::size_t grid : kEveryGrid) {
+                    write_image(device, *slot[e].set, kCells + static_cast<std::uint32_t>(grid),
+                                *sampler_, at.cells.at(grid).image.view());
+                }
+            }
+        }
+    }
+
+    void make_pipelines() {
+        const vk::raii::Device& device = setup_.context.device();
+        const std::array weaving{
+            vulkan::ShaderConstant{kTexelBlockWidth, config_.texels.block_width()},
+            vulkan::ShaderConstant{kTexelBlockHeight, config_.texels.block_height()},
+            vulkan::ShaderConstant{kPixelBlockWidth, config_.pixels.block_width()},
+            vulkan::ShaderConstant{kPixelBlockHeight, config_.pixels.block_height()},
+            vulkan::ShaderConstant{kFollows, config_.follow ? 1U : 0U}};
+        auto shading = with_scene(setup_.scene, {{kSamples, setup_.samples}});
+        shading.insert(shading.end(), weaving.begin(), weaving.end());
+        shade_ = vulkan::make_pipeline(
+            device, layout_,
+            {.vertex = "tiles.vert",
+             .fragment = fmt::format("{}.interleaved.frag", setup_.scene.shader()),
+             .format = kKeptFormat,
+             .constants = shading});
+        for (const std::size_t grid : kEveryGrid) {
+            std::vector<vulkan::ShaderConstant> keeping(weaving.begin(), weaving.end());
+            keeping.push_back({kPixels, grid == kOfPixels ? 1U : 0U});
+            keeping.push_back({kHeld, config_.hold ? 1U : 0U});
+            keep_.at(grid) = vulkan::make_pipeline(device, layout_,
+                                                   {.vertex = "full_screen.vert",
+                                                    .fragment = "interleaved_keep.frag",
+                                                    .format = kKeptFormat,
+                                                    .constants = keeping});
+        }
+        for (const std::uint32_t disc : {0U, 1U}) {
+            const std::array resolving{
+                vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup_.format) ? 0U : 1U},
+                vulkan::ShaderConstant{kWithDisc, disc}};
+            resolve_.at(disc) =
+                vulkan::make_pipeline(device, layout_,
+                                      {.vertex = "full_screen.vert",
+                                       .fragment = resolve_shader("interleaved", setup_),
+                                       .format = setup_.format,
+                                       .depth_format = setup_.depth_format,
+                                       .constants = resolving});
+        }
+    }
+
+    /// Begins a frame of an eye's histories, and tells the shaders of it.
+    void advance(const FrameRecording& frame, std::size_t e, const foveation::EyePlan& plan) {
+        Eye& eye = eyes_[e];
+        const CutPlace place{frame.view.views[e].pose, frame.view.scene_time_s};
+        const bool follows = frame.in_run.follows && eye.place_before &&
+                             !is_cut(*eye.place_before, place) &&
+                             eye.bands_before.size() == plan.table.size();
+        eye.place_before = place;
+        eye.any_before = follows;
+        const EyeSlot& at = slots_[frame.slot][e];
+        const vk::raii::Device& device = setup_.context.device();
+        for (const std::size_t grid : kEveryGrid) {
+            vulkan::History& kept = eye.kept.at(grid);
+            if (!follows) {
+                kept.reset();
+            }
+            kept.advance();
+            const auto number = static_cast<std::uint32_t>(grid);
+            write_image(device, *at.set, kBefore + number, *sampler_, kept.other().image.view());
+            write_image(device, *at.set, kNow + number, *sampler_, kept.now().image.view());
+        }
+        write_uniforms(frame, e, plan);
+    }
+
+    void write_uniforms(const FrameRecording& frame, std::size_t e,
+                        const foveation::EyePlan& plan) {
+        const Eye& eye = eyes_[e];
+        EyeSlot& at = slots_[frame.slot][e];
+        at.map.write(std::span(plan.uniforms).first(kMapVectors));
+        InterleavedUniforms told;
+        const auto turn_of = [&](std::size_t grid) {
+            return turns(grid).place(frame.in_run.index);
+        };
+        const auto vector = [](auto x, auto y, auto z, auto w) {
+            return glm::vec4(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
+                             static_cast<float>(w));
+        };
+        told.turn = vector(turn_of(kOfTexels).x, turn_of(kOfTexels).y, turn_of(kOfPixels).x,
+                           turn_of(kOfPixels).y);
+        const vk::Extent2D texel_cells = cells(e, kOfTexels);
+        const vk::Extent2D pixel_cells = cells(e, kOfPixels);
+        told.cells =
+            vector(texel_cells.width, texel_cells.height, pixel_cells.width, pixel_cells.height);
+        // Cells of texels, of pixels; texels and pixels of this frame, of the last one.
+        const std::size_t of_pixel_cells = InterleavedPlan::bands(texel_cells.height);
+        const std::size_t of_texels = of_pixel_cells + InterleavedPlan::bands(pixel_cells.height);
+        const std::size_t texel_bands = InterleavedPlan::bands(extent(e, kOfTexels).height);
+        const std::size_t of_texels_before = of_texels + plan.table.size() / 2;
+        told.first_bands =
+            vector(of_pixel_cells, of_texels, of_texels + texel_bands, of_texels_before);
+        told.before =
+            vector(eye.any_before ? 1 : 0, of_texels_before + texel_bands, config_.visits, 0);
+        const auto write_bands = [&](std::size_t first, std::span<const std::uint32_t> words) {
+            at.bands.write(words, first * sizeof(foveation::Columns));
+        };
+        const auto write_cells = [&](std::size_t first, std::size_t bands, std::size_t grid) {
+            static constexpr foveation::Columns kNone{};
+            const auto& planned = plan.grids[grid].bands;
+            for (std::size_t band = 0; band < bands; ++band) {
+                at.bands.write(std::span(band < planned.size() ? &planned[band] : &kNone, 1),
+                               (first + band) * sizeof(foveation::Columns));
+            }
+        };
+        write_cells(0, of_pixel_cells, kOfTexels);
+        write_cells(of_pixel_cells, of_texels - of_pixel_cells, kOfPixels);
+        write_bands(of_texels, plan.table);
+        // Where nothing is kept, this frame's stand in: the shaders compute with them all the same.
+        write_bands(of_texels_before, eye.any_before ? eye.bands_before : plan.table);
+        const MapUniforms before =
+            eye.any_before ? eye.map_before : foveation::map_uniforms_of(plan);
+        told.map_before = {before.fovea_and_log2.x, before.fovea_and_log2.y,
+                           before.radius_and_bands.y, before.fovea_and_log2.w};
+        const auto offsets = [&](std::size_t grid) {
+            return visit_offsets(setup_.samples,
+                                 config_.jitter ? frame.in_run.index / turns(grid).every : 0);
+        };
+        const auto of_texel = offsets(kOfTexels);
+        const auto of_pixel = offsets(kOfPixels);
+        const double row_rad = 2.0 * std::numbers::pi / extent(e, kOfTexels).height;
+        for (std::size_t s = 0; s < setup_.samples; ++s) {
+            const double turned_rad = of_texel[s].y * row_rad;
+            told.texel_offsets[s] =
+                vector(of_texel[s].x, of_texel[s].y, std::cos(turned_rad), std::sin(turned_rad));
+            told.pixel_offsets[s] = vector(of_pixel[s].x, of_pixel[s].y, 0, 0);
+        }
+        at.uniforms.write(told);
+    }
+
+    /// Shades cells of a grid and makes them readable.
+    void shade_grid(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
+                    std::size_t e, std::size_t grid, std::span<const foveation::Tile> tiles) {
+        Eye& eye = eyes_[e];
+        for (vulkan::History& kept : eye.kept) {
+            kept.other().tracked.use(
+                commands, vulkan::Use::Sampled,
+                eye.any_before ? vulkan::Keep::Content : vulkan::Keep::Nothing);
+        }
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *shade_);
+        bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
+        shade_cells(commands, eye.cells.at(grid), tiles, grid == kOfPixels ? 1 : 0,
+                    setup_.unshaded);
+    }
+
+    /// The rectangle of a grid's texels or pixels that the picture reads.
+    [[nodiscard]] foveation::Tile needed(std::size_t e, std::size_t grid,
+                                         const foveation::EyePlan& plan) const {
+        const std::size_t texel_words =
+            2 * std::size_t{InterleavedPlan::bands(extent(e, kOfTexels).height)};
+        const std::span<const std::uint32_t> table = plan.table;
+        return bounds(grid == kOfTexels ? table.first(texel_words) : table.subspan(texel_words),
+                      extent(e, grid).height);
+    }
+
+    /// Weaves a grid's cells into what was kept.
+    void keep(const vk::raii::CommandBuffer& commands, const FrameRecording& frame, std::size_t e,
+              std::size_t grid, const foveation::EyePlan& plan) {
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *keep_.at(grid));
+        bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
+        const foveation::Tile tile = needed(e, grid, plan);
+        shade_cells(commands, eyes_[e].kept.at(grid).now(),
+                    std::span(&tile, tile.x0 < tile.x1 ? 1 : 0), 0, setup_.unshaded);
+    }
+
+    /// The whole picture from the LP-buffer, then the disc over it.
+    void draw_resolve(const vk::raii::CommandBuffer& commands, std::size_t e,
+                      const foveation::EyePlan& plan, const foveation::HiddenArea* hidden) const {
+        if (!plan.grids[kOfTexels].tiles.empty()) {
+            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_[0]);
+            draw_visible(commands, hidden);
+        }
+        const foveation::Tile tile = needed(e, kOfPixels, plan);
+        if (tile.x0 < tile.x1) {
+            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_[1]);
+            // Hidden pixels of the disc were not shaded: what lies in their places must not show.
+            draw_visible_tiles(commands, std::span(&tile, 1), hidden);
+        }
+    }
+
+    PassSetup setup_;
+    InterleavedConfig config_;
+    vk::raii::DescriptorSetLayout set_layout_{nullptr};
+    vk::raii::PipelineLayout layout_{nullptr};
+    vk::raii::Sampler sampler_{nullptr};
+    vk::raii::Pipeline shade_{nullptr};
+    std::array<vk::raii::Pipeline, kGrids> keep_{nullptr, nullptr};
+    std::array<vk::raii::Pipeline, 2> resolve_{nullptr, nullptr};  ///< without and with the disc
+    vk::raii::DescriptorPool pool_{nullptr};
+    gaze::PerEye<Eye> eyes_;
+    std::vector<gaze::PerEye<EyeSlot>> slots_;
+};
+
+}  // namespace
+
+bool is_cut(const CutPlace& before, const CutPlace& now) {
+    const double half_turn_cosine =
+        std::abs(glm::dot(before.pose.orientation, now.pose.orientation));
+    return !(glm::distance(before.pose.position_m, now.pose.position_m) <= kCutStep_m &&
+             half_turn_cosine >= std::cos(0.5 * kCutTurn_rad) &&
+             std::abs(now.scene_time_s - before.scene_time_s) <= kCutTime_s);
+}
+
+std::unique_ptr<MethodPasses> make_interleaved_passes(const PassSetup& setup,
+                                                      const InterleavedConfig& config,
+                                                      const foveation::KfrParameters& parameters) {
+    for (const vk::Extent2D extent : setup.extents) {
+        // Checked now, not with the first frame, because it does not depend on the fields of view.
+        (void)value_or_throw(foveation::lp_buffer_size(parameters, {extent.width, extent.height}));
+    }
+    return std::make_unique<InterleavedPasses>(setup, config, parameters);
+}
+
+}  // namespace gazeloop::render

@@ -1,0 +1,152 @@
+// Texels (and the disc's pixels) that take turns: blocks of them are cells, of which each frame
+// shades one place; what the others showed is kept (foveation/plans/interleaved_plan.h). Needs
+// lib/frame.glsl, log_polar.glsl and bands.glsl. The C++ side is
+// InterleavedUniforms in runtime/render/passes/interleaved_passes.cpp.
+layout(std140, set = 2, binding = 5) uniform InterleavedUniforms {
+    vec4 turn;         // place in a block whose turn it is: of texels x, y; of pixels x, y
+    vec4 cells;        // of the LP-buffer: columns, rows; of the picture
+    vec4 first_bands;  // of the picture's cells, of texels, of pixels; of the last frame's texels
+    vec4 before;       // 1, or 0 where nothing is kept; first band of its pixels; most visits; unused
+    vec4 map_before;   // the last frame's map: fovea, px; 1 / (farthest radius)^2; .5 / its log2
+    vec4 texel_offsets[16];  // samples in their texel: x, y; cosine and sine of y rows
+    vec4 pixel_offsets[16];  // samples in their pixel: x, y; unused
+} woven;
+layout(set = 2, binding = 6) uniform sampler2D texels_before;
+layout(set = 2, binding = 7) uniform sampler2D pixels_before;
+
+layout(constant_id = 4) const int kTexelBlockWidth = 1;
+layout(constant_id = 5) const int kTexelBlockHeight = 1;
+layout(constant_id = 6) const int kPixelBlockWidth = 1;
+layout(constant_id = 7) const int kPixelBlockHeight = 1;
+// Whether what is kept follows the view and the gaze; else it stays in its cell.
+layout(constant_id = 8) const bool kFollows = true;
+
+const float kOnItsCentre = 1.0 / 32.0;  // cells; as near, a cell is taken as it is
+const float kCoarser = 2.0;             // side of a kept texel over that of the one it is for
+const float kAsidePerCell = 0.75;       // how far aside a kept surface may be seen, cells
+const float kFarthest = 2e-6;           // 1/m; as far away is infinitely far
+
+// A cell's fourth channel: nearness, with two numbers of 0 to 15 in its last bits. So it is filtered
+// as nearness, to 1 in 2^15.
+float packed_cell(float nearness, float seen, float strangeness) {
+    uint bits = floatBitsToUint(max(nearness, 0.5 * kFarthest)) & ~255u;
+    return uintBitsToFloat(bits | (uint(clamp(seen + 0.5, 0.0, 15.0)) << 4) |
+                           uint(clamp(15.0 * strangeness + 0.5, 0.0, 15.0)));
+}
+// 0: nobody has seen it, it lies between cells around; 1: seen, and moved since; n + 1: the mean of n
+// visits.
+float seen_of(float packed) { return float((floatBitsToUint(packed) >> 4) & 15u); }
+// How far what was shaded is from what was kept of it: 0 alike, 1 nothing in common.
+float strangeness_of(float packed) { return float(floatBitsToUint(packed) & 15u) / 15.0; }
+
+ivec2 block_size(bool pixels) {
+    return pixels ? ivec2(kPixelBlockWidth, kPixelBlockHeight)
+                  : ivec2(kTexelBlockWidth, kTexelBlockHeight);
+}
+ivec2 grid_size(bool pixels) { return ivec2(pixels ? image_size() : lp_size()); }
+ivec2 turn_of(bool pixels) { return ivec2(pixels ? woven.turn.zw : woven.turn.xy); }
+
+// Where in its block the place lies whose turn it is.
+int turn_column(bool pixels, int cell_row) {
+    ivec2 size = block_size(pixels);
+    int shift = size.x != size.y ? (cell_row & 1) * (size.x / 2) : 0;
+    return (turn_of(pixels).x + shift) % size.x;
+}
+ivec2 place_of_cell(bool pixels, ivec2 cell) {
+    ivec2 size = block_size(pixels);
+    ivec2 place = cell * size + ivec2(turn_column(pixels, cell.y), turn_of(pixels).y);
+    return min(place, grid_size(pixels) - 1);
+}
+
+// The position in the picture of a texel's centre, px.
+vec2 position_of_texel(ivec2 texel) {
+    return picture_position(column_radii(texel.x).y, row_table[texel.y]);
+}
+vec2 position_of_place(bool pixels, ivec2 place) {
+    return pixels ? vec2(place) + 0.5 : position_of_texel(place);
+}
+
+// Where the last frame showed what is seen at a position, so far away; the position itself where
+// that was behind the eye, or where there is no last frame. As motion_of_still_px(), but that no
+// uniform decides by itself: lavapipe 22.3 compiles anew where one does.
+vec2 position_before(vec2 position_px, float nearness) {
+    vec3 from_eye = eye.camera_and_time.xyz - eye.last_camera.xyz +
+                    ray_direction(position_px) / max(nearness, 1e-6);
+    vec3 local = vec3(dot(eye.last_view_axes[0].xyz, from_eye),
+                      dot(eye.last_view_axes[1].xyz, from_eye),
+                      dot(eye.last_view_axes[2].xyz, from_eye));
+    vec4 t = eye.last_tangents;
+    vec2 was = (local.xy / max(-local.z, 1e-6) - t.xz) / (t.yw - t.xz) * image_size();
+    return local.z < 0.0 ? was : position_px;
+}
+
+// As lp_share(), by the last frame's map.
+vec2 lp_share_before(vec2 position_px) {
+    vec2 d = position_px - woven.map_before.xy;
+    return vec2(column_share(dot(d, d) * woven.map_before.z, woven.map_before.w), turns(d));
+}
+
+struct Kept {
+    bool any;      // whether there is something that can be used
+    vec3 radiance;
+    float nearness;
+    float seen;    // as seen_of()
+};
+
+// What the last frame left of what is seen at a place, at this position and about so far away.
+Kept kept_of(bool pixels, ivec2 place, vec2 position_px, float nearness) {
+    vec2 was = kFollows ? position_before(position_px, nearness) : position_px;
+    vec2 at = pixels ? was : lp_share_before(was) * lp_size();
+    at = kFollows ? at : vec2(place) + 0.5;
+    ivec2 size = grid_size(pixels);
+    vec2 corner = floor(at - 0.5);
+    vec2 share = at - 0.5 - corner;
+    vec2 whole = step(vec2(0.5), share);
+    bool resampled = any(greaterThan(abs(share - whole), vec2(kOnItsCentre)));
+    share = resampled ? share : whole;
+    uint first_band = uint(pixels ? woven.before.y : woven.first_bands.w);
+    vec4 sum = vec4(0.0);
+    float shares = 0.0;
+    float most = 0.0;
+    float main_channel = 0.0;
+    for (int tap = 0; tap < 4; ++tap) {
+        ivec2 step_to = ivec2(tap & 1, tap >> 1);
+        ivec2 cell = ivec2(corner) + step_to;
+        // Rows of the LP-buffer wrap.
+        int wrapped = cell.y < 0 ? cell.y + size.y : cell.y >= size.y ? cell.y - size.y : cell.y;
+        cell.y = pixels ? cell.y : wrapped;
+        bool within = all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, size));
+        cell = clamp(cell, ivec2(0), size - 1);
+        vec2 part = mix(1.0 - share, share, vec2(step_to));
+        vec4 held = pixels ? texelFetch(pixels_before, cell, 0) : texelFetch(texels_before, cell, 0);
+        bool seen = within && is_needed(uvec2(cell), first_band) && seen_of(held.a) > 0.0;
+        float weight = seen ? part.x * part.y : 0.0;
+        sum += weight > 0.0 ? weight * held : vec4(0.0);
+        shares += weight;
+        main_channel = weight > most ? held.a : main_channel;
+        most = max(most, weight);
+    }
+    Kept kept;
+    kept.radiance = sum.rgb / max(shares, 1e-6);
+    kept.nearness = resampled ? sum.a / max(shares, 1e-6) : main_channel;
+    kept.seen = resampled ? 1.0 : seen_of(main_channel);
+    // From the fovea, by which texels grow, px.
+    float far_px = distance(position_px, map.fovea_and_log2.xy);
+    float cell_px = pixels ? 1.0 : max(1.0, 6.2831853 * far_px / lp_size().y);
+    // Another surface, seen here as the eye moved, lies elsewhere now.
+    float aside_px = distance(position_before(position_px, main_channel), was);
+    bool same = !kFollows || aside_px <= kAsidePerCell * cell_px;
+    // After the gaze has moved, what was seen from the corner of the eye is coarser than what this
+    // frame shades.
+    float far_before_px = distance(was, woven.map_before.xy);
+    bool fine = pixels || !kFollows || !resampled || far_before_px <= kCoarser * far_px;
+    // Not by the uniform alone: lavapipe 22.3 compiles anew where that decides, or fails.
+    kept.any = shares * woven.before.x > 0.25 && same && fine;
+    return kept;
+}
+
+// How far two radiances are apart beyond what is expected, [0, 1].
+float strangeness(vec3 a, vec3 b, vec3 expected) {
+    vec3 apart = max(abs(a - b) - expected, 0.0) / (a + b + 0.05);
+    return min(1.0, max(apart.r, max(apart.g, apart.b)));
+}
