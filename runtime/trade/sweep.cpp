@@ -100,10 +100,16 @@ class CaseSweep {
     }
 
     [[nodiscard]] render::FrameView view(std::size_t frame) const {
-        return {.index = frame,
-                .scene_time_s = static_cast<double>(frame) * question_.frame_seconds,
-                .views = question_.views,
-                .targets = {}};
+        render::FrameView view{.index = frame,
+                               .scene_time_s = static_cast<double>(frame) * question_.frame_seconds,
+                               .views = question_.views,
+                               .targets = {}};
+        if (!case_.heads.empty()) {
+            for (gaze::EyeView& one : view.views) {
+                one.pose = gaze::compose(case_.heads[frame], one.pose);
+            }
+        }
+        return view;
     }
 
     [[nodiscard]] gaze::FrameFovea fovea(std::size_t frame) const {
@@ -243,7 +249,9 @@ class CaseSweep {
                 if (!quality) {
                     return std::unexpected(quality.error());
                 }
-                totals.add(*quality);
+                if (frame >= question_.first_judged) {
+                    totals.add(*quality);
+                }
                 if (question_.with_pictures && frame + 1 == frames()) {
                     judged.picture = small_picture(picture);
                     judged.heat_map = small_heat_map(*quality);

@@ -20,6 +20,8 @@ struct CaseQuestion {
     std::string gaze;  ///< as it was asked for
     /// Each eye's direction in its view frame, by frame; as many as all other cases have, not none.
     std::vector<gaze::PerEye<glm::dvec3>> directions{};
+    /// The head's pose in world, by frame; empty: it stays where the views' poses are given.
+    std::vector<gaze::Pose> heads{};
 };
 
 /// What every point of a sweep renders: the same frames, both eyes, into pictures that no display
@@ -31,6 +33,8 @@ struct SweepQuestion {
     std::uint32_t samples = 1;             ///< per texel or pixel
     std::uint32_t reference_samples = 16;  ///< of full resolution, which is the reference
     double frame_seconds = 1.0 / 90.0;
+    /// The first frame that counts for quality; those before are rendered and seen all the same.
+    std::size_t first_judged = 0;
     unsigned rounds = 3;  ///< of which times are the medians
     /// Its view is that of its eye. More than one frame: a sequence.
     quality::ComparisonQuestion comparison{};

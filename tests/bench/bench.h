@@ -95,8 +95,11 @@ std::vector<Figure> prediction(const Options& options);
 /// where a case of theirs is named.
 std::vector<Figure> headline(const Options& options);
 
-/// What the best points of today save at the quality of KFR as published, over all scenes: with
-/// gaze along a trace, and in fixation. Ratios to full resolution with as many samples.
+/// What interleaved log-polar rendering saves at the quality of KFR as published, over scenes and
+/// people on whom nothing was chosen: with gaze and head as a simulated person moves them over a
+/// saccade (average), and in fixation after the eighth frame, with the head's sway. Ratios to full
+/// resolution with as many samples, of which each takes as many rays. The case `ingredients`, by
+/// name only, says what each setting of it is worth.
 std::vector<Figure> front(const Options& options);
 
 /// Every method on every scene, on one display along one gaze trace, frame by frame in turns:

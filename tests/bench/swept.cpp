@@ -27,6 +27,10 @@ trade::SweepQuestion question_of(const display::DisplayProfile& display, vk::Ext
     return question;
 }
 
+trade::SweepPoint published_kfr() {
+    return {.method = "kfr", .settings = {{"kfr.sigma", "1.8"}, {"kfr.alpha", "4"}}};
+}
+
 trade::CaseQuestion still(std::string_view scene, std::size_t frames) {
     return {.scene = std::string(scene),
             .gaze = "0,0",

@@ -16,6 +16,9 @@ namespace gazeloop::bench {
 trade::SweepQuestion question_of(const display::DisplayProfile& display, vk::Extent2D extent,
                                  const Options& options, std::uint32_t samples);
 
+/// KFR as its paper chose it: sigma 1.8, alpha 4.
+[[nodiscard]] trade::SweepPoint published_kfr();
+
 /// So many frames of a scene with the gaze ahead.
 trade::CaseQuestion still(std::string_view scene, std::size_t frames);
 

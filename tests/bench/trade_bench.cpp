@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <span>
 
-#include "drivers/trace/read_trace.h"
 #include "runtime/error.h"
 #include "runtime/profiles/profiles.h"
 #include "runtime/run/program_settings.h"
@@ -19,9 +17,6 @@
 
 namespace gazeloop::bench {
 namespace {
-
-const trade::SweepPoint kPublished{.method = "kfr",
-                                   .settings = {{"kfr.sigma", "1.8"}, {"kfr.alpha", "4"}}};
 
 struct Size {
     const char* display;
@@ -44,7 +39,7 @@ struct Headlined {
     trade::SweepPoint point;
 };
 const std::array kHeadlined{
-    Headlined{"kfr", kPublished},
+    Headlined{"kfr", published_kfr()},
     Headlined{"kfr-as-printed",
               {.method = "kfr",
                .settings = {{"kfr.kernel", "power-as-printed"},
@@ -111,7 +106,7 @@ struct Asked {
 void add_headlines(const trade::SweepSheet& sheet, const Asked& asked,
                    const std::vector<trade::SweepPoint>& varied, const std::string& size,
                    std::optional<double> acuity_target, std::vector<Figure>& figures) {
-    const trade::SweepRow& published = row_of(sheet.rows, kPublished);
+    const trade::SweepRow& published = row_of(sheet.rows, published_kfr());
     const std::string scene = std::filesystem::path(sheet.of.scene).stem().string();
     const auto add = [&](const std::string& name, const std::string& metric, double value,
                          const char* unit, const char* better = "higher",
@@ -164,34 +159,6 @@ trade::SweepQuestion headline_question(const Size& size, const Options& options)
     return question;
 }
 
-/// Gaze along the trace, one sample per frame, from its middle on; straight ahead without one.
-trade::CaseQuestion along_trace(std::string_view scene, std::size_t frames, double frame_seconds,
-                                const Options& options) {
-    trade::CaseQuestion of_case = still(scene, frames);
-    if (!options.trace) {
-        return of_case;
-    }
-    const gaze::GazeTrace trace = value_or_throw(drivers::read_trace(*options.trace));
-    std::size_t at = trace.samples.size() / 2;
-    const std::int64_t begin_ns = at < trace.samples.size() ? trace.samples[at].sampled.ns : 0;
-    for (std::size_t frame = 0; frame < frames; ++frame) {
-        const auto until_ns =
-            begin_ns + std::llround(static_cast<double>(frame) * frame_seconds * 1e9);
-        while (at + 1 < trace.samples.size() && trace.samples[at + 1].sampled.ns <= until_ns) {
-            ++at;
-        }
-        for (std::size_t back = at + 1; back > 0; --back) {
-            const auto& eyes = trace.samples[back - 1].eyes;
-            if (eyes[0].valid && eyes[1].valid) {
-                of_case.directions[frame] = {eyes[0].direction, eyes[1].direction};
-                break;
-            }
-        }
-    }
-    of_case.gaze = *options.trace;
-    return of_case;
-}
-
 }  // namespace
 
 std::vector<Figure> headline(const Options& options) {
@@ -208,9 +175,9 @@ std::vector<Figure> headline(const Options& options) {
                                                           ? equal_quality_points(size.extent)
                                                           : std::vector<trade::SweepPoint>{};
         std::vector<trade::SweepPoint> points = varied;
-        points.push_back(kPublished);
+        points.push_back(published_kfr());
         for (const Headlined& one : asked.methods) {
-            if (one.point != kPublished) {
+            if (one.point != published_kfr()) {
                 points.push_back(one.point);
             }
         }
@@ -218,57 +185,6 @@ std::vector<Figure> headline(const Options& options) {
              swept(context, headline_question(size, options), points)) {
             add_headlines(sheet, asked, varied, text, size.acuity_target, figures);
         }
-    }
-    return figures;
-}
-
-std::vector<Figure> front(const Options& options) {
-    constexpr std::size_t kFrames = 24;
-    constexpr std::uint32_t kScale = 4;  // of the display's sides
-    const vulkan::Context context({}, nullptr);
-    const display::DisplayProfile display = value_or_throw(profiles::load_display("vive_pro_eye"));
-    const vk::Extent2D extent(display.width_px / kScale, display.height_px / kScale);
-    const std::vector<trade::SweepPoint> varied = equal_quality_points(extent);
-    std::vector<trade::SweepPoint> points = varied;
-    points.push_back(kPublished);
-    std::vector<Figure> figures;
-    for (const char* const name : {"average", "fixation"}) {
-        if (!options.wants(name)) {
-            continue;
-        }
-        trade::SweepQuestion question = question_of(display, extent, options, 4);
-        question.comparison.frame_seconds = question.frame_seconds;
-        for (const std::string_view scene : scene::scene_names()) {
-            question.cases.push_back(
-                name == std::string_view("average")
-                    ? along_trace(scene, kFrames, question.frame_seconds, options)
-                    : still(scene, kFrames));
-        }
-        const std::vector<trade::SweepSheet> sheets = swept(context, question, points);
-        const trade::SweepSheet mean = trade::mean_sheet(sheets);
-        const std::vector<trade::SweepRow>& rows = mean.rows;
-        const trade::SweepRow& published = row_of(rows, kPublished);
-        const double level = published.figures.front().mean;
-        const auto saving = saving_of_varied(rows, varied, level);
-        const bool fixation = name == std::string_view("fixation");
-        const auto add = [&](const char* metric, double value, const char* unit,
-                             std::optional<double> target = {}, const char* better = "higher") {
-            figures.push_back({"front", name, metric, value, unit, better, std::nullopt, target});
-        };
-        add("quality_of_kfr", level, "", std::nullopt, "lower");
-        add("kfr_samples_ratio", published.fewer_cells, "x");
-        if (!saving) {
-            fmt::print(stderr, "{}: no point is as good as the published one\n", name);
-            continue;
-        }
-        constexpr double kAverageTarget = 12.0;
-        constexpr double kFixationTarget = 18.0;
-        add("samples_ratio", saving->fewer_cells, "x", fixation ? kFixationTarget : kAverageTarget);
-        // Full resolution at 4 rays per pixel against as many per texel.
-        add("rays_ratio", saving->fewer_cells, "x", 20.0);
-        add("time_ratio", saving->speedup, "x", 8.0);
-        add("time_ratio_over_kfr", saving->speedup / published.speedup, "x", 3.0);
-        add("quality", level, "", std::nullopt, "lower");
     }
     return figures;
 }

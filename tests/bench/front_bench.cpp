@@ -1,0 +1,198 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <optional>
+#include <utility>
+
+#include "runtime/profiles/profiles.h"
+#include "runtime/trade/equal_quality.h"
+#include "runtime/trade/sweep_report.h"
+#include "sim/gaze_generator.h"
+#include "tests/bench/bench.h"
+#include "tests/bench/swept.h"
+
+namespace gazeloop::bench {
+namespace {
+
+constexpr const char* kOurs = "interleaved";
+constexpr std::size_t kFrames = 20;
+constexpr std::size_t kFirstInFixation = 8;
+/// Parameters were chosen with seed 1.
+constexpr std::uint64_t kSeed = 11;
+
+enum class Gaze : std::uint8_t { OverASaccade, InFixation };
+
+trade::SweepPoint interleaved(const char* sigma, const char* every,
+                              std::vector<std::pair<std::string, std::string>> more = {}) {
+    std::vector<std::pair<std::string, std::string>> settings{{"kfr.sigma", sigma},
+                                                              {"interleaved.every", every}};
+    settings.insert(settings.end(), more.begin(), more.end());
+    return {.method = kOurs, .settings = std::move(settings)};
+}
+
+/// A simulated person's gaze and head, a sample for each frame of the display.
+gaze::GazeTrace person(Gaze gaze, double frame_seconds) {
+    sim::GazeSimulation simulation{.seed = kSeed};
+    simulation.tracker.rate_hz = 1.0 / frame_seconds;
+    simulation.eye.blinks_per_min = 0.0;
+    if (gaze == Gaze::InFixation) {
+        simulation.eye.saccade_deg = 0.0;
+    }
+    constexpr double kSeconds = 10.0;
+    return sim::generate_gaze(simulation, kSeconds);
+}
+
+/// The frame from which a case begins: six frames before the first saccade of over 4 degrees.
+std::size_t first_frame(const gaze::GazeTrace& trace, Gaze gaze) {
+    constexpr std::size_t kBefore = 6;
+    constexpr std::size_t kLater = 4;
+    if (gaze == Gaze::InFixation) {
+        return 0;
+    }
+    for (std::size_t at = kBefore; at + kFrames < trace.samples.size(); ++at) {
+        const glm::dvec3 from = trace.samples[at].eyes[0].direction;
+        const glm::dvec3 to = trace.samples[at + kLater].eyes[0].direction;
+        if (glm::dot(from, to) < std::cos(glm::radians(4.0))) {
+            return at - kBefore;
+        }
+    }
+    throw SetupError(ErrorKind::Usage, "front: the simulated person makes no saccade");
+}
+
+trade::CaseQuestion case_of(std::string_view scene, Gaze gaze, double frame_seconds) {
+    trade::CaseQuestion of_case = still(scene, kFrames);
+    of_case.gaze = fmt::format("simulated, seed {}", kSeed);
+    const gaze::GazeTrace trace = person(gaze, frame_seconds);
+    const std::size_t first = first_frame(trace, gaze);
+    of_case.heads.resize(kFrames);
+    for (std::size_t frame = 0; frame < kFrames; ++frame) {
+        const gaze::GazeSample& sample = trace.samples.at(first + frame);
+        of_case.directions[frame] = {sample.eyes[0].direction, sample.eyes[1].direction};
+        of_case.heads[frame] = sample.head.value_or(gaze::Pose{});
+    }
+    return of_case;
+}
+
+/// What each setting is worth: the same point with one of them as it is without the method.
+struct Ingredient {
+    const char* name;
+    trade::SweepPoint without;
+};
+std::vector<Ingredient> ingredients() {
+    return {{"all", interleaved("1.8", "4")},
+            {"tall", interleaved("1.8", "4", {{"kfr.aspect", "0.9"}})},
+            {"turns", interleaved("1.8", "1")},
+            {"turns_of_the_disc", interleaved("1.8", "4", {{"interleaved.disc_every", "1"}})},
+            {"mean", interleaved("1.8", "4", {{"interleaved.visits", "1"}})},
+            {"jitter", interleaved("1.8", "4", {{"interleaved.jitter", "false"}})},
+            {"follow", interleaved("1.8", "4", {{"interleaved.follow", "false"}})},
+            {"hold", interleaved("1.8", "4", {{"interleaved.hold", "false"}})}};
+}
+
+trade::SweepQuestion question(const display::DisplayProfile& display, const Options& options,
+                              Gaze gaze) {
+    constexpr std::uint32_t kScale = 2;  // of the display's sides
+    constexpr std::uint32_t kOther = 32;
+    trade::SweepQuestion asked =
+        question_of(display, {display.width_px / kScale, display.height_px / kScale}, options, 4);
+    // One eye is judged: the other one's pictures are as small as can be.
+    asked.views[1].width_px = kOther;
+    asked.views[1].height_px = kOther;
+    asked.comparison.frame_seconds = asked.frame_seconds;
+    asked.first_judged = gaze == Gaze::InFixation ? kFirstInFixation : 0;
+    for (const char* const scene : {"raymarch", "gallery"}) {
+        asked.cases.push_back(case_of(scene, gaze, asked.frame_seconds));
+    }
+    return asked;
+}
+
+void add_savings(const std::vector<trade::SweepRow>& rows, const char* name, Gaze gaze,
+                 std::vector<Figure>& figures) {
+    const trade::SweepRow& published = row_of(rows, published_kfr());
+    const double level = published.figures.front().mean;
+    const auto add = [&](const char* metric, double value, const char* unit,
+                         std::optional<double> target = {}, const char* better = "higher") {
+        figures.push_back({"front", name, metric, value, unit, better, std::nullopt, target});
+    };
+    add("quality_of_kfr", level, "", std::nullopt, "lower");
+    add("kfr_samples_ratio", published.fewer_cells, "x");
+    const auto saving = trade::saving_at(rows, kOurs, level);
+    if (!saving) {
+        fmt::print(stderr, "{}: no point is as good as the published one\n", name);
+        return;
+    }
+    constexpr double kAverageTarget = 12.0;
+    constexpr double kFixationTarget = 18.0;
+    add("samples_ratio", saving->fewer_cells, "x",
+        gaze == Gaze::InFixation ? kFixationTarget : kAverageTarget);
+    add("rays_ratio", saving->fewer_cells, "x", 20.0);
+    add("time_ratio", saving->speedup, "x", 8.0);
+    add("time_ratio_over_kfr", saving->speedup / published.speedup, "x", 3.0);
+    add("quality", level, "", std::nullopt, "lower");
+}
+
+void tell(const std::vector<trade::SweepRow>& rows) {
+    for (const trade::SweepRow& row : rows) {
+        if (!row.error.empty()) {
+            fmt::print(stderr, "  {}: {}\n", trade::point_text(row.point), row.error);
+            continue;
+        }
+        fmt::print(stderr, "  {}: quality {:.4f}, {:.2f}x fewer, {:.2f}x faster\n",
+                   trade::point_text(row.point), row.figures.front().mean, row.fewer_cells,
+                   row.speedup);
+        for (const auto& [pass, ms] : row.pass_ms) {
+            fmt::print(stderr, "    {} {:.2f} ms\n", pass, ms);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Figure> front(const Options& options) {
+    const vulkan::Context context({}, nullptr);
+    const display::DisplayProfile display = value_or_throw(profiles::load_display("vive_pro_eye"));
+    std::vector<Figure> figures;
+    for (const auto& [name, gaze] :
+         {std::pair{"average", Gaze::OverASaccade}, std::pair{"fixation", Gaze::InFixation}}) {
+        if (!options.wants(name)) {
+            continue;
+        }
+        const std::vector<trade::SweepPoint> points{
+            published_kfr(), interleaved("1.8", "4"), interleaved("2.4", "4"),
+            interleaved("3.2", "4"), interleaved("1.8", "8")};
+        const auto sheets = swept(context, question(display, options, gaze), points);
+        for (const trade::SweepSheet& sheet : sheets) {
+            fmt::print(stderr, "{}:\n", sheet.of.scene);
+            tell(sheet.rows);
+        }
+        add_savings(trade::mean_sheet(sheets).rows, name, gaze, figures);
+    }
+    if (std::ranges::find(options.cases, "ingredients") != options.cases.end()) {
+        std::vector<trade::SweepPoint> points{published_kfr()};
+        for (const Ingredient& one : ingredients()) {
+            points.push_back(one.without);
+        }
+        const auto sheets = swept(context, question(display, options, Gaze::OverASaccade), points);
+        const trade::SweepSheet mean = trade::mean_sheet(sheets);
+        for (const Ingredient& one : ingredients()) {
+            const trade::SweepRow& row = row_of(mean.rows, one.without);
+            const auto add = [&](const char* metric, double value, const char* unit,
+                                 const char* better) {
+                figures.push_back(
+                    {"front", "ingredients",
+                     fmt::format("{}{} {}", one.name == std::string_view("all") ? "" : "without ",
+                                 one.name, metric),
+                     value, unit, better});
+            };
+            add("quality", row.figures.front().mean, "", "lower");
+            add("samples_ratio", row.fewer_cells, "x", "higher");
+            add("time_ratio", row.speedup, "x", "higher");
+        }
+    }
+    return figures;
+}
+
+}  // namespace gazeloop::bench
