@@ -48,6 +48,15 @@ std::vector<Figure> latch(const Options& options);
 /// memory over 10,000 frames, and the program's start-up.
 std::vector<Figure> loop(const Options& options);
 
+/// How much pictures change from frame to frame in a slow fly-through, and how far they are from
+/// many samples, with and without each ingredient of antialiasing.
+std::vector<Figure> stability(const Options& options);
+
+/// Writes the KFR paper's Figures 4, 6 and 7 (alpha 1 to 6; sigma 1.2, 1.8, 2.4 beside the full
+/// picture), of the built-in scene of meshes, as PNG into build/release/figures; and how far each
+/// picture is from full resolution.
+std::vector<Figure> paper_figures(const Options& options);
+
 /// Speed of the acuity-derived map over full resolution and over KFR, gaze in the middle.
 std::vector<Figure> acuity(const Options& options);
 

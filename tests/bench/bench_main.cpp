@@ -23,6 +23,8 @@ struct Named {
 constexpr std::array kBenches{Named{"kfr-raycast", kfr_raycast},
                               Named{"kfr-mesh", kfr_mesh},
                               Named{"latch", latch},
+                              Named{"stability", stability},
+                              Named{"figures", paper_figures},
                               Named{"acuity", acuity},
                               Named{"loop", loop},
                               Named{"maps", maps},
