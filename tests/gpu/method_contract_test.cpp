@@ -131,6 +131,29 @@ TEST_P(MethodContract, KeepsItsColoursWithDepthAndWithoutProfiling) {
     }
 }
 
+TEST_P(MethodContract, TakesWhatFollowsItsPicture) {
+    RendererConfig config = pictures(96, 72);
+    config.antialiasing = {.post_filter_px = 9, .footprint_taps = 2, .over_frames = true};
+    for (const Situation& at : kSituations) {
+        const auto third = [&](float poison) {
+            config.unshaded = {poison, 0.0F, poison, 1.0F};
+            OffScreen off_screen(context(), scene(), tests::passes_by(GetParam()), config);
+            FrameRequest request = frame(at, config);
+            std::optional<std::uint64_t> hash;
+            for (request.index = 0; request.index < 3; ++request.index) {
+                const OffScreen::Rendered done = off_screen.render(request, request.fovea());
+                expect_counts_add_up(done.counts, at.name);
+                hash = done.gpu.pixel_hash;
+            }
+            return hash;
+        };
+        const auto on_black = third(0.0F);
+        ASSERT_TRUE(on_black.has_value());
+        EXPECT_EQ(third(0.0F), on_black) << at.name;
+        EXPECT_EQ(third(5e4F), on_black) << at.name;
+    }
+}
+
 TEST_P(MethodContract, LeavesOutWhatNoEyeSees) {
     const RendererConfig config = pictures(96, 72);
     constexpr double kEdge = std::numbers::pi / 4.0;  // the masks are those of such a view
