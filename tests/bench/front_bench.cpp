@@ -160,9 +160,10 @@ std::vector<Figure> front(const Options& options) {
         if (!options.wants(name)) {
             continue;
         }
+        // From better than the published point to much fewer samples.
         const std::vector<trade::SweepPoint> points{
-            published_kfr(), interleaved("1.8", "4"), interleaved("2.4", "4"),
-            interleaved("3.2", "4"), interleaved("1.8", "8")};
+            published_kfr(),         interleaved("1", "4"),   interleaved("1.2", "4"),
+            interleaved("1.4", "4"), interleaved("1.8", "4"), interleaved("1.4", "8")};
         const auto sheets = swept(context, question(display, options, gaze), points);
         for (const trade::SweepSheet& sheet : sheets) {
             fmt::print(stderr, "{}:\n", sheet.of.scene);
