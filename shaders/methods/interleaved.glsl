@@ -20,6 +20,12 @@ void main() {
     ivec2 texel = min(place, ivec2(lp_size()) - 1);
     vec2 row = row_table[texel.y];
     vec3 radii = column_radii(texel.x);
+    // A texel stands for itself, however far apart those lie whose turn it is.
+    vec2 centre = position_of_texel(texel);
+    ivec2 last = ivec2(lp_size()) - 1;
+    mat2 texel_px = mat2(position_of_texel(min(texel + ivec2(1, 0), last)) - centre,
+                         position_of_texel(ivec2(texel.x, texel.y < last.y ? texel.y + 1 : 0)) - centre);
+    mat2 footprint = pixels ? kPixel : texel_px;
     int samples = needed ? kSamples : 0;
     vec4 sum = vec4(0.0);
     vec3 least = vec3(kGreatestRadiance);
@@ -31,7 +37,7 @@ void main() {
                           : picture_position(radius_at(radii, offset.x),
                                              direction_at(row, offset.zw));
         vec3 ray = ray_direction(position);
-        SceneSample seen = scene_sample(SamplePlace(position, eye.camera_and_time.xyz, ray),
+        SceneSample seen = scene_sample(SamplePlace(position, eye.camera_and_time.xyz, ray, footprint),
                                         eye.camera_and_time.w);
         sum += vec4(seen.radiance, seen.nearness);
         least = min(least, seen.radiance);

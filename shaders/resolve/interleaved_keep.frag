@@ -14,7 +14,7 @@ layout(set = 2, binding = 9) uniform sampler2D pixel_cells;
 layout(location = 0) out vec4 color;
 
 layout(constant_id = 9) const bool kPixels = false;
-layout(constant_id = 10) const bool kHeld = true;  // to the cells around
+layout(constant_id = 11) const bool kHeld = true;  // to the cells around
 
 const vec2 kStrange = vec2(0.2, 0.5);  // from which a place is held a little, and in full
 

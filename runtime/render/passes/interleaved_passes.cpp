@@ -57,7 +57,7 @@ enum InterleavedConstant : std::uint32_t {
     kPixelBlockHeight,
     kFollows,
     kPixels,
-    kHeld,
+    kHeld = kPixels + 2,  // kJittered lies between
 };
 
 /// The grids of a plan.
@@ -283,7 +283,7 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         }
         for (const std::uint32_t disc : {0U, 1U}) {
             const std::array resolving{
-                vulkan::ShaderConstant{kEncodeSrgb, encodes_srgb(setup_.format) ? 0U : 1U},
+                vulkan::ShaderConstant{kEncodeSrgb, takes_linear(setup_.format) ? 0U : 1U},
                 vulkan::ShaderConstant{kWithDisc, disc}};
             resolve_.at(disc) =
                 vulkan::make_pipeline(device, layout_,
