@@ -1,12 +1,10 @@
 #include "runtime/run/frame_run.h"
 
-#include <fmt/chrono.h>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -15,7 +13,6 @@
 #include "drivers/anatomy/anatomy_source.h"
 #include "drivers/calibrated/calibrated_source.h"
 #include "runtime/calibration/calibration_settings.h"
-#include "runtime/environment.h"
 #include "runtime/latency/summary_observer.h"
 #include "runtime/methods/registry.h"
 #include "runtime/preview/preview_feed.h"
@@ -39,6 +36,7 @@
 #include "runtime/run/picture_device.h"
 #include "runtime/run/recording_observer.h"
 #include "runtime/run/run_checks.h"
+#include "runtime/run/run_header.h"
 #include "runtime/run/run_monitor.h"
 #include "runtime/run/run_summary.h"
 #include "runtime/run/run_target.h"
@@ -50,7 +48,6 @@
 #include "runtime/session/session_recorder.h"
 #include "runtime/time/clock.h"
 #include "runtime/time/milliseconds.h"
-#include "runtime/version.h"
 
 namespace gazeloop::run {
 namespace {
@@ -165,38 +162,13 @@ class FrameRun {
                 .unshaded = std::nullopt};
     }
 
-    /// Absolute, for a report that is made elsewhere; empty where there can be none.
-    [[nodiscard]] std::string runtime_metrics_file() const {
-        const auto file = environment_value("XRT_METRICS_FILE");
-        return file && values_.target.name == "openxr" ? std::filesystem::absolute(*file).string()
-                                                       : "";
-    }
-
     void open_recording(const render::FrameRenderer& renderer) {
         if (!request_.record) {
             return;
         }
-        session::SessionHeader header;
-        header.passes = passes_of(renderer);
-        header.grids = grids_of(renderer);
-        header.study = static_cast<bool>(request_.record_study);
-        header.meta = {.program = fmt::format("gazeloop {}", kVersion),
-                       .command_line = request_.command_line,
-                       .started_utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
-                                                  fmt::gmtime(std::chrono::system_clock::to_time_t(
-                                                      std::chrono::system_clock::now()))),
-                       .clock = loop_clock(),
-                       .target = values_.target.name,
-                       .target_format = vk::to_string(target_->format()),
-                       .runtime_metrics = runtime_metrics_file(),
-                       .display = display_};
-        header.config = request_.settings->list();
-        for (const auto& [name, value] : target_->properties()) {
-            header.device.push_back({name, value});
-        }
-        for (NamedValue& one : picture_device(*context_)) {
-            header.device.push_back(std::move(one));
-        }
+        const session::SessionHeader header =
+            run_header(request_, display_, loop_clock(), *target_, *context_, passes_of(renderer),
+                       grids_of(renderer));
         recorder_ = value_or_throw(session::SessionRecorder::create(
             *request_.record, header,
             request_.clock == RunClock::Wall ? session::WhenFull::Drop : session::WhenFull::Wait));
