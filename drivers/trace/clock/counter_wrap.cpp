@@ -15,7 +15,7 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 }  // namespace
 
 std::optional<Wide> wrapped_range(Wide before, Wide after, std::int64_t step_ns) {
-    constexpr std::array<std::uint32_t, 4> kBits{32, 31, 24, 16};
+    constexpr std::array<std::uint32_t, 5> kBits{32, 31, 24, 20, 16};
     constexpr std::array<std::int64_t, 4> kTicks_ns{1'000, 1'000'000, 100, 1};
     if (after >= before) {
         return std::nullopt;
@@ -34,6 +34,26 @@ std::optional<Wide> wrapped_range(Wide before, Wide after, std::int64_t step_ns)
         }
     }
     return std::nullopt;
+}
+
+std::optional<Wide> counter_range(Wide about, Wide most) {
+    constexpr std::uint32_t kFewestBits = 8;
+    constexpr std::uint32_t kMostBits = 32;
+    constexpr Wide kWithin = 50;  // one in so many
+    constexpr std::array<std::int64_t, 6> kTicks_ns{1, 100, 1'000, 10'000, 125'000, 1'000'000};
+    std::optional<Wide> nearest;
+    Wide least = about / kWithin;
+    for (std::uint32_t bits = kFewestBits; bits <= kMostBits; ++bits) {
+        for (const std::int64_t tick_ns : kTicks_ns) {
+            const Wide range = static_cast<Wide>(tick_ns) << bits;
+            const Wide off = range > about ? range - about : about - range;
+            if (range > most && off <= least) {
+                nearest = range;
+                least = off;
+            }
+        }
+    }
+    return nearest;
 }
 
 }  // namespace gazeloop::drivers

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace gazeloop::drivers {
 
@@ -10,9 +11,14 @@ namespace gazeloop::drivers {
 using Wide = __int128;
 
 /// If a clock that read `before` and then the lower `after` is a counter that began anew in
-/// between: its range, to be added. The counters that are known have 16, 24, 31 or 32 bits of 1,
-/// 100, 1000 or 1,000,000 ns, from 0 or with a sign. The reading before must lie so near the end of
-/// the range, and the one after so near its start, that together they are at most `step_ns` apart.
+/// between: its range, to be added. The counters that are known have 16, 20, 24, 31 or 32 bits of
+/// 1, 100, 1000 or 1,000,000 ns, from 0 or with a sign. The reading before must lie so near the end
+/// of the range, and the one after so near its start, that together they are at most `step_ns`
+/// apart.
 [[nodiscard]] std::optional<Wide> wrapped_range(Wide before, Wide after, std::int64_t step_ns);
+
+/// The range of a counter of 8 to 32 bits, of 1, 100, 1000, 10,000, 125,000 or 1,000,000 ns, that
+/// is within 2 % of `about` ns and above `most` ns; the nearest, or none.
+[[nodiscard]] std::optional<Wide> counter_range(Wide about, Wide most);
 
 }  // namespace gazeloop::drivers

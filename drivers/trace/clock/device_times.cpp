@@ -119,6 +119,9 @@ class DeviceClock {
 
     /// Counts on where one row and the next are before and after a wrap, either way round.
     void unwrap() {
+        if (unwrap_by_host()) {
+            return;
+        }
         // Before anything is known of the interval: what most steps are shorter than.
         const std::int64_t step_ns = 4 * median_step_ns();
         Wide epoch_ns = 0;
@@ -142,6 +145,85 @@ class DeviceClock {
             at_ns_[now] = raw + epoch_ns;
             epoch_of_last_ns_ = epoch_ns;
         }
+    }
+
+    /// A counter that wraps every few rows says too little alone. Where the host's clock says how
+    /// long it was from row to row, it is known how often the counter wrapped in between.
+    bool unwrap_by_host() {
+        const std::optional<Wide> range = short_range();
+        if (!range) {
+            return false;
+        }
+        Wide epoch_ns = 0;
+        Wide raw_before = at_ns_[used_.front()];
+        std::size_t wraps = 0;
+        std::size_t first = 0;
+        for (std::size_t i = 1; i < used_.size(); ++i) {
+            const Wide raw = at_ns_[used_[i]];
+            const Wide more_ns = wrapped_by_host(i, raw - raw_before).value_or(0);
+            Wide times = (more_ns + (more_ns < 0 ? -*range : *range) / 2) / *range;
+            // What was set back is the host's clock.
+            times = times >= -1 ? times : 0;
+            times = times == 0 && raw < raw_before && more_ns <= 0 ? 1 : times;
+            epoch_ns = std::max<Wide>(0, epoch_ns + times * *range);
+            if (times > 0) {
+                first = wraps++ == 0 ? used_[i] : first;
+            }
+            at_ns_[used_[i]] = raw + epoch_ns;
+            raw_before = raw;
+        }
+        times_.findings.push_back(
+            {.kind = TraceFindingKind::CounterWrapped,
+             .line = rows_[first].line,
+             .rows = wraps,
+             .dropped = 0,
+             .span_ns = 0,
+             .text = fmt::format("the device's counter began anew {} times, every {}: counted on "
+                                 "by the host's clock",
+                                 wraps, in_words(time::saturated(*range)))});
+        return true;
+    }
+
+    /// The range of a counter that begins anew every few rows, as the host's clock has it.
+    [[nodiscard]] std::optional<Wide> short_range() const {
+        constexpr std::size_t kFewestWraps = 4;
+        constexpr std::size_t kRowsPerWrap = 64;
+        constexpr Wide kJitter = 4;  // one in so many of the range
+        std::vector<Wide> more_ns;
+        std::size_t back = 0;
+        Wide least = at_ns_[used_.front()];
+        Wide most = least;
+        for (std::size_t i = 1; i < used_.size(); ++i) {
+            least = std::min(least, at_ns_[used_[i]]);
+            most = std::max(most, at_ns_[used_[i]]);
+            const Wide step_ns = step(i - 1, i);
+            if (step_ns < 0) {
+                ++back;
+                if (const auto more = wrapped_by_host(i, step_ns)) {
+                    more_ns.push_back(*more);
+                }
+            }
+        }
+        if (more_ns.size() < kFewestWraps || back * kRowsPerWrap < used_.size() ||
+            more_ns.size() * 2 < back) {
+            return std::nullopt;
+        }
+        const auto middle = more_ns.begin() + static_cast<std::ptrdiff_t>(more_ns.size() / 2);
+        std::nth_element(more_ns.begin(), middle, more_ns.end());
+        const std::optional<Wide> range = counter_range(*middle, most - least);
+        const auto agreeing = std::ranges::count_if(more_ns, [&](Wide more) {
+            const Wide off = range && more > 0 ? (more + *range / 2) % *range - *range / 2 : more;
+            return more > 0 && kJitter * (off < 0 ? -off : off) <= range.value_or(0);
+        });
+        return static_cast<std::size_t>(agreeing) * 4 >= more_ns.size() * 3 ? range : std::nullopt;
+    }
+
+    /// By how much more the host's clock went on before a position than the device's reading did.
+    [[nodiscard]] std::optional<Wide> wrapped_by_host(std::size_t position, Wide step_ns) const {
+        const auto& a = rows_[used_[position - 1]].host_ns;
+        const auto& b = rows_[used_[position]].host_ns;
+        return by_host_ || !a || !b ? std::nullopt
+                                    : std::optional(static_cast<Wide>(*b) - *a - step_ns);
     }
 
     void report_wrap(std::size_t row, Wide range_ns) {

@@ -39,11 +39,12 @@ struct DeviceTimes {
 /// A step is judged by both its neighbours: a row, or a burst of up to 16 or of 50 ms (48 at most),
 /// that agrees neither with what is before nor with what is after is left out (TimeOutlier). So is
 /// a first row before, or a last row after, a gap that nothing else vouches for. Where what follows
-/// a step back lasts, the clock was set, or is a counter that wrapped (counter_wrap.h); so it is
-/// after a step ahead that the host's clock did not make. Other steps ahead are gaps. Rows mixed up
-/// within 64 are put in order (row_order.h), a report that stands there twice is a Repeat. Rows of
-/// one time are spread over the step that the clock makes (coarse_times.h), or follow the host's
-/// clock or the usual interval where the clock stood.
+/// a step back lasts, the clock was set, or is a counter that wrapped (counter_wrap.h; one that
+/// does so every few rows is counted on by the host's clock); so it is after a step ahead that the
+/// host's clock did not make. Other steps ahead are gaps. Rows mixed up within 64 are put in order
+/// (row_order.h), a report that stands there twice is a Repeat. Rows of one time are spread over
+/// the step that the clock makes (coarse_times.h), or follow the host's clock or the usual interval
+/// where the clock stood.
 ///
 /// A tick is `tick_ns` (> 0) long. Rows without device_ticks are not used (BadTime), unless no row
 /// has any: then the host's clock is taken for the device's (BadTime). O(n log n); any readings are

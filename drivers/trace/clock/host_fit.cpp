@@ -87,8 +87,10 @@ class Fitting {
     /// Whether the clocks go at one rate, as two crystals do. Else the device's is taken alone.
     bool rates_agree() {
         constexpr double kGreatest = 1000e-6;
-        if (const double ratio = rough_ratio(); ratio < 0.5 || ratio > 2.0) {
-            fit_.host_per_device = ratio;
+        const double rough = rough_slope();
+        fit_.absurd_rates = is_absurd(1.0 + rough);
+        if (fit_.absurd_rates || (!trend_.known && std::abs(rough) > kGreatest)) {
+            fit_.host_per_device = 1.0 + rough;
         } else if (trend_.known && std::abs(trend_.slope) > kGreatest + trend_.uncertainty) {
             fit_.host_per_device = 1.0 + trend_.slope;
         } else {
@@ -96,11 +98,10 @@ class Fitting {
         }
         const double ratio = fit_.host_per_device;
         const std::string faster =
-            ratio < 0.5 || ratio > 2.0
-                ? (ratio > 1.0 ? fmt::format("{:.0f} times as fast as", ratio)
-                               : fmt::format("{:.0f} times slower than", 1.0 / ratio))
-                : fmt::format("{:.2g} % {} than", std::abs(ratio - 1.0) * 100.0,
-                              ratio > 1.0 ? "faster" : "slower");
+            is_absurd(ratio) ? (ratio > 1.0 ? fmt::format("{:.0f} times as fast as", ratio)
+                                            : fmt::format("{:.0f} times slower than", 1.0 / ratio))
+                             : fmt::format("{:.2g} % {} than", std::abs(ratio - 1.0) * 100.0,
+                                           ratio > 1.0 ? "faster" : "slower");
         fit_.text = fmt::format("the device's; the host's goes {} it", faster);
         fit_.findings.push_back(
             {.kind = TraceFindingKind::ClockRates,
@@ -115,27 +116,38 @@ class Fitting {
         return false;
     }
 
-    /// What goes by on the host's clock while 1 ns does on the device's: the median over quarters
-    /// of the rows. 1 where these do not agree.
-    [[nodiscard]] double rough_ratio() const {
-        constexpr std::size_t kFewest = 64;
+    /// Twice as fast or half, give or take what jitter makes of it.
+    [[nodiscard]] static bool is_absurd(double ratio) {
+        constexpr double kTwice = 1.9;
+        return ratio > kTwice || ratio < 1.0 / kTwice;
+    }
+
+    /// The lag's slope however short the trace: the median over rows a quarter of them apart. 0
+    /// where these do not agree, as on both sides of a step, or where the lag changes by no more
+    /// than the way to the host may.
+    [[nodiscard]] double rough_slope() const {
+        constexpr std::size_t kFewest = 16;
+        constexpr double kDelaysChange_ns = 10e6;
         if (used_.size() < kFewest) {
-            return 1.0;
+            return 0.0;
         }
         const std::size_t apart = used_.size() / 4;
-        std::vector<double> ratios;
+        std::vector<double> slopes;
         for (std::size_t i = apart; i < used_.size(); ++i) {
             const std::int64_t device_ns =
                 device_.time_ns[used_[i]] - device_.time_ns[used_[i - apart]];
-            ratios.push_back(static_cast<double>(clocks_.elapsed(used_[i - apart], used_[i])) /
+            slopes.push_back(static_cast<double>(clocks_.excess(used_[i - apart], used_[i])) /
                              static_cast<double>(device_ns));
         }
-        std::sort(ratios.begin(), ratios.end());
-        const double middle = ratios[ratios.size() / 2];
-        const double lower = ratios[ratios.size() / 8];
-        const double upper = ratios[ratios.size() - 1 - ratios.size() / 8];
-        constexpr double kAgree = 1.25;
-        return lower > 0.0 && upper < kAgree * lower ? middle : 1.0;
+        std::sort(slopes.begin(), slopes.end());
+        const double middle = slopes[slopes.size() / 2];
+        const double lower = slopes[slopes.size() / 8];
+        const double upper = slopes[slopes.size() - 1 - slopes.size() / 8];
+        const std::int64_t span_ns = device_.time_ns[used_.back()] - device_.time_ns[used_.front()];
+        const bool agree = upper - lower < std::abs(middle) / 2.0;
+        const bool is_more = std::abs(middle) * static_cast<double>(span_ns) >
+                             kDelaysChange_ns + static_cast<double>(device_.interval_ns);
+        return agree && is_more ? middle : 0.0;
     }
 
     /// The steps in which the clocks count, where these are seen.
@@ -238,7 +250,7 @@ class Fitting {
             }
         }
         if (!fed.empty()) {
-            return fit_lag_line(fed, origin_ns);
+            return fit_lag_line(fed, origin_ns, trend_.known ? trend_.slope : 0.0);
         }
         LagLine line;
         line.origin_ns = origin_ns;

@@ -25,6 +25,7 @@ struct HostFit {
     std::uint64_t outliers = 0;  ///< host times that are left out
     /// How much faster the host's clock goes; other than 1 only where no two crystals differ so.
     double host_per_device = 1.0;
+    bool absurd_rates = false;  ///< about twice as fast, or half, or worse: one unit must be wrong
     std::vector<gaze::TraceFinding> findings;
     /// One line for the report: "fitted to the host's clock: +148 ppm, within 0.02 ms, 1 step".
     std::string text;
@@ -41,7 +42,8 @@ struct HostFit {
 /// device's, unchanged.
 ///
 /// Without two host times all times are the device's. So they are, without delays, where the rates
-/// differ by more than 1000 ppm (ClockRates). O(n).
+/// differ by more than 1000 ppm (ClockRates), or, in less than 8 s, by so much that the way to the
+/// host cannot have made it. O(n log n).
 [[nodiscard]] HostFit fit_to_host(const DeviceTimes& device,
                                   std::span<const std::optional<std::int64_t>> host_ns,
                                   std::span<const std::uint64_t> lines);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "runtime/time/clock_fit.h"
 #include "runtime/time/span.h"
@@ -65,7 +66,15 @@ double LagLine::at(std::int64_t device_ns) const {
                                                static_cast<double>(b.device_ns - a.device_ns));
 }
 
-LagLine fit_lag_line(std::span<const LagRow> rows, std::int64_t origin_ns) {
+namespace {
+
+struct FittedLine {
+    LagLine line;
+    double slope = 0.0;  ///< of the fit's last line
+};
+
+/// Fits what the rows' lags are above a line of slope `about`, which is added again.
+FittedLine fit_about(std::span<const LagRow> rows, std::int64_t origin_ns, double about) {
     LagLine line;
     line.origin_ns = origin_ns;
     line.known = true;
@@ -84,7 +93,9 @@ LagLine fit_lag_line(std::span<const LagRow> rows, std::int64_t origin_ns) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const std::int64_t device_ns = rows[i].device_ns;
         // As the fit has it, host times are those since the stretch's first.
-        const std::int64_t arrived_ns = time::saturated(rows[i].lag_ns - line.base_ns + device_ns);
+        const std::int64_t arrived_ns =
+            time::saturated(rows[i].lag_ns - line.base_ns + device_ns -
+                            std::llround(about * static_cast<double>(device_ns - origin_ns)));
         if (i > 0) {
             const std::int64_t step_ns = device_ns - rows[i - 1].device_ns;
             window_from_ns = step_ns > kFitForgets_ns ? device_ns : window_from_ns;
@@ -118,6 +129,9 @@ LagLine fit_lag_line(std::span<const LagRow> rows, std::int64_t origin_ns) {
             line.knots.push_back(*last);
         }
     }
+    for (LagKnot& knot : line.knots) {
+        knot.lag_ns += about * static_cast<double>(knot.device_ns - origin_ns);
+    }
     if (line.knots.size() >= 2) {
         const auto [least, most] = std::minmax_element(
             line.knots.begin(), line.knots.end(),
@@ -132,7 +146,22 @@ LagLine fit_lag_line(std::span<const LagRow> rows, std::int64_t origin_ns) {
             line.within_ns = std::max<std::int64_t>(line.within_ns, std::llround(change_ns));
         }
     }
-    return line;
+    return {std::move(line), last_slope};
+}
+
+}  // namespace
+
+LagLine fit_lag_line(std::span<const LagRow> rows, std::int64_t origin_ns, double about) {
+    constexpr double kBound = 0.99 * time::ClockFit::kGreatestSkew;
+    // What is in the midst of the fit's range anyhow needs no other; what is far beyond is noise.
+    const bool helps = std::abs(about) > time::ClockFit::kGreatestSkew / 2.0 &&
+                       std::abs(about) < 4.0 * time::ClockFit::kGreatestSkew;
+    about = helps ? about : 0.0;
+    FittedLine fitted = fit_about(rows, origin_ns, about);
+    if (std::abs(fitted.slope) >= kBound) {
+        fitted = fit_about(rows, origin_ns, about + fitted.slope);
+    }
+    return std::move(fitted.line);
 }
 
 }  // namespace gazeloop::drivers

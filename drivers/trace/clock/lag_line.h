@@ -32,7 +32,10 @@ struct LagLine {
 /// Fits a stretch as a live tracker's clock is fitted (time::ClockFit), 16 s at a time. What was
 /// before the fit settled gets its lag by the first line. A slope of less than 5 s of rows, or of
 /// lags that do not lie on one line from end to end, is none: then `within_ns` is as much wider.
+/// ClockFit believes slopes up to 500 ppm; `about` is a slope that is known beforehand, or 0, from
+/// which the line's may differ by so much, and by as much again where it comes out at that bound.
 /// Precondition: at least one row. O(n).
-[[nodiscard]] LagLine fit_lag_line(std::span<const LagRow> rows, std::int64_t origin_ns);
+[[nodiscard]] LagLine fit_lag_line(std::span<const LagRow> rows, std::int64_t origin_ns,
+                                   double about = 0.0);
 
 }  // namespace gazeloop::drivers

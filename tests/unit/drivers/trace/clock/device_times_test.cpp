@@ -203,5 +203,42 @@ TEST(DeviceTimes, DropABurstOfManyRowsThatIsShort) {
     EXPECT_EQ(device_times(RowsRead{rows}, 1.0).rows.size(), 2'000U);  // 167 ms
 }
 
+// ---- Counters of few bits -----------------------------------------------------------------------
+
+/// A counter of 65.5 ms begins anew every eighth row at 120 Hz: only the host's clock tells how
+/// often.
+TEST(DeviceTimes, CountAShortCounterOnByTheHostsClock) {
+    for (const std::int64_t gap_ns : {std::int64_t{0}, 300 * kMs}) {
+        auto rows = with_host(good_rows(600), kSecond);
+        std::mt19937_64 random(7);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const std::int64_t taken_ns = *rows[i].device_ticks + (i < 300 ? 0 : gap_ns);
+            rows[i].device_ticks = taken_ns % 65'536'000 / kUs * kUs;
+            rows[i].host_ns = taken_ns + kSecond + static_cast<std::int64_t>(random() % 4'000'000);
+        }
+        const DeviceTimes times = device_times(rows, 1.0);
+        ASSERT_EQ(times.rows.size(), 600U);
+        EXPECT_NEAR(static_cast<double>(times.time_ns[599]),
+                    599.0 * 8'333'333.0 + static_cast<double>(gap_ns), 2e3);
+        ASSERT_THAT(times.findings, SizeIs(1));
+        EXPECT_EQ(times.findings[0].kind, TraceFindingKind::CounterWrapped);
+        EXPECT_GE(times.findings[0].rows, 70U);
+        EXPECT_EQ(times.findings[0].dropped, 0U);
+    }
+}
+
+TEST(DeviceTimes, CountACounterOfTwentyBitsOnFromTheFirstRow) {
+    for (const bool host : {true, false}) {
+        auto rows = host ? with_host(good_rows(700, 0), kSecond) : good_rows(700, 0);
+        for (TraceRow& row : rows) {
+            row.device_ticks = (*row.device_ticks / kUs + (1 << 20) - 100'000) % (1 << 20) * kUs;
+        }
+        const DeviceTimes times = device_times(rows, 1.0);
+        ASSERT_EQ(times.rows.size(), 700U) << host;
+        EXPECT_NEAR(static_cast<double>(times.time_ns[699]), 699.0 * 8'333'333.0, 2e3);
+        EXPECT_THAT(of_kind(times.findings, TraceFindingKind::TimeOutlier), IsEmpty());
+    }
+}
+
 }  // namespace
 }  // namespace gazeloop::drivers

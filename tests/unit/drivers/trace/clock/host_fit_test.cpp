@@ -451,5 +451,43 @@ TEST(HostFit, BearsAnyTimes) {
     }
 }
 
+TEST(HostFit, SaysWhereRatesAreNoCrystalsHoweverShortTheTraceIs) {
+    struct Case {
+        std::size_t rows;
+        double ratio;
+    };
+    for (const auto& [rows, ratio] :
+         {Case{600, 2.0}, Case{600, 1.5}, Case{600, 1.05}, Case{600, 1.01}, Case{600, 0.95},
+          Case{600, 0.5}, Case{960, 1.01}, Case{240, 1.05}, Case{240, 0.95}, Case{24, 2.0},
+          Case{24, 0.5}}) {
+        Recording recording = recorded(rows, 0.0);
+        for (TraceRow& row : recording.rows) {
+            *row.host_ns += std::llround(static_cast<double>(*row.device_ticks) * (ratio - 1.0));
+        }
+        const auto [device, fit] = fitted(recording.rows);
+        ASSERT_THAT(fit.findings, SizeIs(1)) << rows << ' ' << ratio;
+        EXPECT_EQ(fit.findings[0].kind, TraceFindingKind::ClockRates);
+        EXPECT_EQ(fit.time_ns, device.time_ns);
+        EXPECT_NEAR(fit.host_per_device, ratio, 0.03) << rows;
+        EXPECT_EQ(fit.absurd_rates, ratio == 2.0 || ratio == 0.5) << rows << ' ' << ratio;
+    }
+}
+
+/// Crystals are not so far off, but what is in a file may be.
+TEST(HostFit, FollowsSkewsBeyondThoseOfCrystals) {
+    for (const double ppm : {600.0, -600.0, -800.0, 950.0}) {
+        const Recording longer = recorded(12'000, ppm);  // 100 s
+        EXPECT_NEAR(fitted(longer.rows).fit.skew_ppm, -ppm, 5.0);
+        EXPECT_LT(errors(fitted(longer.rows).fit, longer).time_ms, 0.15) << ppm;
+        for (const std::size_t rows : {840U, 1'200U}) {  // 7 and 10 s
+            const Recording recording = recorded(rows, ppm, 0.3);
+            const HostFit fit = fitted(recording.rows).fit;
+            EXPECT_NEAR(fit.skew_ppm, -ppm, 60.0) << rows;
+            EXPECT_LT(errors(fit, recording).time_ms, 0.4) << ppm << ' ' << rows;
+            EXPECT_THAT(fit.findings, IsEmpty()) << ppm;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace gazeloop::drivers
