@@ -168,6 +168,34 @@ std::string odd_distance(const gaze::Anatomy& anatomy) {
         apart_m * 1e3, kLeast_m * 1e3, kMost_m * 1e3);
 }
 
+/// What is odd about parts of a recording that as a whole agrees with anatomy: the eyes' rays meet
+/// in most of it and diverge by as much in the rest. Nothing where that is not so.
+std::string odd_part(std::span<const gaze::GazeSample> samples, const gaze::Anatomy& whole) {
+    constexpr std::size_t kParts = 10;
+    constexpr double kLeast_deg = 1.0;
+    if (whole.doubtful() || !whole.vergence_deg) {
+        return {};
+    }
+    const double apart_deg = std::max(kLeast_deg, whole.vergence_deg->median / 2.0);
+    std::size_t odd = 0;
+    std::int64_t first_ns = 0;
+    for (std::size_t part = 0; part < kParts; ++part) {
+        const std::size_t begin = samples.size() * part / kParts;
+        const std::size_t end = samples.size() * (part + 1) / kParts;
+        const gaze::Anatomy anatomy = gaze::anatomy_of(samples.subspan(begin, end - begin));
+        if (anatomy.vergence_deg && anatomy.vergence_deg->median < -apart_deg &&
+            anatomy.vergence_deg->upper < 0.0) {
+            first_ns = odd++ == 0 ? samples[begin].sampled.ns : first_ns;
+        }
+    }
+    return odd == 0 ? ""
+                    : fmt::format(
+                          "the eyes' rays meet in most of the recording and diverge in {} "
+                          "of its {} parts, the first from {:.1f} s on: left and right are "
+                          "exchanged there, it seems; split the file",
+                          odd, kParts, static_cast<double>(first_ns) * 1e-9);
+}
+
 }  // namespace
 
 Expected<void> hold_against_anatomy(gaze::GazeTrace& trace, AxesCorrection correction) {
@@ -182,6 +210,12 @@ Expected<void> hold_against_anatomy(gaze::GazeTrace& trace, AxesCorrection corre
     if (!odd.empty()) {
         trace.report.add(
             {.kind = gaze::TraceFindingKind::Axes, .rows = trace.samples.size(), .text = odd});
+    }
+    if (std::string part = odd_part(trace.samples, anatomy); !part.empty()) {
+        trace.report.axes += "; but " + part;
+        trace.report.add({.kind = gaze::TraceFindingKind::Axes,
+                          .rows = trace.samples.size(),
+                          .text = std::move(part)});
     }
     if (anatomy.doubtful()) {
         text += "; " + remedy(trace.samples, correction);

@@ -85,7 +85,8 @@ Expected<std::optional<TimedNumbers>> read_companion(const TraceFile& trace, std
         lacking.insert(lacking.begin(), time_column_ns);
     }
     if (!lacking.empty()) {
-        note(fmt::format("{}: not read, for want of the column '{}'", name, lacking.front()));
+        note(fmt::format("{}: not read, for want of the column '{}'", name, lacking.front()),
+             gaze::TraceFindingKind::NotRead);
         return None{};
     }
     const std::size_t time_column = *table->column(time_column_ns);
@@ -121,7 +122,8 @@ Expected<std::optional<TimedNumbers>> read_companion(const TraceFile& trace, std
     }
     if (unreadable > 0) {
         note(fmt::format("{}: {} {} without all numbers left out, the first is line {}", name,
-                         unreadable, unreadable == 1 ? "row" : "rows", first_line));
+                         unreadable, unreadable == 1 ? "row" : "rows", first_line),
+             gaze::TraceFindingKind::Text);
     }
     sort_by_time(numbers);
     return numbers;

@@ -11,6 +11,7 @@
 
 #include "drivers/trace/trace_format.h"
 #include "runtime/error.h"
+#include "runtime/gaze/trace_report.h"
 
 namespace gazeloop::drivers {
 
@@ -30,8 +31,9 @@ struct TimedNumbers {
                                                       std::int64_t within_ns) const;
 };
 
-/// Takes what is noteworthy of a companion: "imu.csv: 3 rows cannot be read, the first is line 7".
-using CompanionNotes = std::function<void(std::string)>;
+/// Takes what is noteworthy of a companion, "imu.csv: 3 rows cannot be read, the first is line 7",
+/// as a Text or, where it is not used, NotRead.
+using CompanionNotes = std::function<void(std::string, gaze::TraceFindingKind)>;
 
 /// Reads columns of FOLDER/`name`, where FOLDER is the trace's; without such a file, .gz too. Rows
 /// with a cell that holds no number are left out, and noted. None where there is no such file, the

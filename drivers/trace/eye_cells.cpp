@@ -1,6 +1,7 @@
 #include "drivers/trace/eye_cells.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,13 @@ std::array<std::string_view, 3> views(const std::array<std::string, 3>& names) {
 
 std::string_view name_of(gaze::Eye eye) { return gaze::kEyeNames[gaze::index(eye)]; }
 
+/// Whether a table has something of an eye beside its direction.
+bool has_more(const CsvTable& table, const EyeColumnNames& names) {
+    const auto has = [&](const std::string& name) { return !name.empty() && table.has(name); };
+    return has(names.valid) || has(names.openness) || has(names.confidence) ||
+           std::ranges::any_of(names.origin, has);
+}
+
 }  // namespace
 
 EyeCells::EyeCells(CsvTable& table, gaze::Eye eye, const EyeColumnNames& names, const EyeForm& form)
@@ -32,19 +40,29 @@ EyeCells::EyeCells(CsvTable& table, gaze::Eye eye, const EyeColumnNames& names, 
     const auto optional = [&](const std::string& name) {
         return name.empty() ? std::nullopt : table.column(name);
     };
-    for (const std::string& name : names.direction) {
-        if (const auto column = table.column(name)) {
-            direction_.push_back(*column);
-        }
+    std::vector<std::string_view> needed(names.direction.begin(), names.direction.end());
+    if (form.trust != nullptr) {
+        needed.emplace_back(names.valid);
     }
-    valid_ = optional(names.valid);
-    if (direction_.size() < names.direction.size() || (form.trust != nullptr && !valid_)) {
-        direction_.clear();
-        table.note(table.header_line(),
-                   fmt::format("no {} eye, for want of its direction{}", name_of(eye),
-                               names.valid.empty() ? "" : fmt::format(" or '{}'", names.valid)));
+    if (const std::vector<std::string_view> lacking = table.missing(needed); !lacking.empty()) {
+        if (lacking.size() < needed.size() || has_more(table, names)) {
+            table.note(table.header_line(),
+                       fmt::format("no {} eye, although other columns of it are there: it lacks "
+                                   "'{}'",
+                                   name_of(eye), fmt::join(lacking, "', '")),
+                       gaze::TraceFindingKind::NotRead);
+        } else {
+            table.note(
+                table.header_line(),
+                fmt::format("no {} eye, for want of its direction{}", name_of(eye),
+                            names.valid.empty() ? "" : fmt::format(" or '{}'", names.valid)));
+        }
         return;
     }
+    for (const std::string& name : names.direction) {
+        direction_.push_back(*table.column(name));
+    }
+    valid_ = optional(names.valid);
     origin_ = table.columns(views(names.origin), fmt::format("the {} eye's origin", name_of(eye)));
     openness_ = optional(names.openness);
     confidence_ = optional(names.confidence);

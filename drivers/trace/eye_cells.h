@@ -52,7 +52,8 @@ struct EyeForm {
 /// another number that is missing is unknown, and one that cannot be read counts too.
 class EyeCells {
   public:
-    /// An eye whose direction or validity the table lacks is never valid, which is noted.
+    /// An eye whose direction or validity the table lacks is never valid, which is noted: as
+    /// NotRead where the table has other columns of it.
     EyeCells(CsvTable& table, gaze::Eye eye, const EyeColumnNames& names, const EyeForm& form);
 
     /// The eye in the table's current row.

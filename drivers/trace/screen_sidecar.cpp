@@ -1,9 +1,12 @@
 #include "drivers/trace/screen_sidecar.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "drivers/trace/json_file.h"
 
@@ -51,11 +54,28 @@ Expected<ScreenSidecar> read_screen_sidecar(const TraceFile& file, const std::st
     if (!*json) {
         return refuse("no geometry of the screen");
     }
+    if (const std::string missing = text_in(**json, "missing");
+        (**json).contains("missing") && missing != kMissingAtZero) {
+        return std::unexpected(Error{
+            ErrorKind::BadInput,
+            fmt::format("{}: 'missing' says how losses are written, and only \"{}\" is known: "
+                        "write that, or leave it out and empty the cells of losses",
+                        sidecar_name, kMissingAtZero)});
+    }
     const auto size_m = numbers_in<2>(**json, "screen_size_m");
     const auto written_px = numbers_in<2>(**json, "screen_px");
     const auto distance_m = number_in(**json, "view_distance_m");
     if (!size_m || (!written_px && !size_px) || !distance_m) {
-        return refuse(fmt::format("{} lacks one of them", sidecar_name));
+        std::vector<std::string_view> lacking;
+        for (const auto& [there, what] :
+             {std::pair{size_m.has_value(), "screen_size_m (two numbers)"},
+              std::pair{written_px || size_px, "screen_px (two numbers)"},
+              std::pair{distance_m.has_value(), "view_distance_m (a number)"}}) {
+            if (!there) {
+                lacking.emplace_back(what);
+            }
+        }
+        return refuse(fmt::format("{} lacks {}", sidecar_name, fmt::join(lacking, " and ")));
     }
     const ScreenSidecar sidecar{
         .screen = {.size_m = {(*size_m)[0], (*size_m)[1]},

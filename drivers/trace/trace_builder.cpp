@@ -46,12 +46,18 @@ std::uint64_t first_line(const gaze::TraceReport& report, auto&& is_meant) {
     return first.value_or(0);
 }
 
-/// Of what is dropped, without a cut last line: "time outlier 83, repeat 2"
+/// Whether rows dropped so say nothing against the others: a recorder that was stopped cuts the
+/// last line of a good file, and a file may hold several recordings.
+bool is_harmless(TraceFindingKind kind) {
+    return kind == TraceFindingKind::CutRow || kind == TraceFindingKind::OtherRecording;
+}
+
+/// Of what is dropped and tells against a file: "time outlier 83, repeat 2"
 std::string reasons(const gaze::TraceReport& report) {
     std::string text;
     for (std::size_t kind = 0; kind < gaze::kTraceFindingKinds; ++kind) {
         const auto& count = report.count(static_cast<TraceFindingKind>(kind));
-        if (count.dropped > 0 && static_cast<TraceFindingKind>(kind) != TraceFindingKind::CutRow) {
+        if (count.dropped > 0 && !is_harmless(static_cast<TraceFindingKind>(kind))) {
             text += fmt::format("{}{} {}", text.empty() ? "" : ", ", gaze::kTraceFindingNames[kind],
                                 count.dropped);
         }
@@ -61,10 +67,11 @@ std::string reasons(const gaze::TraceReport& report) {
 
 /// What is wrong with a trace of which so much was dropped or changed; nothing if it will do.
 Expected<void> check_repairs(const std::string& file, const gaze::TraceReport& report) {
-    // A recorder that was stopped cuts the last line of a good file.
-    const std::uint64_t cut = report.count(TraceFindingKind::CutRow).dropped;
-    const std::uint64_t dropped = report.rows_dropped() - cut;
-    if (dropped * kRowsPerRepair > report.rows - cut) {
+    const std::uint64_t harmless = report.count(TraceFindingKind::CutRow).dropped +
+                                   report.count(TraceFindingKind::OtherRecording).dropped;
+    const std::uint64_t dropped = report.rows_dropped() - harmless;
+    const std::uint64_t rows = report.rows - harmless;
+    if (dropped * kRowsPerRepair > rows) {
         const auto bad_time = std::ranges::find(report.findings(), TraceFindingKind::BadTime,
                                                 &gaze::TraceFinding::kind);
         if (2 * report.count(TraceFindingKind::BadTime).dropped > dropped) {
@@ -73,16 +80,16 @@ Expected<void> check_repairs(const std::string& file, const gaze::TraceReport& r
                             file, bad_time->line, bad_time->text));
         }
         const std::uint64_t line = first_line(report, [](const auto& finding) {
-            return finding.dropped > 0 && finding.kind != TraceFindingKind::CutRow;
+            return finding.dropped > 0 && !is_harmless(finding.kind);
         });
         return bad_input(
             fmt::format("{}:{}: {} of {} rows cannot be used ({}), the first of them "
                         "here; --accept-repairs plays the others",
-                        file, line, dropped, report.rows - cut, reasons(report)));
+                        file, line, dropped, rows, reasons(report)));
     }
     const std::uint64_t sets = report.count(TraceFindingKind::DeviceClockSet).times +
                                report.count(TraceFindingKind::HostClockSet).times;
-    if (sets * kRowsPerRepair > report.rows) {
+    if (sets * kRowsPerRepair > rows) {
         const std::uint64_t line = first_line(report, [](const auto& finding) {
             return finding.kind == TraceFindingKind::DeviceClockSet ||
                    finding.kind == TraceFindingKind::HostClockSet;
@@ -91,7 +98,7 @@ Expected<void> check_repairs(const std::string& file, const gaze::TraceReport& r
             fmt::format("{}:{}: the clocks step back or ahead in {} of {} rows, the "
                         "first of them here; --accept-repairs plays them in their "
                         "order all the same",
-                        file, line, sets, report.rows));
+                        file, line, sets, rows));
     }
     return {};
 }
@@ -166,25 +173,74 @@ void TraceBuilder::add(const TraceRow& row) {
 }
 
 double TraceBuilder::choose_clock() {
-    if (std::ranges::any_of(rows_.clocks(),
-                            [](const RowClock& row) { return row.device_ticks.has_value(); })) {
-        return origin_.device_tick_ns;
-    }
+    const std::span<RowClock> clocks = rows_.clocks();
+    const auto first = std::ranges::find_if(
+        clocks, [](const RowClock& row) { return row.device_ticks.has_value(); });
+    const bool counts = std::any_of(first, clocks.end(), [&](const RowClock& row) {
+        return row.device_ticks && row.device_ticks != first->device_ticks;
+    });
     const auto differs = [&](const RowClock& row) {
-        return row.other_ticks && row.other_ticks != rows_.clocks().front().other_ticks;
+        return row.other_ticks && row.other_ticks != clocks.front().other_ticks;
     };
-    if (std::ranges::none_of(rows_.clocks(), differs)) {
+    if (counts || std::ranges::none_of(clocks, differs)) {
         return origin_.device_tick_ns;
     }
-    for (RowClock& row : rows_.clocks()) {
+    const std::string why = first == clocks.end()
+                                ? fmt::format("{}, nor is it in any row", unread_time_)
+                                : fmt::format("column '{}' says the same in all rows", clock_);
+    for (RowClock& row : clocks) {
         row.device_ticks = row.other_ticks;
     }
-    trace_.report.add({.kind = TraceFindingKind::BadTime,
-                       .line = rows_[0].line,
-                       .rows = rows_.size(),
-                       .text = fmt::format("{}, nor is it in any row: the times are those of '{}'",
-                                           unread_time_, origin_.other_clock)});
+    trace_.report.add(
+        {.kind = TraceFindingKind::BadTime,
+         .line = clocks.front().line,
+         .rows = rows_.size(),
+         .text = fmt::format("{}: the times are those of '{}'", why, origin_.other_clock)});
+    clock_is(std::string{origin_.other_clock}, origin_.other_tick_ns);
     return origin_.other_tick_ns;
+}
+
+void TraceBuilder::doubt_rate(const DeviceTimes& times, gaze::GazeTrace& trace) const {
+    constexpr std::size_t kFewest = 16;
+    constexpr double kSlowest_hz = 5.0;
+    constexpr double kFastest_hz = 5000.0;
+    const bool shortened = trace.report.count(TraceFindingKind::GapShortened).times > 0;
+    const double rate_hz = shortened && times.interval_ns > 0
+                               ? 1e9 / static_cast<double>(times.interval_ns)
+                               : trace.report.rate_hz;
+    if (trace.samples.size() < kFewest || rate_hz <= 0.0 ||
+        (rate_hz >= kSlowest_hz && rate_hz <= kFastest_hz)) {
+        return;
+    }
+    struct Unit {
+        double ns;
+        std::string_view name;
+    };
+    constexpr double kUsualFrom_hz = 20.0;
+    constexpr double kUsualTo_hz = 2000.0;
+    std::string as;
+    std::string_view stated = "the unit that is asked for";
+    for (const Unit& unit :
+         {Unit{1.0, "nanoseconds"}, Unit{100.0, "100 ns"}, Unit{1e3, "microseconds"},
+          Unit{1e6, "milliseconds"}, Unit{1e9, "seconds"}}) {
+        const double as_hz = rate_hz * clock_unit_ns_ / unit.ns;
+        if (unit.ns == clock_unit_ns_) {
+            stated = unit.name;
+        } else if (as_hz >= kUsualFrom_hz && as_hz <= kUsualTo_hz) {
+            as += fmt::format("{}{:.3g} in {}", as.empty() ? "" : ", ", as_hz, unit.name);
+        }
+    }
+    const bool of_device = !times.by_host && knows_clock();
+    trace.report.add(
+        {.kind = TraceFindingKind::OddTimes,
+         .rows = trace.samples.size(),
+         .text = fmt::format(
+             "{:.3g} rows a second by {}, and eye trackers have {:g} to {:g}: {}", rate_hz,
+             of_device ? fmt::format("'{}'", clock_) : std::string("the host's times"), kSlowest_hz,
+             kFastest_hz,
+             !of_device || as.empty()
+                 ? std::string("look at the unit of the times")
+                 : fmt::format("they would be {}; write the times in {}", as, stated))});
 }
 
 Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
@@ -221,7 +277,7 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
         lines.push_back(rows[row].line);
     }
     HostFit fit = fit_to_host(times, host_ns, lines);
-    if ((fit.host_per_device < 0.5 || fit.host_per_device > 2.0) && !options.accept_repairs) {
+    if (fit.absurd_rates && !options.accept_repairs) {
         return bad_input(fmt::format("{}:{}: {}, or --accept-repairs plays them as they are",
                                      trace.file, fit.findings.back().line,
                                      fit.findings.back().text));
@@ -276,6 +332,7 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
         }
     }
     report.rate_hz = gaze::sample_rate_hz(trace.samples);
+    doubt_rate(fitted, trace);
     if (report.valid[0] + report.valid[1] == 0) {
         return bad_input(fmt::format("no valid gaze in {}", trace.file));
     }

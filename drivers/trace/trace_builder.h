@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "drivers/trace/clock/device_times.h"
 #include "drivers/trace/clock/rows_read.h"
 #include "drivers/trace/read_options.h"
 #include "runtime/error.h"
@@ -43,6 +44,14 @@ class TraceBuilder {
     }
     [[nodiscard]] bool knows_unread_time() const { return !unread_time_.empty(); }
 
+    /// Says what messages call the device's clock, "t_device_ns", and what its numbers count, ns.
+    void clock_is(std::string name, double unit_ns) {
+        clock_ = std::move(name);
+        clock_unit_ns_ = unit_ns;
+    }
+    [[nodiscard]] bool knows_clock() const { return !clock_.empty(); }
+    [[nodiscard]] const TraceOrigin& origin() const { return origin_; }
+
     /// For what the format's reader finds. Rows that it does not add it counts itself.
     [[nodiscard]] gaze::TraceReport& report() { return trace_.report; }
 
@@ -53,11 +62,16 @@ class TraceBuilder {
     [[nodiscard]] Expected<gaze::GazeTrace> finish(const ReadOptions& options);
 
   private:
-    /// Takes the other clock where the device's cannot be read in any row. The tick, ns.
+    /// Takes the other clock where the device's cannot be read in any row, or says the same in all.
+    /// The tick, ns.
     [[nodiscard]] double choose_clock();
+    /// Doubts a rate that no eye tracker has.
+    void doubt_rate(const DeviceTimes& times, gaze::GazeTrace& trace) const;
 
     TraceOrigin origin_;
     std::string unread_time_;
+    std::string clock_;
+    double clock_unit_ns_ = 0.0;
     gaze::GazeTrace trace_;
     RowsRead rows_;
 };

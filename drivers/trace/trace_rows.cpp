@@ -3,18 +3,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace gazeloop::drivers {
+namespace {
+
+/// What to do about a time of day or a date.
+std::string_view remedy_of_time(std::string_view cell) {
+    return cell.find(':') == std::string_view::npos
+               ? ""
+               : " but a time of day: write how long it is since the first row instead";
+}
+
+}  // namespace
 
 TraceRows::TraceRows(CsvTable& table, gaze::PerEye<EyeCells>& eyes, TraceOrigin origin)
     : table_(table), eyes_(eyes), builder_(std::move(origin)) {}
 
 std::optional<std::int64_t> TraceRows::ticks(std::size_t column, std::string_view ticks) {
     const std::optional<std::int64_t> value = table_.whole(column);
+    if (!builder_.knows_clock()) {
+        builder_.clock_is(table_.name_of(column), builder_.origin().device_tick_ns);
+    }
     if (!value && !builder_.knows_unread_time()) {
-        builder_.unread_time(
-            fmt::format("{} is no whole number of {}", table_.described(column), ticks));
+        builder_.unread_time(fmt::format("{} is no whole number of {}{}", table_.described(column),
+                                         ticks, remedy_of_time(table_.text(column))));
     }
     return value;
 }
@@ -22,8 +36,12 @@ std::optional<std::int64_t> TraceRows::ticks(std::size_t column, std::string_vie
 std::optional<std::int64_t> TraceRows::decimal_ticks(std::size_t column, int digits,
                                                      std::string_view unit) {
     const std::optional<std::int64_t> value = table_.decimal(column, digits);
+    if (!builder_.knows_clock()) {
+        builder_.clock_is(table_.name_of(column), std::pow(10.0, digits));
+    }
     if (!value && !builder_.knows_unread_time()) {
-        builder_.unread_time(fmt::format("{} is no time in {}", table_.described(column), unit));
+        builder_.unread_time(fmt::format("{} is no time in {}{}", table_.described(column), unit,
+                                         remedy_of_time(table_.text(column))));
     }
     return value;
 }
@@ -31,6 +49,53 @@ std::optional<std::int64_t> TraceRows::decimal_ticks(std::size_t column, int dig
 void TraceRows::only_where(std::function<bool()> is_gaze, std::string_view what) {
     is_gaze_ = std::move(is_gaze);
     others_ = what;
+}
+
+bool TraceRows::is_of_another() {
+    constexpr std::size_t kNamed = 16;
+    const std::string_view name = table_.text(*recording_column_);
+    if (!recordings_.empty() && (name == recordings_.front().name || name.empty())) {
+        return false;
+    }
+    const auto known = std::ranges::find(recordings_, name, &Recording::name);
+    if (known != recordings_.end()) {
+        ++known->rows;
+    } else if (recordings_.size() < kNamed) {
+        recordings_.push_back(
+            {std::string{name}, table_.quoted(*recording_column_), 1, table_.line()});
+    } else {
+        ++of_unnamed_;
+    }
+    return recordings_.size() > 1;
+}
+
+void TraceRows::report_other_recordings() {
+    if (recordings_.size() < 2) {
+        return;
+    }
+    constexpr std::size_t kListed = 4;
+    std::uint64_t others = of_unnamed_;
+    std::string list;
+    for (std::size_t i = 1; i < recordings_.size(); ++i) {
+        others += recordings_[i].rows;
+        if (i <= kListed) {
+            list += fmt::format("{}{} ({} rows)", i == 1 ? "" : ", ", recordings_[i].quoted,
+                                recordings_[i].rows);
+        }
+    }
+    if (recordings_.size() > kListed + 1) {
+        list += " and more";
+    }
+    gaze::TraceReport& report = builder_.report();
+    report.rows += others;
+    report.add(
+        {.kind = gaze::TraceFindingKind::OtherRecording,
+         .line = recordings_[1].first_line,
+         .rows = others,
+         .dropped = others,
+         .text = fmt::format("only {} is read, which the first row is of by '{}'; left out: "
+                             "{}; write the rows of each to a file of its own to read it",
+                             recordings_[0].quoted, table_.name_of(*recording_column_), list)});
 }
 
 std::optional<std::int64_t> TraceRows::optional_ticks(std::optional<std::size_t> column) {
@@ -101,6 +166,13 @@ Expected<gaze::GazeTrace> TraceRows::finish(const ReadOptions& options) {
                     .text = fmt::format("gaze not vouched for in {} {}: {}", refused.rows,
                                         refused.rows == 1 ? "row" : "rows", refused.why)});
     }
+    report_other_recordings();
+    if (rows_ == 0 && left_out_ > 0) {
+        return std::unexpected(
+            Error{ErrorKind::BadInput,
+                  fmt::format("{}:{}: all {} rows are {}: export the eye tracker's rows too",
+                              table_.name(), first_left_out_, left_out_, others_)});
+    }
     if (left_out_ > 0) {
         report.add({.kind = gaze::TraceFindingKind::Text,
                     .line = first_left_out_,
@@ -119,8 +191,12 @@ Expected<gaze::GazeTrace> TraceRows::finish(const ReadOptions& options) {
             message += fmt::format("; from line {}: {}", finding.line, finding.text);
         }
     }
+    const bool unreadable = report.count(gaze::TraceFindingKind::BadCells).rows > 0;
     return std::unexpected(Error{
-        ErrorKind::BadInput, message + ": set the tracker up for these eyes, and record again"});
+        ErrorKind::BadInput,
+        message + (unreadable ? ": mend these cells, or set the tracker up for these eyes and "
+                                "record again"
+                              : ": set the tracker up for these eyes, and record again")});
 }
 
 }  // namespace gazeloop::drivers

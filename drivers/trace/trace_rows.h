@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -31,6 +32,9 @@ class TraceRows {
     /// Rows of which `is_gaze` is false are those of another stream, as files with several sensors
     /// have them: they are left out, and noted as `what`. The table's current row is asked for.
     void only_where(std::function<bool()> is_gaze, std::string_view what);
+    /// A column names the recording that a row is of. Those of another than the first row's are
+    /// dropped, counted and named (OtherRecording).
+    void one_recording(std::size_t column) { recording_column_ = column; }
 
     /// Reads all rows; `take_apart(row)` fills in what is not line or eyes, by the functions below,
     /// and may take an eye's validity back. Errors: those of the table and of the builder; no row
@@ -68,9 +72,18 @@ class TraceRows {
     /// So that the rows are not moved again and again while they become more.
     void make_room();
     void refuse_unless_missing(RowPart part, std::size_t column);
+    /// Whether the current row is of another recording; counts it.
+    [[nodiscard]] bool is_of_another();
+    void report_other_recordings();
     [[nodiscard]] Expected<gaze::GazeTrace> finish(const ReadOptions& options);
 
     CsvTable& table_;
+    struct Recording {
+        std::string name;
+        std::string quoted;  ///< as messages show it
+        std::uint64_t rows = 0;
+        std::uint64_t first_line = 0;
+    };
     struct Refused {
         std::string_view why;
         std::uint64_t rows = 0;
@@ -83,6 +96,9 @@ class TraceRows {
     std::string_view others_;
     std::uint64_t left_out_ = 0;
     std::uint64_t first_left_out_ = 0;
+    std::optional<std::size_t> recording_column_;
+    std::vector<Recording> recordings_;  ///< the first is read
+    std::uint64_t of_unnamed_ = 0;       ///< rows of recordings beyond the few that are named
     std::vector<Refused> refused_;
     BadCells bad_;
     std::uint64_t rows_ = 0;
@@ -101,6 +117,9 @@ Expected<gaze::GazeTrace> TraceRows::read(const ReadOptions& options, const Take
         }
         if (is_gaze_ && !is_gaze_()) {
             first_left_out_ = left_out_++ == 0 ? table_.line() : first_left_out_;
+            continue;
+        }
+        if (recording_column_ && is_of_another()) {
             continue;
         }
         TraceRow row;

@@ -111,8 +111,8 @@ std::string TraceSource::description() const {
     std::string text =
         fmt::format("trace {} ({}, {} samples", trace_.file, trace_.device, trace_.samples.size());
     const gaze::TraceReport& report = trace_.report;
-    if (report.lost_by_tracker > 0) {
-        text += fmt::format(", {} lost by the tracker", report.lost_by_tracker);
+    if (report.lost_by_tracker.value_or(0) > 0) {
+        text += fmt::format(", {} lost by the tracker", *report.lost_by_tracker);
     }
     if (report.rows_dropped() > 0) {
         text += fmt::format(", {} dropped", report.rows_dropped());

@@ -27,8 +27,11 @@ std::uint64_t TraceReport::rows_dropped() const {
 
 bool TraceReport::worth_a_warning() const {
     constexpr std::int64_t kSecond_ns = 1'000'000'000;
-    if (count(TraceFindingKind::Axes).times > 0) {
-        return true;
+    for (const TraceFindingKind always : {TraceFindingKind::Axes, TraceFindingKind::OtherRecording,
+                                          TraceFindingKind::NotRead, TraceFindingKind::OddTimes}) {
+        if (count(always).times > 0) {
+            return true;
+        }
     }
     std::uint64_t concerned = 0;
     std::int64_t span_ns = 0;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,12 +15,14 @@ namespace gazeloop::gaze {
 /// What a reader of traces found in a file and did about it. "Row" is a row of the file.
 enum class TraceFindingKind : std::uint8_t {
     // Rows or eyes that are not used.
-    TimeOutlier,   ///< a time that neither neighbour agrees with: the row is dropped
-    Repeat,        ///< the same report once more: the row is dropped
-    BadTime,       ///< a row without a readable time: it is dropped, or the host's time is taken
-    BadCells,      ///< a cell of a valid eye that is no number: that eye of that row is invalid
-    CutRow,        ///< a last line that was not finished: it is dropped
-    RefusedByBit,  ///< an eye that the tracker's own validity bits do not vouch for
+    TimeOutlier,     ///< a time that neither neighbour agrees with: the row is dropped
+    Repeat,          ///< the same report once more: the row is dropped
+    BadTime,         ///< a row without a readable time: it is dropped, or the host's time is taken
+    BadCells,        ///< a cell of a valid eye that is no number: that eye of that row is invalid
+    CutRow,          ///< a last line that was not finished: it is dropped
+    RefusedByBit,    ///< an eye that the tracker's own validity bits do not vouch for
+    OtherRecording,  ///< rows of another recording in the same file: they are left out
+    NotRead,  ///< an eye, its place, the head or a file beside it, of which something is missing
     // Times that are not as the file has them.
     CounterWrapped,   ///< a clock of limited width began anew from 0: it is counted on
     DeviceClockSet,   ///< the device's clock was set: times go on by the host's clock or the rate
@@ -27,6 +30,7 @@ enum class TraceFindingKind : std::uint8_t {
     HostTimeOutlier,  ///< a host time that neither neighbour agrees with: it is left out
     ClockStoodStill,  ///< a clock stood: times go on by the other one or the rate
     ClockRates,       ///< the clocks go at rates that are no two crystals': a unit may be wrong
+    OddTimes,         ///< times that no eye tracker has, or other than is said elsewhere
     CoarseTimes,      ///< several rows with one time: spread over the clock's step, in their order
     OutOfOrder,       ///< rows in another order than their times: put in order
     SequenceRestarted,  ///< the sequence number wrapped or began anew
@@ -38,18 +42,21 @@ enum class TraceFindingKind : std::uint8_t {
     // The file.
     Text,  ///< quotes, 'sep=', decimal commas and the like, that were read all the same
 };
-inline constexpr std::array<std::string_view, 20> kTraceFindingNames{"time outlier",
+inline constexpr std::array<std::string_view, 23> kTraceFindingNames{"time outlier",
                                                                      "repeat",
                                                                      "bad time",
                                                                      "bad cells",
                                                                      "cut row",
                                                                      "refused by bit",
+                                                                     "other recording",
+                                                                     "not read",
                                                                      "counter wrapped",
                                                                      "device clock set",
                                                                      "host clock set",
                                                                      "host time outlier",
                                                                      "clock stood still",
                                                                      "clock rates",
+                                                                     "odd times",
                                                                      "coarse times",
                                                                      "out of order",
                                                                      "sequence restarted",
@@ -96,13 +103,15 @@ class TraceReport {
     [[nodiscard]] std::uint64_t rows_dropped() const;
 
     /// Whether more than 1 % of the rows or 1 s of time are concerned by what was dropped or
-    /// changed, or where the gaze points is in doubt.
+    /// changed, rows of another recording or a part of the file were left out, or times or where
+    /// the gaze points are in doubt.
     [[nodiscard]] bool worth_a_warning() const;
 
-    std::uint64_t rows = 0;             ///< of the file, after its header, used or not
-    std::uint64_t lost_by_tracker = 0;  ///< by gaps in the sequence numbers
-    double rate_hz = 0.0;               ///< sample_rate.h; 0: fewer than two rows
-    std::int64_t longest_gap_ns = 0;    ///< between samples, as recorded
+    std::uint64_t rows = 0;  ///< of the file, after its header, used or not
+    /// By gaps in the sequence numbers; none where there are no numbers, or they do not count.
+    std::optional<std::uint64_t> lost_by_tracker;
+    double rate_hz = 0.0;             ///< sample_rate.h; 0: fewer than two rows
+    std::int64_t longest_gap_ns = 0;  ///< between samples, as recorded
     std::string clock;  ///< one line: "device, fitted to the host's: +148 ppm, within 0.2 ms"
     std::string axes;   ///< one line: "agree with anatomy", "both eyes diverge: ..."
     PerEye<std::uint64_t> valid{};  ///< samples with that eye valid

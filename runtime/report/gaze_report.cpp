@@ -81,6 +81,11 @@ Samples look_at(const gaze::GazeTrace& trace) {
     return found;
 }
 
+/// Unknown where a trace has no sequence numbers that count; a session's samples always have.
+std::optional<std::uint64_t> lost_by_tracker(const gaze::GazeTrace& trace, const Samples& found) {
+    return trace.report.rows > 0 ? trace.report.lost_by_tracker : found.counts.lost;
+}
+
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 double percent(std::uint64_t part, std::uint64_t whole) {
@@ -160,9 +165,9 @@ std::string gaze_text(const gaze::GazeTrace& trace, const GazeFindings& findings
     row("head", found.with_head > 0 ? fmt::format("recorded with {:.1f} % of the samples",
                                                   percent(found.with_head, all))
                                     : std::string("not recorded"));
-    row("lost",
-        fmt::format("{} by the tracker",
-                    trace.report.rows > 0 ? trace.report.lost_by_tracker : found.counts.lost));
+    const std::optional<std::uint64_t> lost = lost_by_tracker(trace, found);
+    row("lost", lost ? fmt::format("{} by the tracker", *lost)
+                     : std::string("unknown: no sequence numbers that count"));
     return trace.report.rows > 0 ? text + findings_text(trace.report) : text;
 }
 
@@ -195,7 +200,8 @@ Json gaze_json(const gaze::GazeTrace& trace, const GazeFindings& findings) {
     }
     account.add_to(json);
     json["directions"] = directions_of(trace);
-    json["lost"] = trace.report.rows > 0 ? trace.report.lost_by_tracker : found.counts.lost;
+    const std::optional<std::uint64_t> lost = lost_by_tracker(trace, found);
+    json["lost"] = lost ? Json(*lost) : Json(nullptr);
     return json;
 }
 

@@ -24,6 +24,7 @@ constexpr std::string_view kClock = "clock: ";
 constexpr std::string_view kDropped = "dropped as ";
 constexpr std::string_view kOutOfOrder = "out of order";
 constexpr std::string_view kLost = "lost by the tracker";
+constexpr std::string_view kUnknown = "unknown";
 
 std::string_view name_of(std::size_t kind) { return gaze::kTraceFindingNames[kind]; }
 
@@ -38,7 +39,10 @@ std::string counts_text(const gaze::TraceReport& report) {
             report.count(static_cast<TraceFindingKind>(kind)).dropped);
     }
     add(std::string(kOutOfOrder), report.count(TraceFindingKind::OutOfOrder).rows);
-    add(std::string(kLost), report.lost_by_tracker);
+    if (!report.lost_by_tracker) {
+        return text + fmt::format(", {} {}", kLost, kUnknown);
+    }
+    add(std::string(kLost), *report.lost_by_tracker);
     return text;
 }
 
@@ -58,7 +62,7 @@ Json trace_json(std::string_view counts, const std::vector<std::string>& finding
     Json json{{"rows", 0}, {"used", 0}};
     Json dropped = Json::object();
     std::uint64_t out_of_order = 0;
-    std::uint64_t lost = 0;
+    Json lost = 0;
     while (!counts.empty()) {
         const std::string_view one = counts.substr(0, counts.find(", "));
         counts.remove_prefix(std::min(counts.size(), one.size() + 2));
@@ -72,7 +76,7 @@ Json trace_json(std::string_view counts, const std::vector<std::string>& finding
         if (what == kOutOfOrder) {
             out_of_order = count;
         } else if (what == kLost) {
-            lost = count;
+            lost = one.ends_with(kUnknown) ? Json(nullptr) : Json(count);
         } else if (what.starts_with(kDropped)) {
             dropped[std::string(what.substr(kDropped.size()))] = count;
         } else {

@@ -118,7 +118,7 @@ TEST_F(TraceReports, AreTheSameInARunAndItsSession) {
     EXPECT_TRUE(
         has(of_run["directions"].get<std::string>(), "corrected by --axes -x: agree with anatomy"))
         << of_run["directions"];
-    EXPECT_EQ(of_run["trace"]["lost_by_tracker"], 0);
+    EXPECT_TRUE(of_run["trace"]["lost_by_tracker"].is_null()) << "its rows have no numbers";
     EXPECT_TRUE(of_run["trace"]["dropped"].empty());
 }
 

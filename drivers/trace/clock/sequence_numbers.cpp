@@ -26,7 +26,9 @@ class Numbering {
     SequenceNumbers run() {
         steps_.assign(count_, 1);
         std::uint64_t number = 0;
-        if (counts()) {
+        if (const std::uint64_t stride = stride_of(); stride > 1) {
+            report_stride(stride);
+        } else if (counts()) {
             number = begin();
             for (std::size_t i = 1; i < count_; ++i) {
                 steps_[i] += take(i);
@@ -34,8 +36,9 @@ class Numbering {
             if (!follows_a_count()) {
                 number = 0;
                 std::fill(steps_.begin(), steps_.end(), 1);
-                result_.lost = 0;
                 report_no_count();
+            } else {
+                result_.lost = lost_;
             }
         }
         Wide last = number;
@@ -56,6 +59,38 @@ class Numbering {
   private:
     [[nodiscard]] const std::optional<std::uint64_t>& sequence(std::size_t position) const {
         return rows_[times_.rows[position]].sequence;
+    }
+
+    /// By how much nearly every number is above the one before; 1 where numbers differ.
+    [[nodiscard]] std::uint64_t stride_of() const {
+        constexpr std::size_t kFewest = 16;
+        constexpr std::size_t kNearlyAll = 10;  // all but one in so many
+        std::vector<std::uint64_t> steps;
+        for (std::size_t i = 1; i < count_; ++i) {
+            if (sequence(i - 1) && sequence(i) && *sequence(i) > *sequence(i - 1)) {
+                steps.push_back(*sequence(i) - *sequence(i - 1));
+            }
+        }
+        if (steps.size() < kFewest) {
+            return 1;
+        }
+        const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+        std::nth_element(steps.begin(), middle, steps.end());
+        const std::uint64_t stride = *middle;
+        const auto same = static_cast<std::size_t>(std::ranges::count(steps, stride));
+        return (count_ - 1 - same) * kNearlyAll <= count_ ? stride : 1;
+    }
+
+    void report_stride(std::uint64_t stride) {
+        result_.findings.push_back(
+            {.kind = TraceFindingKind::SequenceOutlier,
+             .line = rows_[times_.rows.front()].line,
+             .rows = count_,
+             .dropped = 0,
+             .span_ns = 0,
+             .text = fmt::format("the sequence goes on by {} from row to row: whether it counts so "
+                                 "or reports are missing all along is not known; numbered by row",
+                                 stride)});
     }
 
     /// Whether there are numbers, and not the same one all over.
@@ -188,7 +223,7 @@ class Numbering {
             if (gap.missing > 0) {
                 --gap.missing;
                 --steps_[gap.position];
-                --result_.lost;
+                --lost_;
             }
         }
         late_end_ = end;
@@ -247,7 +282,7 @@ class Numbering {
         std::sort(left_out.begin(), left_out.end());
         left_out.erase(std::unique(left_out.begin(), left_out.end()), left_out.end());
         missing -= std::min<std::uint64_t>(missing, left_out.size());
-        result_.lost += missing;
+        lost_ += missing;
         if (missing > 0) {
             gaps_.push_back({after, *sequence(before), *sequence(after), missing});
         }
@@ -304,6 +339,7 @@ class Numbering {
     std::optional<std::size_t> last_;  ///< position of the last number that counts
     std::size_t breaks_ = 0;           ///< numbers that do not follow, wraps left aside
     std::size_t first_break_ = 0;      ///< the position of the first
+    std::uint64_t lost_ = 0;
     SequenceNumbers result_;
 };
 

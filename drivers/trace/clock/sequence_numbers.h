@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct SequenceNumbers {
     /// Of each used row. Those of the file where it counts up, and counted on where it begins anew;
     /// a gap is what the tracker lost, never a row that was left out here.
     std::vector<std::uint64_t> numbers;
-    std::uint64_t lost = 0;
+    /// None where there are no numbers, or they do not count: nobody knows then.
+    std::optional<std::uint64_t> lost;
     std::vector<gaze::TraceFinding> findings;
 };
 
@@ -26,7 +28,9 @@ struct SequenceNumbers {
 /// 2^32, or if the count over such a wrap is within a fifth, and 4, of what the time has room for;
 /// what was lost there counts too. Rows that were filed up to 256 late are not lost; they are
 /// numbered where they stand (SequenceOutlier). Where more than a tenth of the numbers do not
-/// follow, they count nothing (one SequenceOutlier). Then, without sequence numbers, or where all
+/// follow, or nearly all go on by one number above 1 at even times, so that it is either the
+/// tracker's way to count or every other report is missing, they count nothing (one
+/// SequenceOutlier). Then, without sequence numbers, or where all
 /// are the same, rows are numbered from 0. O(n log n).
 [[nodiscard]] SequenceNumbers sequence_numbers(const RowsRead& rows, const DeviceTimes& times);
 

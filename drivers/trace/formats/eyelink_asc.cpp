@@ -49,7 +49,9 @@ class Reader {
         : lines_(std::move(lines)),
           file_(file),
           builder_({.file = lines_.name(), .format = kEyelinkAsc, .device = "EyeLink"}),
-          cells_(TextLines::kLongestLine) {}
+          cells_(TextLines::kLongestLine) {
+        builder_.clock_is("time", 1e6);
+    }
 
     [[nodiscard]] Expected<gaze::GazeTrace> read(const ReadOptions& options) {
         while (true) {
@@ -91,7 +93,7 @@ class Reader {
             return take_samples(words);
         }
         if (!words.empty() && words[0] == "MSG") {
-            take_message(words);
+            return take_message(words);
         }
         return {};
     }
@@ -113,7 +115,7 @@ class Reader {
         return {};
     }
 
-    void take_message(const std::vector<std::string_view>& words) {
+    [[nodiscard]] Expected<void> take_message(const std::vector<std::string_view>& words) {
         for (std::size_t i = 0; i + 4 < words.size(); ++i) {
             if (words[i] != "GAZE_COORDS" && words[i] != "DISPLAY_COORDS") {
                 continue;
@@ -123,13 +125,33 @@ class Reader {
                 NumberSpelling seen;
                 const auto number = real_number(words[i + 1 + edge], seen);
                 if (!number) {
-                    return;
+                    return {};
                 }
                 edges[edge] = *number;
             }
             settings_.first_px = {edges[0], edges[1]};
             settings_.size_px = {edges[2] - edges[0] + 1.0, edges[3] - edges[1] + 1.0};
         }
+        return screen_ ? change_screen() : Expected<void>{};
+    }
+
+    /// The pixels are others from here on; the screen is the same.
+    [[nodiscard]] Expected<void> change_screen() {
+        const glm::dvec2 before_px = screen_->size_px;
+        screen_->size_px = settings_.size_px.value_or(before_px);
+        if (screen_->size_px == before_px) {
+            return {};
+        }
+        if (const auto right = screen_->check(); !right) {
+            return lines_.error_here(right.error());
+        }
+        builder_.report().add(
+            {.kind = gaze::TraceFindingKind::Text,
+             .line = lines_.line(),
+             .text =
+                 fmt::format("the screen has {} x {} pixels from here on, not {} x {}",
+                             screen_->size_px.x, screen_->size_px.y, before_px.x, before_px.y)});
+        return {};
     }
 
     /// The geometry, once samples begin.

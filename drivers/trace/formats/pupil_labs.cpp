@@ -69,7 +69,9 @@ struct Beside {
 
 Expected<Beside> read_beside(CsvTable& table, const TraceFile& file) {
     Beside beside;
-    const CompanionNotes note = [&](std::string text) { table.note(0, std::move(text)); };
+    const CompanionNotes note = [&](std::string text, gaze::TraceFindingKind kind) {
+        table.note(0, std::move(text), kind);
+    };
     struct Wanted {
         std::optional<TimedNumbers>& to;
         std::string_view name;
@@ -88,9 +90,6 @@ Expected<Beside> read_beside(CsvTable& table, const TraceFile& file) {
             return std::unexpected(read.error());
         }
         wanted.to = std::move(*read);
-        if (wanted.to) {
-            note(fmt::format("{} beside it: read", wanted.name));
-        }
     }
     const auto info = file.empty()
                           ? Expected<std::optional<nlohmann::json>>{std::optional<nlohmann::json>{}}
@@ -100,7 +99,7 @@ Expected<Beside> read_beside(CsvTable& table, const TraceFile& file) {
     }
     const std::string mode = *info ? text_in(**info, "gaze_mode") : std::string{};
     if (!mode.empty()) {
-        note(fmt::format("info.json beside it: gaze_mode {}", mode));
+        table.note(0, fmt::format("info.json beside it: gaze_mode {}", mode));
     }
     beside.is_neon = beside.eyeballs || beside.imu || !mode.empty();
     return beside;
@@ -151,6 +150,47 @@ std::optional<gaze::Pose> head_at(const TimedNumbers& imu, std::int64_t time_ns)
                       glm::dvec3{0.0}};
 }
 
+/// For how many rows a file beside gaze.csv had something to say.
+struct Served {
+    std::uint64_t rows = 0;
+    std::uint64_t eyeballs = 0;
+    std::uint64_t head = 0;
+    std::uint64_t blinks = 0;
+};
+
+/// A file that says nothing of a tenth of the rows is not all there, or of another recording.
+void report_served(const Beside& beside, const Served& served, gaze::TraceReport& report) {
+    struct File {
+        const std::optional<TimedNumbers>& numbers;
+        std::string_view name;
+        std::string_view what;
+        std::uint64_t rows;
+    };
+    for (const File& file :
+         {File{beside.eyeballs, "3d_eye_states.csv", "the eyes' places", served.eyeballs},
+          File{beside.imu, "imu.csv", "the head's pose", served.head}}) {
+        if (!file.numbers) {
+            continue;
+        }
+        const bool most = file.rows * 10 > served.rows * 9;
+        report.add({.kind = most ? gaze::TraceFindingKind::Text : gaze::TraceFindingKind::NotRead,
+                    .text = fmt::format("{} beside it: {} for {} of {} rows{}", file.name,
+                                        file.what, file.rows, served.rows,
+                                        most             ? ""
+                                        : file.rows == 0 ? "; its times are not this recording's, "
+                                                           "or its numbers say nothing"
+                                                         : "; it does not cover the recording")});
+    }
+    if (beside.blinks) {
+        const std::size_t count = beside.blinks->time_ns.size();
+        const bool none = served.blinks == 0 && count > 0;
+        report.add({.kind = none ? gaze::TraceFindingKind::NotRead : gaze::TraceFindingKind::Text,
+                    .text = fmt::format("blinks.csv beside it: {} {} with {} of {} rows{}", count,
+                                        count == 1 ? "blink" : "blinks", served.blinks, served.rows,
+                                        none ? "; its times are not this recording's" : "")});
+    }
+}
+
 bool says_no(std::string_view cell) {
     return cell == "0" || cell == "0.0" || cell == "False" || cell == "false";
 }
@@ -171,15 +211,12 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const Rea
                     .format = kName,
                     .device = beside->is_neon ? "Pupil Labs Neon" : "Pupil Labs"});
     if (const auto recording = table.column(kRecording)) {
-        rows.only_where(
-            [&table, at = *recording, first = std::string{}]() mutable {
-                first = first.empty() ? std::string{table.text(at)} : first;
-                return table.text(at) == first;
-            },
-            "of other recordings");
+        rows.one_recording(*recording);
     }
+    Served served;
     const double parallax_rad = combined_parallax_rad();
-    return rows.read(options, [&](TraceRow& row) {
+    auto trace = rows.read(options, [&](TraceRow& row) {
+        ++served.rows;
         row.device_ticks = rows.ticks(time, "nanoseconds");
         row.parallax_rad = parallax_rad;
         if (worn && says_no(table.text(*worn))) {
@@ -196,6 +233,7 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const Rea
             const auto begun = beside->blinks->row_until(now_ns);
             if (begun && static_cast<double>(now_ns) <= beside->blinks->at(*begun)[0]) {
                 rows.refuse_eyes(row, "a blink (blinks.csv)");
+                ++served.blinks;
             }
         }
         if (beside->eyeballs) {
@@ -203,12 +241,18 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const Rea
                 const std::span<const double> centres = beside->eyeballs->at(*at);
                 row.eyes[0].origin_m = place_m(centres.first(3));
                 row.eyes[1].origin_m = place_m(centres.last(3));
+                ++served.eyeballs;
             }
         }
         if (beside->imu) {
             row.head = head_at(*beside->imu, now_ns);
+            served.head += row.head ? 1 : 0;
         }
     });
+    if (trace) {
+        report_served(*beside, served, trace->report);
+    }
+    return trace;
 }
 
 constexpr TraceFormat kFormat{

@@ -1,6 +1,11 @@
 #include "drivers/trace/formats/screen_pixels.h"
 
+#include <fmt/format.h>
+
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
 
 #include "drivers/trace/directions.h"
 #include "drivers/trace/eye_cells.h"
@@ -30,6 +35,31 @@ EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
          .bits = {}}};
 }
 
+/// Where on the screen the gaze is, as far as it tells pixels from shares of the screen.
+class Places {
+  public:
+    void add(const glm::dvec2& point) {
+        constexpr double kBeyond = 1.0;  // gaze leaves the screen a little
+        const auto is_share = [](double x) { return x >= -kBeyond && x <= 1.0 + kBeyond; };
+        ++points_;
+        shares_ += is_share(point.x) && is_share(point.y) ? 1 : 0;
+        const bool moved = last_ && *last_ != point;
+        between_ += moved && point.x != std::floor(point.x) ? 1 : 0;
+        last_ = point;
+    }
+    /// Nearly all, and they are no marks of losses such as 0,0 and -1,-1.
+    [[nodiscard]] bool look_like_shares() const {
+        constexpr std::uint64_t kFewest = 16;
+        return points_ >= kFewest && shares_ * 100 >= points_ * 99 && 2 * between_ > points_;
+    }
+
+  private:
+    std::uint64_t points_ = 0;
+    std::uint64_t shares_ = 0;
+    std::uint64_t between_ = 0;  ///< points that move and lie between whole numbers
+    std::optional<glm::dvec2> last_;
+};
+
 Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const ReadOptions& options) {
     const Expected<ScreenSidecar> sidecar = read_screen_sidecar(file, table.name());
     if (!sidecar) {
@@ -43,7 +73,8 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const Rea
     const double parallax_rad = combined_parallax_rad(sidecar->screen.distance_m());
     TraceRows rows(table, eyes,
                    {.file = table.name(), .format = kName, .device = "tracker at a screen"});
-    return rows.read(options, [&](TraceRow& row) {
+    Places places;
+    auto trace = rows.read(options, [&](TraceRow& row) {
         row.device_ticks = rows.decimal_ticks(time, 6, "milliseconds");
         row.parallax_rad = parallax_rad;
         const auto x_px = table.real(x);
@@ -55,6 +86,7 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const Rea
             rows.refuse_eyes(row, "x and y are 0,0");
             return;
         }
+        places.add({*x_px, *y_px});
         const auto direction = gaze::unit(sidecar->screen.direction({*x_px, *y_px}));
         if (!direction) {
             rows.refuse_eyes(row, "a point too far from the screen for a direction");
@@ -65,6 +97,15 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const Rea
             ray.direction = *direction;
         }
     });
+    if (trace && places.look_like_shares()) {
+        return std::unexpected(
+            Error{ErrorKind::BadInput,
+                  fmt::format("{}:{}: x_px and y_px go from 0 to 1, as shares of the screen do: "
+                              "multiply them by its {} x {} pixels",
+                              table.name(), table.header_line(), sidecar->screen.size_px.x,
+                              sidecar->screen.size_px.y)});
+    }
+    return trace;
 }
 
 constexpr TraceFormat kFormat{kName, kColumns, kNeeded, read};

@@ -125,6 +125,7 @@ bool is_json_lines(std::string_view first_line) { return trimmed(first_line).sta
 Expected<gaze::GazeTrace> read_tobii_glasses_3(TextLines lines, const ReadOptions& options) {
     TraceBuilder builder(
         {.file = lines.name(), .format = kTobiiGlasses3, .device = "Tobii Pro Glasses 3"});
+    builder.clock_is("timestamp", 1e9);
     BadCells bad;
     Others others;
     std::uint64_t cut_line = 0;

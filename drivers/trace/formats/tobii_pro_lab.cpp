@@ -114,16 +114,12 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
                     .device = glasses ? "Tobii glasses" : "Tobii at a screen"});
     const auto sensor = table.column("Sensor");
     const auto recording = table.column("Recording name");
-    if (sensor || recording) {
-        rows.only_where(
-            [&table, sensor, recording, first = std::string{}]() mutable {
-                if (sensor && table.text(*sensor) != "Eye Tracker") {
-                    return false;
-                }
-                first = recording && first.empty() ? std::string{table.text(*recording)} : first;
-                return !recording || table.text(*recording) == first;
-            },
-            "of other sensors or recordings");
+    if (sensor) {
+        rows.only_where([&table, at = *sensor] { return table.text(at) == "Eye Tracker"; },
+                        "of other sensors than 'Eye Tracker'");
+    }
+    if (recording) {
+        rows.one_recording(*recording);
     }
     return rows.read(options, [&](TraceRow& row) {
         row.device_ticks = rows.decimal_ticks(time, *decimals, table.unit(time));

@@ -261,8 +261,10 @@ std::optional<std::size_t> CsvTable::column(std::string_view column_name) {
 void CsvTable::note_missing(std::span<const std::string_view> names, std::string_view what) {
     const std::vector<std::string_view> absent = missing(names);
     if (absent.size() < names.size()) {
-        note(header_line_, fmt::format("{}: not read, for want of the column '{}'", what,
-                                       fmt::join(absent, "', '")));
+        note(header_line_,
+             fmt::format("{}: not read, for want of the column '{}'", what,
+                         fmt::join(absent, "', '")),
+             gaze::TraceFindingKind::NotRead);
     }
 }
 
@@ -338,12 +340,14 @@ std::optional<std::int64_t> CsvTable::decimal(std::size_t column, int digits) {
 
 std::string_view CsvTable::unit(std::size_t column) const { return apart(header_[column]).unit; }
 
+std::string CsvTable::quoted(std::size_t column) const { return shown(cells_[column]); }
+
 std::string CsvTable::described(std::size_t column) const {
     return fmt::format("column '{}': {}", header_[column], shown(cells_[column]));
 }
 
-void CsvTable::note(std::uint64_t line, std::string text) {
-    notes_.push_back({.kind = gaze::TraceFindingKind::Text, .line = line, .text = std::move(text)});
+void CsvTable::note(std::uint64_t line, std::string text, gaze::TraceFindingKind kind) {
+    notes_.push_back({.kind = kind, .line = line, .text = std::move(text)});
 }
 
 void CsvTable::note(const NumberSpelling& seen) {

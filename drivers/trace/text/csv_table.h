@@ -96,11 +96,15 @@ class CsvTable {
         return says_no_number(cells_[column]);
     }
 
-    /// The cell as a message may quote it: "column 'x': 'abc'".
+    /// The column's name, as the header has it.
+    [[nodiscard]] const std::string& name_of(std::size_t column) const { return header_[column]; }
+    /// The cell as a message may quote it, "'abc'", and with its column: "column 'x': 'abc'".
+    [[nodiscard]] std::string quoted(std::size_t column) const;
     [[nodiscard]] std::string described(std::size_t column) const;
 
-    /// Notes something that was read although it is not usual.
-    void note(std::uint64_t line, std::string text);
+    /// Notes something that was read although it is not usual, or was not read.
+    void note(std::uint64_t line, std::string text,
+              gaze::TraceFindingKind kind = gaze::TraceFindingKind::Text);
     /// Adds what was noted, and a last line that was cut.
     void report_to(gaze::TraceReport& report) const;
 

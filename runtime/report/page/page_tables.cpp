@@ -491,7 +491,12 @@ Table repair_table(const TraceAccount& trace) {
         add("dropped as " + why, count);
     }
     add("out of order", read.value("out_of_order", Json()));
-    add("lost by the tracker", read.value("lost_by_tracker", Json()));
+    if (read.contains("lost_by_tracker") && read["lost_by_tracker"].is_null()) {
+        table.rows.push_back(
+            {.label = "", .cells = {"lost by the tracker", "unknown"}, .show_s = {}});
+    } else {
+        add("lost by the tracker", read.value("lost_by_tracker", Json()));
+    }
     if (read.contains("clock")) {
         table.rows.push_back({.label = "", .cells = {"clock", read["clock"]}, .show_s = {}});
     }

@@ -55,6 +55,20 @@ TEST(TraceEvents, SayCountsDirectionsAndFindings) {
     EXPECT_TRUE(trace_events({}).empty()) << "no file was read";
 }
 
+/// Nobody knows what was lost where no sequence number counts.
+TEST(TraceEvents, SayWhereLossesAreUnknown) {
+    gaze::TraceReport report = example_report();
+    report.lost_by_tracker.reset();
+    EXPECT_THAT(trace_events(report)[0],
+                HasSubstr(", out of order 12, lost by the tracker unknown"));
+    nlohmann::ordered_json json;
+    account_of(report).add_to(json);
+    EXPECT_TRUE(json["trace"]["lost_by_tracker"].is_null()) << json["trace"];
+    report.lost_by_tracker = 0;
+    account_of(report).add_to(json);
+    EXPECT_EQ(json["trace"]["lost_by_tracker"], 0);
+}
+
 TEST(TraceEvents, CountWhatIsNotKept) {
     gaze::TraceReport report;
     report.rows = 100;

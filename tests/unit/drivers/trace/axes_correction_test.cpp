@@ -208,5 +208,24 @@ TEST(HoldAgainstAnatomy, SaysThatOriginsAreInAnotherUnit) {
     EXPECT_THAT(told_of(1.5), HasSubstr("origins are 96 mm apart, eyes are 45 to 80 mm"));
 }
 
+TEST(HoldAgainstAnatomy, SaysWhereAPartIsMirrored) {
+    for (const std::size_t mirrored : {0U, 80U, 160U}) {
+        gaze::GazeTrace trace;
+        trace.samples = gaze::pair_of_eyes();
+        for (std::size_t i = 200; i < 200 + mirrored; ++i) {
+            mirror_directions(trace.samples[i].eyes[0], trace.samples[i].eyes[1]);
+        }
+        ASSERT_TRUE(hold_against_anatomy(trace, AxesCorrection::None).has_value());
+        EXPECT_EQ(trace.report.worth_a_warning(), mirrored > 0) << mirrored;
+        if (mirrored > 0) {
+            ASSERT_EQ(trace.report.findings().size(), 1U);
+            EXPECT_THAT(trace.report.findings()[0].text,
+                        HasSubstr(fmt::format("diverge in {} of its 10 parts, the first from 1.7 s "
+                                              "on",
+                                              mirrored / 40)));
+        }
+    }
+}
+
 }  // namespace
 }  // namespace gazeloop::drivers

@@ -154,8 +154,8 @@ TEST(NativeTrace, LeavesWhatIsNotFiniteBlankAndReadsItAsUnknown) {
 TEST(NativeTrace, RefusesAValidEyeWithoutADirection) {
     EXPECT_EQ(refusal("0,1,,1,,0,-1,,,,,,0,,,,,,,,,,,,,,,\n"),
               "gaze.csv: no valid gaze in 1 row; from line 2: left eye: column 'left_x': '' is no "
-              "number (1 row with such cells: the eye is invalid there): set the tracker up for "
-              "these eyes, and record again");
+              "number (1 row with such cells: the eye is invalid there): mend these cells, or "
+              "set the tracker up for these eyes and record again");
     EXPECT_THAT(refusal("0,1,,2,0,0,-1,,,,,,0,,,,,,,,,,,,,,,\n"),
                 HasSubstr("column 'left_valid': '2' does not say whether the eye is valid"));
 }

@@ -93,7 +93,8 @@ TEST(NeededColumns, SayWhatIsIncomplete) {
     const gaze::GazeTrace trace = read_all(
         htc_of(with(kBoth, {"gaze_origin_L.x(mm)", "gaze_origin_L.z(mm)", "helmet_pos_x"})));
     EXPECT_EQ(trace.samples[0].eyes[0].origin_m, glm::dvec3(0.0));
-    EXPECT_THAT(told(trace, TraceFindingKind::Text),
+    EXPECT_TRUE(trace.report.worth_a_warning());
+    EXPECT_THAT(told(trace, TraceFindingKind::NotRead),
                 ElementsAre("1: the left eye's origin: not read, for want of the column "
                             "'gaze_origin_L.y(mm)'",
                             HasSubstr("the helmet's pose: not read, for want of the column "
@@ -122,7 +123,24 @@ TEST(NeededColumns, OfOurOwnFormatAreFew) {
     EXPECT_EQ(trace.samples[1].sampled.ns, 4);
     EXPECT_FALSE(trace.samples[1].arrived.known());
     EXPECT_FALSE(trace.samples[1].head.has_value());
-    EXPECT_EQ(trace.report.lost_by_tracker, 0U);
+    EXPECT_EQ(trace.report.lost_by_tracker, std::nullopt);
+}
+
+/// An eye of which one column is missing was recorded: that is no info.
+TEST(NeededColumns, WarnOfAnEyeThatLacksOne) {
+    for (const std::string lacking : {"gaze_direct_R.z", "eye_valid_R", "gaze_direct_R.x"}) {
+        std::vector<std::string> names = kBoth;
+        std::erase(names, lacking);
+        const gaze::GazeTrace trace = read_all(htc_of(names));
+        EXPECT_FALSE(trace.samples[0].eyes[1].valid);
+        EXPECT_TRUE(trace.report.worth_a_warning()) << lacking;
+        EXPECT_THAT(told(trace, TraceFindingKind::NotRead),
+                    ElementsAre("1: no right eye, although other columns of it are there: it lacks "
+                                "'" +
+                                lacking + "'"));
+    }
+    EXPECT_TRUE(read_all(htc_of(with(kLeft, {"openness_R"}))).report.worth_a_warning());
+    EXPECT_FALSE(read_all(htc_of(kLeft)).report.worth_a_warning()) << "one eye is all there is";
 }
 
 // ---- Bits ---------------------------------------------------------------------------------------
@@ -178,6 +196,19 @@ TEST(ValidityBits, AreNamedWhereNoEyeIsValid) {
               "gaze.csv: no valid gaze in 2 rows; from line 2: left eye: direction not vouched for "
               "in 2 rows (validity bit 1); from line 2: right eye: direction not vouched for in 2 "
               "rows (validity bit 1): set the tracker up for these eyes, and record again");
+}
+
+TEST(ValidityBits, ThatAreWordsAreToBeMended) {
+    const std::string said =
+        refusal(htc_of(kBoth, {{"eye_valid_L", "True"}, {"eye_valid_R", "True"}}));
+    EXPECT_THAT(said, HasSubstr("'True' does not say whether the eye is valid"));
+    EXPECT_THAT(said, testing::HasSubstr(": mend these cells, or set"));
+}
+
+TEST(NeededColumns, SayWhatToDoAboutATimeOfDay) {
+    EXPECT_THAT(refusal(htc_of(kBoth, {{"time(100ns)", "00:00:01.25"}})),
+                HasSubstr("column 'time(100ns)': '00:00:01.25' is no whole number of 100 ns but a "
+                          "time of day: write how long it is since the first row instead"));
 }
 
 }  // namespace

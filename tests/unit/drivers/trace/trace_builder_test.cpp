@@ -280,6 +280,17 @@ TEST(TraceBuilder, TakesTheOtherClockWhereTheFirstIsUnreadable) {
         row.other_ticks = -1;  // as SRanipal writes it where it has none
     }
     EXPECT_THAT(of(rows).error().message, HasSubstr("no row has a readable time"));
+    for (const std::int64_t stuck : {std::int64_t{0}, std::int64_t{638'500'000'000'000'000}}) {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            rows[i].device_ticks = stuck;
+            rows[i].other_ticks = 70 + 8 * static_cast<std::int64_t>(i);
+        }
+        const gaze::GazeTrace other = value_or_throw(of(rows));
+        ASSERT_EQ(other.samples.size(), 50U);
+        EXPECT_EQ(other.samples[49].sampled.ns, 49 * 8 * kMs);
+        ASSERT_EQ(other.report.findings().size(), 1U);
+        EXPECT_THAT(other.report.findings()[0].text, HasSubstr("says the same in all rows"));
+    }
 }
 
 TEST(TraceBuilder, KeepsAGapWhereTheDevicesClockStands) {
@@ -305,6 +316,33 @@ TEST(TraceBuilder, RefusesTimesOfAWrongUnit) {
     options.accept_repairs = true;
     EXPECT_EQ(value_or_throw(built(rows, options)).report.count(TraceFindingKind::ClockRates).times,
               1U);
+}
+
+TEST(TraceBuilder, DoubtsRatesThatNoEyeTrackerHas) {
+    const auto report_of = [](std::int64_t interval_ns, std::size_t count = 100) {
+        TraceBuilder builder({"gaze.csv", "gazeloop", "a tracker", 1.0});
+        builder.clock_is("t_device_ns", 1.0);
+        for (const TraceRow& row : good_rows(count, 0, interval_ns)) {
+            builder.add(row);
+        }
+        return value_or_throw(builder.finish({})).report;
+    };
+    for (const std::int64_t usual_ns : {250 * kUs, 8'333 * kUs, 190 * kMs}) {
+        EXPECT_EQ(report_of(usual_ns).count(TraceFindingKind::OddTimes).times, 0U) << usual_ns;
+    }
+    EXPECT_EQ(report_of(8, 15).count(TraceFindingKind::OddTimes).times, 0U) << "too few to tell";
+    const gaze::TraceReport in_ms = report_of(8);
+    EXPECT_TRUE(in_ms.worth_a_warning());
+    ASSERT_EQ(in_ms.count(TraceFindingKind::OddTimes).times, 1U);
+    EXPECT_EQ(
+        in_ms.findings().back().text,
+        "1.25e+08 rows a second by 't_device_ns', and eye trackers have 5 to 5000: they would "
+        "be 125 in milliseconds; write the times in nanoseconds");
+    EXPECT_THAT(report_of(8'333).findings().back().text, HasSubstr("120 in microseconds"));
+    // Longer than the longest gap that is played.
+    const gaze::TraceReport far = report_of(8'333 * kSecond);
+    ASSERT_EQ(far.count(TraceFindingKind::OddTimes).times, 1U);
+    EXPECT_THAT(far.findings().back().text, HasSubstr("0.00012 rows a second by 't_device_ns'"));
 }
 
 }  // namespace

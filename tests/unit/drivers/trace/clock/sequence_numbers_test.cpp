@@ -44,6 +44,8 @@ TEST(SequenceNumbers, AreCountedWhereThereAreNone) {
     const SequenceNumbers constant = of(numbered({5, 5, 5, 5}));
     EXPECT_THAT(constant.numbers, ElementsAre(0, 1, 2, 3));
     EXPECT_THAT(constant.findings, IsEmpty());
+    EXPECT_EQ(constant.lost, std::nullopt) << "nobody knows";
+    EXPECT_EQ(of(without_sequence(good_rows(4))).lost, std::nullopt);
 }
 
 TEST(SequenceNumbers, AreCountedOnOverAWrap) {
@@ -156,7 +158,7 @@ TEST(SequenceNumbers, AreSaidNotToCountOnce) {
     }
     for (const auto& rows : {descending, random}) {
         const SequenceNumbers sequence = of(rows);
-        EXPECT_EQ(sequence.lost, 0U);
+        EXPECT_EQ(sequence.lost, std::nullopt);
         EXPECT_EQ(sequence.numbers.front(), 0U);
         EXPECT_EQ(sequence.numbers.back(), 199U);
         ASSERT_THAT(sequence.findings, SizeIs(1));
@@ -190,6 +192,25 @@ TEST(SequenceNumbers, DoNotLoseRowsThatWereFiledLateAndLeftOut) {
     const SequenceNumbers sequence = of(rows);
     EXPECT_EQ(sequence.lost, 0U);
     EXPECT_EQ(sequence.numbers.back(), 789U);
+}
+
+TEST(SequenceNumbers, ThatGoOnByTwoSayNothingOfLosses) {
+    auto rows = good_rows(600);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].sequence = 2 * i + (i < 400 ? 0 : 6);
+    }
+    const SequenceNumbers sequence = of(rows);
+    EXPECT_EQ(sequence.lost, std::nullopt);
+    EXPECT_EQ(sequence.numbers.back(), 599U);
+    ASSERT_THAT(sequence.findings, SizeIs(1));
+    EXPECT_EQ(sequence.findings[0].kind, TraceFindingKind::SequenceOutlier);
+    EXPECT_THAT(sequence.findings[0].text, HasSubstr("goes on by 2 from row to row"));
+    // Every other report lost for a while is a loss.
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].sequence = i < 200 ? 2 * i : 200 + i;
+        *rows[i].device_ticks = static_cast<std::int64_t>(*rows[i].sequence) * 8'333'333;
+    }
+    EXPECT_EQ(of(rows).lost, 200U);
 }
 
 }  // namespace

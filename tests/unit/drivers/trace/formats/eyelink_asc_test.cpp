@@ -87,5 +87,21 @@ TEST(EyelinkAsc, RefusesWhatHasNoGeometry) {
     EXPECT_THAT(refusal(with_sidecar(folder, "n", "** CONVERTED FROM a\n")), HasSubstr("no rows"));
 }
 
+TEST(EyelinkAsc, FollowsAScreenWhosePixelsChange) {
+    RecordingFolder folder;
+    const gaze::GazeTrace trace = value_or_throw(read_trace(
+        with_sidecar(folder, "a",
+                     std::string{kPreamble} + "200\t499.5\t299.5\t1\t1749.5\t299.5\t1\t...\n" +
+                         "MSG\t201 GAZE_COORDS 0.00 0.00 1999.00 1199.00\n" +
+                         "202\t999.5\t599.5\t1\t3499.5\t599.5\t1\t...\n")));
+    ASSERT_EQ(trace.samples.size(), 2U);
+    for (const gaze::GazeSample& sample : trace.samples) {
+        expect_near(sample.eyes[0].direction, {0.0, 0.0, -1.0});
+        EXPECT_NEAR(right_deg(sample.eyes[1].direction), 45.0, 1e-9);
+    }
+    EXPECT_THAT(told(trace, gaze::TraceFindingKind::Text),
+                ElementsAre("9: the screen has 2000 x 1200 pixels from here on, not 1000 x 600"));
+}
+
 }  // namespace
 }  // namespace gazeloop::drivers

@@ -148,6 +148,8 @@ TEST(PupilLabs, RefusesPixelsWithoutAngles) {
                           "camera's geometry"));
     EXPECT_THAT(refusal(folder.write("imu.csv", std::string{kImuHeader} + imu_row(1, "1,0,0,0"))),
                 HasSubstr("a table of an IMU: read gaze.csv beside it"));
+    EXPECT_THAT(refusal(folder.write("r.csv", "timestamp [ns],azimuth [rad],elevation [rad]\n")),
+                HasSubstr("r.csv:1: angles in radians: write them in degrees"));
 }
 
 TEST(PupilLabs, ReadsTheFirstOfSeveralRecordings) {
@@ -156,8 +158,13 @@ TEST(PupilLabs, ReadsTheFirstOfSeveralRecordings) {
     text += "s,another,5,1,1,1,,,2,2\n";
     const gaze::GazeTrace trace = value_or_throw(read_trace(folder.write("gaze.csv", text)));
     EXPECT_EQ(trace.samples.size(), 2U);
-    EXPECT_THAT(told(trace, gaze::TraceFindingKind::Text),
-                ElementsAre("4: 1 row of other recordings: left out"));
+    EXPECT_EQ(trace.report.rows, 3U);
+    EXPECT_EQ(trace.report.rows_dropped(), 1U);
+    EXPECT_TRUE(trace.report.worth_a_warning());
+    EXPECT_THAT(told(trace, gaze::TraceFindingKind::OtherRecording),
+                ElementsAre("4: only 'r' is read, which the first row is of by 'recording id'; "
+                            "left out: 'another' (1 rows); write the rows of each to a file of its "
+                            "own to read it"));
 }
 
 TEST(PupilLabs, NotesFromHowManyEyesTheGazeIs) {
@@ -178,6 +185,44 @@ TEST(PupilLabs, NamesADamagedFileBesideIt) {
     folder.write("imu.csv", std::string{kImuHeader} + "1,2\n" + imu_row(2, "1,0,0,0"));
     EXPECT_THAT(refusal(folder.write("gaze.csv", std::string{kHeader} + row(0, "0,0"))),
                 HasSubstr("imu.csv:2: 2 columns, the header has 10"));
+}
+
+/// A file that is there and says nothing of this recording is not "read".
+TEST(PupilLabs, WarnsOfFilesThatDoNotCoverTheRecording) {
+    RecordingFolder folder;
+    std::string text = "timestamp [ns],azimuth [deg],elevation [deg]\n";
+    std::string eyes =
+        "timestamp [ns],eyeball center left x [mm],eyeball center left y [mm],"
+        "eyeball center left z [mm],eyeball center right x [mm],eyeball center right y [mm],"
+        "eyeball center right z [mm]\n";
+    std::string imu{kImuHeader};
+    std::string other_day{kImuHeader};
+    for (int i = 0; i < 60; ++i) {
+        const long long now_ns = kStart_ns + i * 5'000'000LL;
+        text += fmt::format("{},{},2\n", now_ns, 1 + 0.1 * i);
+        eyes += i < 20 ? fmt::format("{},-31,10,-40,31,10,-40\n", now_ns) : "";
+        imu += imu_row(now_ns, "1,0,0,0");
+        other_day += imu_row(now_ns - 86'400'000'000'000LL, "1,0,0,0");
+    }
+    const std::string file = folder.write("gaze.csv", text);
+    folder.write("imu.csv", imu);
+    gaze::GazeTrace trace = value_or_throw(read_trace(file));
+    EXPECT_FALSE(trace.report.worth_a_warning());
+    EXPECT_THAT(told(trace, gaze::TraceFindingKind::Text),
+                ElementsAre("0: imu.csv beside it: the head's pose for 60 of 60 rows"));
+    folder.write("imu.csv", other_day);
+    folder.write("3d_eye_states.csv", eyes);
+    folder.write("blinks.csv", "start timestamp [ns],end timestamp [ns]\n5,9\n");
+    trace = value_or_throw(read_trace(file));
+    EXPECT_TRUE(trace.report.worth_a_warning());
+    EXPECT_THAT(told(trace, gaze::TraceFindingKind::NotRead),
+                ElementsAre(HasSubstr("3d_eye_states.csv beside it: the eyes' places for 21 of 60 "
+                                      "rows; it does not cover the recording"),
+                            HasSubstr("imu.csv beside it: the head's pose for 0 of 60 rows"),
+                            HasSubstr("blinks.csv beside it: 1 blink with 0 of 60 rows")));
+    folder.write("imu.csv", "timestamp [ns],gyro x [deg/s]\n1,2\n");
+    EXPECT_THAT(told(value_or_throw(read_trace(file)), gaze::TraceFindingKind::NotRead),
+                testing::Contains("0: imu.csv: not read, for want of the column 'quaternion w'"));
 }
 
 /// Nobody recorded when a sample arrived: the tracker profile's delay after it, modelled.

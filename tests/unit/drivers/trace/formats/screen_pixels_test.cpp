@@ -71,7 +71,8 @@ TEST(ScreenPixels, NeedsTheSidecarsGeometry) {
     EXPECT_THAT(refusal(file), HasSubstr("a.csv: no geometry of the screen; pixels have no "
                                          "direction without screen_size_m"));
     folder.write("a.json", R"({"screen_px": [1000, 600]})");
-    EXPECT_THAT(refusal(file), HasSubstr("a.json lacks one of them"));
+    EXPECT_THAT(refusal(file), HasSubstr("a.json lacks screen_size_m (two numbers) and "
+                                         "view_distance_m (a number); pixels have"));
     folder.write("a.json", R"({"screen_size_m": [400, 300], "screen_px": [1000, 600],
                                "view_distance_m": 500})");
     EXPECT_THAT(refusal(file), HasSubstr("a.json: a size of 400 x 300 m is no screen's"));
@@ -91,6 +92,27 @@ TEST(ScreenPixels, NeedsTheSidecarsGeometry) {
     EXPECT_THAT(told(trace, gaze::TraceFindingKind::RefusedByBit),
                 ElementsAre("4: gaze not vouched for in 1 row: x and y are 0,0"));
     EXPECT_TRUE(trace.samples[0].parallax_rad);
+}
+
+TEST(ScreenPixels, GuessesNothingInSilence) {
+    RecordingFolder folder;
+    std::string shares = "t_ms,x_px,y_px\n";
+    std::string pixels = shares;
+    for (int i = 0; i < 60; ++i) {
+        const double x = 0.3 + 0.007 * i;
+        shares += fmt::format("{},{:.4f},{:.4f}\n", 2 * i, x, 1.2 - x);
+        pixels += fmt::format("{},{:.1f},{:.1f}\n", 2 * i, 1000 * x, i < 50 ? 200.5 : 0.0);
+    }
+    const std::string file = folder.write("a.csv", shares);
+    folder.write("a.json", std::string{kSidecar});
+    EXPECT_THAT(refusal(file), HasSubstr("a.csv:1: x_px and y_px go from 0 to 1, as shares of the "
+                                         "screen do: multiply them by its 1000 x 600 pixels"));
+    folder.write("a.csv", pixels);
+    EXPECT_EQ(refusal(file), "");
+    folder.write("a.json", R"({"screen_size_m": [0.4, 0.3], "screen_px": [1000, 600],
+                               "view_distance_m": 0.5, "missing": "zero"})");
+    EXPECT_THAT(refusal(file), HasSubstr("a.json: 'missing' says how losses are written, and only "
+                                         "\"x and y are 0,0\" is known"));
 }
 
 TEST(ScreenPixels, IsRefusedFromAStream) {

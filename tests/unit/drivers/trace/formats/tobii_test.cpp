@@ -138,7 +138,35 @@ TEST(TobiiProLab, ReadsGlassesWithDecimalCommasAmongOtherSensors) {
     expect_anatomy(trace);
     EXPECT_THAT(told(trace, gaze::TraceFindingKind::Text),
                 ElementsAre("3: decimal commas: read as points",
-                            "2: 30 rows of other sensors or recordings: left out"));
+                            "2: 30 rows of other sensors than 'Eye Tracker': left out"));
+}
+
+/// A project's export has all its recordings in one file.
+TEST(TobiiProLab, NamesTheRecordingsThatItLeavesOut) {
+    RecordingFolder folder;
+    std::string text =
+        "Recording timestamp [ms]\tRecording name\tSensor\tGaze direction left X [HUCS norm]\t"
+        "Gaze direction left Y [HUCS norm]\tGaze direction left Z [HUCS norm]\n";
+    std::string mouse = text;
+    for (int i = 0; i < 30; ++i) {
+        text += fmt::format("{}\tR{}\tEye Tracker\t0.02\t0.1\t1\n", 10 * i,
+                            i < 20   ? 1
+                            : i < 27 ? 2
+                                     : 3);
+        mouse += fmt::format("{}\tR1\tMouse\t\t\t\n", 10 * i);
+    }
+    const gaze::GazeTrace trace = value_or_throw(read_trace(folder.write("e.tsv", text)));
+    EXPECT_EQ(trace.samples.size(), 20U);
+    EXPECT_EQ(trace.report.rows, 30U);
+    EXPECT_EQ(trace.report.rows_dropped(), 10U);
+    EXPECT_TRUE(trace.report.worth_a_warning());
+    EXPECT_THAT(told(trace, gaze::TraceFindingKind::OtherRecording),
+                ElementsAre(HasSubstr("22: only 'R1' is read, which the first row is of by "
+                                      "'Recording name'; left out: 'R2' (7 rows), 'R3' (3 rows)")));
+    EXPECT_THAT(
+        refusal(folder.write("m.tsv", mouse)),
+        HasSubstr("m.tsv:2: all 30 rows are of other sensors than 'Eye Tracker': export the "
+                  "eye tracker's rows too"));
 }
 
 TEST(TobiiProLab, ReadsAScreenWhoseYIsDown) {
