@@ -203,6 +203,8 @@ Expected<void> EyeRecording::take_units(const Json& physio, const Json& events) 
     return {};
 }
 
+double EyeRecording::time_unit_ns() const { return std::pow(10.0, time_decimals_); }
+
 void EyeRecording::find_columns() {
     openness_ = table_.column("eye_openness");
     confidence_ = table_.column("confidence");

@@ -32,6 +32,8 @@ class EyeRecording {
     [[nodiscard]] const TraceRow& row() const { return row_; }
     [[nodiscard]] bool is_of(gaze::Eye eye) const { return of_[gaze::index(eye)]; }
     [[nodiscard]] const std::string& device() const { return device_; }
+    [[nodiscard]] double stated_rate_hz() const { return rate_hz_; }  ///< > 0
+    [[nodiscard]] double time_unit_ns() const;  ///< of the timestamps' numbers
     [[nodiscard]] const std::string& unread_time() const { return unread_time_; }
 
     void report_to(gaze::TraceReport& report) const;

@@ -9,6 +9,8 @@
 
 #include "drivers/trace/bids/bids_files.h"
 #include "drivers/trace/bids/eye_recording.h"
+#include "drivers/trace/bids/joined_eyes.h"
+#include "drivers/trace/clock/device_times.h"
 #include "drivers/trace/trace_builder.h"
 
 namespace gazeloop::drivers {
@@ -38,65 +40,23 @@ std::vector<fs::path> recordings_of(const fs::path& file) {
     return files;
 }
 
-/// Rows of one or two recordings, put together where their times are the same.
-class JoinedRows {
-  public:
-    explicit JoinedRows(std::vector<EyeRecording>& recordings) : recordings_(recordings) {
-        has_.resize(recordings.size(), false);
+/// All rows of a recording.
+Expected<EyeRows> rows_of(EyeRecording& recording, const fs::path& file, BadCells& bad) {
+    EyeRows eye{.name = file.filename().string(),
+                .of = {recording.is_of(gaze::Eye::Left), recording.is_of(gaze::Eye::Right)},
+                .stated_rate_hz = recording.stated_rate_hz(),
+                .rows = {}};
+    while (true) {
+        const Expected<bool> more = recording.next(bad);
+        if (!more) {
+            return std::unexpected(more.error());
+        }
+        if (!*more) {
+            return eye;
+        }
+        eye.rows.push_back(recording.row());
     }
-
-    [[nodiscard]] Expected<bool> next(TraceRow& row, BadCells& bad) {
-        for (std::size_t i = 0; i < recordings_.size(); ++i) {
-            if (!has_[i]) {
-                const Expected<bool> more = recordings_[i].next(bad);
-                if (!more) {
-                    return more;
-                }
-                has_[i] = *more;
-            }
-        }
-        const std::optional<std::size_t> first = earliest();
-        if (!first) {
-            return false;
-        }
-        row = recordings_[*first].row();
-        has_[*first] = false;
-        for (std::size_t i = 0; i < recordings_.size(); ++i) {
-            if (!has_[i] || !row.device_ticks ||
-                recordings_[i].row().device_ticks != row.device_ticks) {
-                continue;
-            }
-            for (const gaze::Eye eye : gaze::kEyes) {
-                if (recordings_[i].is_of(eye)) {
-                    row.eyes[gaze::index(eye)] = recordings_[i].row().eyes[gaze::index(eye)];
-                }
-            }
-            row.head = row.head ? row.head : recordings_[i].row().head;
-            has_[i] = false;
-            ++joined_;
-        }
-        return true;
-    }
-
-    [[nodiscard]] std::uint64_t joined() const { return joined_; }
-
-  private:
-    /// A row without a time goes first, since nothing says where it belongs.
-    [[nodiscard]] std::optional<std::size_t> earliest() const {
-        std::optional<std::size_t> first;
-        for (std::size_t i = 0; i < recordings_.size(); ++i) {
-            if (has_[i] && (!first || recordings_[i].row().device_ticks <
-                                          recordings_[*first].row().device_ticks)) {
-                first = i;
-            }
-        }
-        return first;
-    }
-
-    std::vector<EyeRecording>& recordings_;
-    std::vector<bool> has_;
-    std::uint64_t joined_ = 0;
-};
+}
 
 }  // namespace
 
@@ -107,8 +67,10 @@ Expected<gaze::GazeTrace> read_bids(const fs::path& file, const ReadOptions& opt
                          "it such a name, and its sidecar");
     }
     std::vector<EyeRecording> recordings;
+    std::vector<EyeRows> eyes;
     gaze::PerEye<bool> covered{};
     std::vector<std::string> left_out;
+    BadCells bad;
     for (const fs::path& each : recordings_of(file)) {
         Expected<EyeRecording> recording = EyeRecording::open(each);
         if (!recording) {
@@ -122,21 +84,24 @@ Expected<gaze::GazeTrace> read_bids(const fs::path& file, const ReadOptions& opt
         }
         covered = {covered[0] || recording->is_of(gaze::Eye::Left),
                    covered[1] || recording->is_of(gaze::Eye::Right)};
+        Expected<EyeRows> eye = rows_of(*recording, each, bad);
+        if (!eye) {
+            return std::unexpected(eye.error());
+        }
         recordings.push_back(std::move(*recording));
+        eyes.push_back(std::move(*eye));
     }
     TraceBuilder builder(
         {.file = file.string(), .format = kBids, .device = recordings.front().device()});
-    BadCells bad;
-    JoinedRows rows(recordings);
-    TraceRow row;
-    while (true) {
-        const Expected<bool> more = rows.next(row, bad);
-        if (!more) {
-            return std::unexpected(more.error());
-        }
-        if (!*more) {
-            break;
-        }
+    builder.clock_is("timestamp", recordings.front().time_unit_ns());
+    JoinedEyes joined;
+    if (eyes.size() > 1) {
+        joined = join_eyes(eyes[0], eyes[1]);
+    } else {
+        joined.findings = doubt_stated_rate(eyes[0], device_times(eyes[0].rows, 1.0));
+        joined.rows = std::move(eyes[0].rows);
+    }
+    for (const TraceRow& row : joined.rows) {
         builder.add(row);
     }
     gaze::TraceReport& report = builder.report();
@@ -147,14 +112,14 @@ Expected<gaze::GazeTrace> read_bids(const fs::path& file, const ReadOptions& opt
         }
     }
     bad.report_to(report);
-    const auto note = [&](std::string text) {
-        report.add({.kind = gaze::TraceFindingKind::Text, .text = std::move(text)});
-    };
     for (const std::string& name : left_out) {
-        note(fmt::format("{} beside it has an eye that another has too: left out", name));
+        report.add(
+            {.kind = gaze::TraceFindingKind::NotRead,
+             .text = fmt::format("{} beside it has an eye that another has too: left out", name)});
     }
-    if (recordings.size() > 1) {
-        note(fmt::format("two recordings, of which {} rows have the same times", rows.joined()));
+    report.rows += joined.dropped;
+    for (gaze::TraceFinding& finding : joined.findings) {
+        report.add(std::move(finding));
     }
     return builder.finish(options);
 }

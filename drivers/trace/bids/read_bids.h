@@ -28,6 +28,8 @@ inline constexpr std::string_view kBids = "bids";
 /// Columns that write_bids adds are read where they are: eye_openness, confidence, origin_x_m to
 /// origin_z_m and head_x_m to head_qw.
 ///
+/// Each file's clock is judged by itself before rows are put together (joined_eyes.h).
+///
 /// Errors (BadInput): no sidecar, a broken rule, an unknown unit, a row of another width, those of
 /// CsvTable and TraceBuilder.
 [[nodiscard]] Expected<gaze::GazeTrace> read_bids(const std::filesystem::path& file,

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "drivers/trace/bids/bids_files.h"
 #include "drivers/trace/bids/bids_rules.h"
@@ -241,6 +243,72 @@ TEST(Bids, RefusesWithTheRuleOrTheUnit) {
     EXPECT_THAT(said(physio(), "0\t1\t1\n4\t1\t1\t1\n"), HasSubstr(":1: 3 columns"));
     EXPECT_THAT(refusal(folder.write("sub-01/beh/sub-01_task-alone_physio.tsv.gz", "")),
                 HasSubstr("no sidecar"));
+}
+
+/// Two eyes of 250 Hz over 1 s; the right one's times as they are given.
+gaze::GazeTrace two_eyes(const std::vector<int>& right_ms, double right_rate_hz = 250.0) {
+    BidsFolder folder;
+    std::string left;
+    std::string right;
+    for (int i = 0; i < 250; ++i) {
+        left += fmt::format("{}\t31\t{}\t3.1\n", 100 + 4 * i, 5 + 0.01 * i);
+    }
+    for (std::size_t i = 0; i < right_ms.size(); ++i) {
+        right += fmt::format("{}\t29\t{}\t3.2\n", right_ms[i], 5 + 0.01 * static_cast<double>(i));
+    }
+    const std::string file = folder.recording("eye1", physio("left"), left);
+    Json json = physio("right");
+    json["SamplingFrequency"] = right_rate_hz;
+    folder.recording("eye2", json, right);
+    return value_or_throw(read_trace(file));
+}
+
+std::vector<int> times_ms(int first, int count) {
+    std::vector<int> times;
+    for (int i = 0; i < count; ++i) {
+        times.push_back(first + 4 * i);
+    }
+    return times;
+}
+
+TEST(Bids, JudgesTheClockOfEachEyeBeforeItJoinsThem) {
+    std::vector<int> right = times_ms(100, 250);
+    EXPECT_FALSE(two_eyes(right).report.worth_a_warning());
+    right[60] += 2'500;
+    std::swap(right[120], right[121]);
+    const gaze::GazeTrace trace = two_eyes(right);
+    ASSERT_EQ(trace.samples.size(), 250U) << "of the outlier's time the left eye is there";
+    EXPECT_EQ(trace.report.rows, 251U);
+    EXPECT_EQ(trace.report.rows_dropped(), 1U);
+    EXPECT_EQ(trace.report.count(gaze::TraceFindingKind::DeviceClockSet).times, 0U);
+    EXPECT_THAT(told(trace, gaze::TraceFindingKind::TimeOutlier),
+                ElementsAre(HasSubstr("61: sub-01_task-look_recording-eye2_physio.tsv.gz: 2.5")));
+    for (std::size_t i = 0; i < 250; ++i) {
+        EXPECT_EQ(trace.samples[i].sampled.ns, static_cast<std::int64_t>(i) * 4'000'000);
+        EXPECT_TRUE(trace.samples[i].eyes[0].valid) << i;
+        EXPECT_EQ(trace.samples[i].eyes[1].valid, i != 60) << i;
+    }
+}
+
+TEST(Bids, WarnsWhereTheEyesTimesDoNotMatch) {
+    for (const auto& [times, same] :
+         {std::pair{times_ms(101, 250), 0}, std::pair{times_ms(100, 125), 125},
+          std::pair{times_ms(2'101, 250), 0}}) {
+        const gaze::GazeTrace trace = two_eyes(times);
+        EXPECT_TRUE(trace.report.worth_a_warning()) << times[0];
+        EXPECT_THAT(told(trace, gaze::TraceFindingKind::OddTimes),
+                    ElementsAre(HasSubstr(fmt::format("only {} have the same", same))));
+    }
+}
+
+TEST(Bids, WarnsOfAStatedRateThatIsNotTheTimes) {
+    const gaze::GazeTrace trace = two_eyes(times_ms(100, 250), 10.0);
+    EXPECT_THAT(
+        told(trace, gaze::TraceFindingKind::OddTimes),
+        ElementsAre("0: sub-01_task-look_recording-eye2_physio.tsv.gz: its sidecar states a "
+                    "SamplingFrequency of 10 Hz, its timestamps are those of 250 Hz: mend "
+                    "the one that is wrong, or the timestamp's Units"));
+    EXPECT_FALSE(two_eyes(times_ms(100, 250), 260.0).report.worth_a_warning()) << "about it is";
 }
 
 }  // namespace
