@@ -120,7 +120,8 @@ Error unknown_header(const CsvTable& table, const std::vector<const TraceFormat*
 
 namespace {
 
-/// What the files of a table's kind hold that are no gaze, by a column that no trace has.
+/// What the files of a table's kind hold that are no gaze, or none that is read, by a column that
+/// no trace has.
 std::string other_table(const CsvTable& table) {
     struct Other {
         std::string_view column;
@@ -131,7 +132,10 @@ std::string other_table(const CsvTable& table) {
                 "a table of eye states: optical axes are not gaze; read gaze.csv beside it"},
           Other{"quaternion w", "a table of an IMU: read gaze.csv beside it"},
           Other{"blink id", "a table of blinks: read gaze.csv beside it"},
-          Other{"fixation id", "a table of fixations: read gaze.csv beside it"}}) {
+          Other{"fixation id", "a table of fixations: read gaze.csv beside it"},
+          Other{"azimuth [rad]",
+                "angles in radians: write them in degrees, as 'azimuth [deg]' and "
+                "'elevation [deg]'"}}) {
         if (table.has(other.column) && !table.has("gaze x [px]")) {
             return std::string{other.what};
         }
