@@ -171,7 +171,7 @@ TEST_F(Psvr2Program, RunsOnThroughPluggingInAndPullingOut) {
         });
     };
     const ProgramResult result =
-        run_gazeloop({"run", "--gaze", "psvr2", "--target", "headless", "--seconds", "6",
+        run_gazeloop({"run", "--gaze", "psvr2", "--target", "headless", "--seconds", "9",
                       "--record", session, "--set", "render.scale=0.05"},
                      options);
     if (hands.joinable()) {

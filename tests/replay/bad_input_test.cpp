@@ -114,7 +114,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"key_of_no_group",
                  {"run", "--set", "x.y=2"},
                  2,
-                 "unknown key 'x.y'; known: acuity.*, fixed.*, gaze.*, hid.*, kfr.*"},
+                 "unknown key 'x.y'; known: acuity.*, fixed.*, gaze.*, governor.*, hid.*, "
+                 "interleaved.*, kfr.*"},
         BadInput{"useless_map",
                  {"run", "--target", "headless", "--frames", "1", "--set", "kfr.lp_width=2"},
                  2,

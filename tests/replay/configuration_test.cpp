@@ -41,11 +41,12 @@ class Configuration : public testing::Test {
 
     /// The line of a key in what --print-config printed.
     static std::string line_of(const ProgramResult& result, const std::string& key) {
-        const std::size_t begin = result.out.find(key + " ");
+        const std::string lines = "\n" + result.out;  // other rows may name it too
+        const std::size_t begin = lines.find("\n" + key + " ");
         EXPECT_NE(begin, std::string::npos) << result.out << result.err;
         return begin == std::string::npos
                    ? ""
-                   : result.out.substr(begin, result.out.find('\n', begin) - begin);
+                   : lines.substr(begin + 1, lines.find('\n', begin + 1) - begin - 1);
     }
     static bool has(const std::string& text, const std::string& part) {
         return text.find(part) != std::string::npos;

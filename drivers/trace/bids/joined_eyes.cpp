@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "drivers/trace/clock/counter_wrap.h"
+#include "drivers/trace/clock/rows_read.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -107,10 +108,10 @@ std::vector<gaze::TraceFinding> doubt_stated_rate(const EyeRows& eye, const Devi
 
 JoinedEyes join_eyes(const EyeRows& first, const EyeRows& second) {
     JoinedEyes joined;
-    const DeviceTimes times = device_times(first.rows, 1.0);
+    const DeviceTimes times = device_times(RowsRead(first.rows), 1.0);
     joined.findings = doubt_stated_rate(first, times);
     const bool same = same_times(first, second);
-    const DeviceTimes others = same ? times : device_times(second.rows, 1.0);
+    const DeviceTimes others = same ? times : device_times(RowsRead(second.rows), 1.0);
     for (gaze::TraceFinding& doubt : doubt_stated_rate(second, others)) {
         joined.findings.push_back(std::move(doubt));
     }

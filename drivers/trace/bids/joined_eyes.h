@@ -30,11 +30,11 @@ struct JoinedEyes {
 [[nodiscard]] std::vector<gaze::TraceFinding> doubt_stated_rate(const EyeRows& eye,
                                                                 const DeviceTimes& times);
 
-/// Puts rows of the same time together. The clock of each
-/// file is judged by itself before (device_times.h), so that a time outlier, a repeat or a row out
-/// of order in one file moves no row of the other; where both files have the very same times, that
-/// is left to who reads the joined rows. Where more than a tenth of the rows find no partner, that
-/// is an OddTimes. O(n log n).
+/// Puts rows of the same time together. The clock of each file is judged by itself before
+/// (device_times.h), so that a time outlier, a repeat or a row out of order in one file moves no
+/// row of the other. Where both files have the very same times, that is left to who reads the
+/// joined rows. Where more than a tenth of the rows find no partner, that is an OddTimes. O(n log
+/// n).
 [[nodiscard]] JoinedEyes join_eyes(const EyeRows& first, const EyeRows& second);
 
 }  // namespace gazeloop::drivers

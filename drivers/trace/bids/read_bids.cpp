@@ -11,6 +11,7 @@
 #include "drivers/trace/bids/eye_recording.h"
 #include "drivers/trace/bids/joined_eyes.h"
 #include "drivers/trace/clock/device_times.h"
+#include "drivers/trace/clock/rows_read.h"
 #include "drivers/trace/trace_builder.h"
 
 namespace gazeloop::drivers {
@@ -98,7 +99,7 @@ Expected<gaze::GazeTrace> read_bids(const fs::path& file, const ReadOptions& opt
     if (eyes.size() > 1) {
         joined = join_eyes(eyes[0], eyes[1]);
     } else {
-        joined.findings = doubt_stated_rate(eyes[0], device_times(eyes[0].rows, 1.0));
+        joined.findings = doubt_stated_rate(eyes[0], device_times(RowsRead(eyes[0].rows), 1.0));
         joined.rows = std::move(eyes[0].rows);
     }
     for (const TraceRow& row : joined.rows) {

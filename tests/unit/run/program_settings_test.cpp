@@ -197,7 +197,9 @@ TEST(ProgramSettings, OfGazeAreInUseWithTheirFilterOrPrediction) {
         {"gaze.filter_memory_ms", {"gaze.filter", "fixation"}},
         {"gaze.longest_prediction_ms", {"gaze.prediction", "true"}},
         {"gaze.one_euro_hz_per_deg_per_s", {"gaze.filter", "one-euro"}},
-        {"gaze.one_euro_least_hz", {"gaze.filter", "one-euro"}}};
+        {"gaze.one_euro_least_hz", {"gaze.filter", "one-euro"}},
+        {"gaze.widen_suppressed", {"gaze.widen_by", "events"}},
+        {"gaze.widen_suppressed_margin_ms", {"gaze.widen_by", "events"}}};
     const ProgramSettings settings;
     for (const SettingRow& row : settings.rows()) {
         if (!row.key.starts_with("gaze.")) {

@@ -216,7 +216,7 @@ TEST(DeviceTimes, CountAShortCounterOnByTheHostsClock) {
             rows[i].device_ticks = taken_ns % 65'536'000 / kUs * kUs;
             rows[i].host_ns = taken_ns + kSecond + static_cast<std::int64_t>(random() % 4'000'000);
         }
-        const DeviceTimes times = device_times(rows, 1.0);
+        const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
         ASSERT_EQ(times.rows.size(), 600U);
         EXPECT_NEAR(static_cast<double>(times.time_ns[599]),
                     599.0 * 8'333'333.0 + static_cast<double>(gap_ns), 2e3);
@@ -233,7 +233,7 @@ TEST(DeviceTimes, CountACounterOfTwentyBitsOnFromTheFirstRow) {
         for (TraceRow& row : rows) {
             row.device_ticks = (*row.device_ticks / kUs + (1 << 20) - 100'000) % (1 << 20) * kUs;
         }
-        const DeviceTimes times = device_times(rows, 1.0);
+        const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
         ASSERT_EQ(times.rows.size(), 700U) << host;
         EXPECT_NEAR(static_cast<double>(times.time_ns[699]), 699.0 * 8'333'333.0, 2e3);
         EXPECT_THAT(of_kind(times.findings, TraceFindingKind::TimeOutlier), IsEmpty());
