@@ -58,7 +58,7 @@ class Writer {
   private:
     void write(sim::SteamFrameFile& file, double rate_hz, sim::StoreOrder order) const {
         const auto period_ns = static_cast<std::int64_t>(1e9 / rate_hz);
-        constexpr std::int64_t kStall_ns = 5'000;  // it was interrupted
+        constexpr std::int64_t kStall_ns = 2'000;  // it was interrupted: it takes a tenth of that
         const pid_t parent = getppid();
         for (std::int64_t due_ns = time::monotonic_ns(); !told_->stop && getppid() == parent;
              due_ns += period_ns) {

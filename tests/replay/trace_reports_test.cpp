@@ -85,12 +85,14 @@ TEST_F(TraceReports, WarnOfMirroredGazeEverywhere) {
         << result.err;
     EXPECT_TRUE(has(result.err, "--axes -x makes it agree")) << result.err;
     EXPECT_TRUE(has(result.out,
-                    "trace    rows 60, used 60\n         clock: the device's; no host times\n"
+                    "trace    rows 60, used 60, lost by the tracker unknown\n         clock: the "
+                    "device's; no host times\n"
                     "         axes: the eyes' rays diverge"))
         << result.out;
     const ProgramResult report = run_gazeloop({"report", session});
     EXPECT_TRUE(has(report.out,
-                    "trace    rows 60, used 60\n         clock: the device's; no host times\n"
+                    "trace    rows 60, used 60, lost by the tracker unknown\n         clock: the "
+                    "device's; no host times\n"
                     "         axes: the eyes' rays diverge"))
         << report.out;
     const auto json = nlohmann::json::parse(run_gazeloop({"report", session, "--json", "-"}).out);
