@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "sim/eye_tracker.h"
@@ -13,7 +12,7 @@ namespace gazeloop::sim {
 /// have arrived. The same samples come however often they are asked for.
 class ArrivingSamples {
   public:
-    explicit ArrivingSamples(EyeTracker tracker) : tracker_(std::move(tracker)) {}
+    explicit ArrivingSamples(const EyeTracker& tracker) : tracker_(tracker) {}
 
     /// Appends what has arrived by `now_ns` (host time). `step(tracker)` takes the next sample:
     /// one of EyeTracker::step().

@@ -14,6 +14,7 @@ std::vector<settings::SettingRow> rows_of(InterleavedSettings& interleaved) {
     using settings::Whole;
     const settings::OnlyWhile only = only_under({"interleaved"});
     std::vector<std::string> turns;
+    turns.reserve(foveation::CellTurns::kEvery.size());
     for (const std::uint32_t every : foveation::CellTurns::kEvery) {
         turns.push_back(fmt::format("{}", every));
     }

@@ -34,6 +34,7 @@ XrResult create_profile(const Instances::Pointer& layered, XrSession session,
     if (known == nullptr) {
         return XR_ERROR_HANDLE_INVALID;
     }
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): handles are numbers to whoever gets them
     *profile = reinterpret_cast<XrFoveationProfileFB>(++layered->made_handles);
     known->foveation_profiles.insert(*profile);
     Instances::all().add_child(*profile, layered, session);

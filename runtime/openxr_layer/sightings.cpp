@@ -18,7 +18,7 @@
 namespace gazeloop::openxr_layer {
 namespace {
 
-constexpr std::size_t kMostSightingBytes = 64 * 1024;
+constexpr std::size_t kMostSightingBytes = std::size_t{64} * 1024;
 
 using Json = nlohmann::ordered_json;
 

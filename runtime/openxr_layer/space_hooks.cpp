@@ -54,7 +54,7 @@ XrResult place(const NextFunctions& next, const Locating& locating, XrSpace spac
         placed.moving.linear = glm::dvec3{0.0};
         placed.moving.angular = glm::dvec3{0.0};
         placed.flags = flags_of(*gaze, true);
-        placed.gaze = std::move(gaze);
+        placed.gaze = gaze;
         return XR_SUCCESS;
     }
     const HeadLocated head =
@@ -71,7 +71,7 @@ XrResult place(const NextFunctions& next, const Locating& locating, XrSpace spac
         placed.moving = inverse(placed.moving);
     }
     placed.flags = flags_of(*gaze, head.position_valid);
-    placed.gaze = std::move(gaze);
+    placed.gaze = gaze;
     return XR_SUCCESS;
 }
 

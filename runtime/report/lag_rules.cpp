@@ -53,7 +53,7 @@ std::string less_gpu_work(const LagFacts& facts) {
                            facts.device_value("application"));
     }
     const std::string_view method = facts.setting("render.method");
-    const std::string scale = "a lower render.scale" + now(facts, "render.scale");
+    std::string scale = "a lower render.scale" + now(facts, "render.scale");
     if (method == "full") {
         return "--method kfr, which shades fewer samples, or " + scale;
     }

@@ -53,6 +53,7 @@ vulkan::LayeredImage upload_views(const vulkan::Context& context, LightFieldPict
                         most.maxExtent.width, most.maxResourceSize >> 20U));
     }
     std::vector<vulkan::LevelTexels> texels;
+    texels.reserve(layers);
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
         texels.push_back({0, layer, extent, std::move(pictures.views[layer])});
     }

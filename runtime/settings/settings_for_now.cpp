@@ -1,10 +1,15 @@
 #include "runtime/settings/settings_for_now.h"
 
+#include <cassert>
+#include <ranges>
+
 namespace gazeloop::settings {
 
+// NOLINTNEXTLINE(bugprone-exception-escape): only memory can be missing
 SettingsForNow::~SettingsForNow() {
-    for (auto kept = before_.rbegin(); kept != before_.rend(); ++kept) {
-        (void)settings_.set(kept->key, kept->text, kept->origin);
+    for (const Kept& kept : std::views::reverse(before_)) {
+        [[maybe_unused]] const auto restored = settings_.set(kept.key, kept.text, kept.origin);
+        assert(restored);  // it was in force
     }
 }
 

@@ -77,6 +77,7 @@ Expected<std::optional<std::size_t>> choose(const std::vector<SweepRow>& rows,
         for (const QualityFloor& floor : question.floors) {
             if (find_figure(*some, floor.key) == nullptr) {
                 std::vector<std::string> keys;
+                keys.reserve(some->figures.size());
                 for (const quality::QualityFigure& figure : some->figures) {
                     keys.push_back(figure.key);
                 }

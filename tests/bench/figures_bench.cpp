@@ -76,7 +76,7 @@ class FigurePictures {
         config.kfr.lp_height = static_cast<std::uint32_t>(std::lround(kExtent.height / sigma));
         render::OffScreen off_screen(context_, *scene_, render::passes_of(config), config);
         const render::FrameRequest request = setup_.frame(0.0, fovea());
-        off_screen.render(request, request.fovea());
+        off_screen.render(request.frame_view(), request.fovea());
         Foveated made{.picture = off_screen.picture(gaze::Eye::Left), .lp = {}};
         for (const render::BufferPicture& buffer : off_screen.renderer().buffers(gaze::Eye::Left)) {
             made.lp = render::picture_of(context_, buffer);

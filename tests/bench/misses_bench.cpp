@@ -52,6 +52,7 @@ std::vector<Figure> misses(const Options& options) {
         };
         const std::array plain{trial(WideningRule::Held), trial(WideningRule::Predicted)};
         std::vector<std::vector<tests::ShownGaze>> ruled;
+        ruled.reserve(std::size(kRules));
         for (const Rule& rule : kRules) {
             ruled.push_back(trial(rule.rule));
         }

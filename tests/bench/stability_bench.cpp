@@ -133,7 +133,7 @@ class FlyThrough {
                                      config);
         for (std::uint64_t frame = 0; frame < kFilling + kFrames; ++frame) {
             const render::FrameRequest request = at(frame);
-            off_screen.render(request, request.fovea());
+            off_screen.render(request.frame_view(), request.fovea());
             if (frame >= kFilling) {
                 follow(frame - kFilling, off_screen);
             }
@@ -177,7 +177,7 @@ render::Picture coarser(const render::LinearPicture& fine, std::uint32_t finer) 
         for (std::uint32_t x = 0; x < picture.width; ++x) {
             glm::vec3 sum(0.0F);
             for (std::uint32_t i = 0; i < finer * finer; ++i) {
-                sum += fine.pixels[std::size_t{y * finer + i / finer} * fine.width + x * finer +
+                sum += fine.pixels[(std::size_t{y} * finer + i / finer) * fine.width + x * finer +
                                    i % finer];
             }
             const glm::vec3 mean = sum / static_cast<float>(finer * finer);

@@ -11,6 +11,7 @@ namespace {
 
 std::vector<double> medians(const std::vector<std::vector<double>>& rounds_of_frames) {
     std::vector<double> all;
+    all.reserve(rounds_of_frames.size());
     for (const std::vector<double>& rounds : rounds_of_frames) {
         all.push_back(median(rounds));
     }

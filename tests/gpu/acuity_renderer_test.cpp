@@ -122,11 +122,11 @@ TEST_F(AcuityRendererOnce, FollowsAFieldOfViewThatChanges) {
     const MethodConfig acuity = config(Method::Acuity, kWidth, kHeight);
     FrameRequest at = request(acuity, {100.0, 120.0});
     OffScreen drawing(context(), scene(), passes_of(acuity), acuity);
-    drawing.render(at, at.fovea());
+    drawing.render(at.frame_view(), at.fovea());
     const vk::Image first = lp_buffer(drawing);
     at.views[0].fov.right_rad = 0.5;
     at.gaze_directions[0] = gaze::unproject(at.foveae[0], at.views[0]);
-    drawing.render(at, at.fovea());
+    drawing.render(at.frame_view(), at.fovea());
     EXPECT_NE(lp_buffer(drawing), first);
     EXPECT_EQ(largest_difference(drawing.picture(gaze::Eye::Left), render(acuity, at).pictures[0]),
               0);
@@ -138,14 +138,14 @@ TEST_F(AcuityRendererOnce, ANewGazeBuildsNothing) {
         const MethodConfig log_polar = config(method, kWidth, kHeight);
         OffScreen drawing(context(), scene(), passes_of(log_polar), log_polar);
         const FrameRequest middle = request(log_polar, {160.0, 120.0});
-        drawing.render(middle, middle.fovea());
+        drawing.render(middle.frame_view(), middle.fovea());
         const vk::Image buffer = lp_buffer(drawing);
         ASSERT_TRUE(buffer);
         int compared = 0;
         for (const gaze::PixelPosition& gaze :
              {gaze::PixelPosition{0, 0}, {320, 7}, {-200, 500}, {160.25, 120}, {1e6, 0}}) {
             const FrameRequest moved = request(log_polar, gaze);
-            drawing.render(moved, moved.fovea());
+            drawing.render(moved.frame_view(), moved.fovea());
             if (const vk::Image now = lp_buffer(drawing)) {
                 EXPECT_EQ(now, buffer);
                 ++compared;

@@ -32,7 +32,7 @@ class AntialiasingTest : public FrameRendererTest {
         for (std::uint64_t i = 0; i < count; ++i) {
             asked.index = i;
             move(i, asked);
-            last_hash() = off_screen->render(asked, asked.fovea()).gpu.pixel_hash;
+            last_hash() = off_screen->render(asked.frame_view(), asked.fovea()).gpu.pixel_hash;
         }
         return off_screen;
     }

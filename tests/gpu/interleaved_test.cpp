@@ -56,7 +56,7 @@ class Interleaved : public FrameRendererTest {
 
         std::optional<std::uint64_t> next(FrameRequest request) {
             request.index = index++;
-            return off_screen_.render(request, request.fovea()).gpu.pixel_hash;
+            return off_screen_.render(request.frame_view(), request.fovea()).gpu.pixel_hash;
         }
         Picture after(const FrameRequest& request, int frames) {
             for (int frame = 0; frame < frames; ++frame) {
@@ -104,7 +104,7 @@ TEST_F(Interleaved, ShadesOnePartOfTheTexels) {
     const auto shaded = [&](std::uint32_t every) {
         OffScreen off_screen(context(), scene(),
                              interleaved({.texels = {every}, .pixels = {every}}), pictures());
-        return static_cast<double>(off_screen.render(at, at.fovea()).counts.shaded());
+        return static_cast<double>(off_screen.render(at.frame_view(), at.fovea()).counts.shaded());
     };
     for (const std::uint32_t every : {2U, 4U, 8U}) {
         EXPECT_NEAR(shaded(1) / shaded(every), every, 0.15 * every) << every;

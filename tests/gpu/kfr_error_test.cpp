@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <numbers>
 
 #include "tests/support/frame_renderer_fixture.h"
 
@@ -96,7 +97,7 @@ TEST_F(KfrErrorTest, IsSmallWithinFiveDegreesOfTheFovea) {
         const FrameRequest at = request(kfr, fovea);
         const Picture foveated = render(kfr, at).pictures[0];
         const Picture full = render(config(Method::Full, 640, 480), at).pictures[0];
-        const double five_deg = std::cos(5.0 * 3.14159265358979 / 180.0);
+        const double five_deg = std::cos(5.0 * std::numbers::pi / 180.0);
         const double within = error(foveated, full, [&](double x, double y) {
             return glm::dot(gaze::unproject({x, y}, at.views[0]), at.gaze_directions[0]) > five_deg;
         });

@@ -82,7 +82,7 @@ class LightField : public FrameRendererTest {
     static Shown show(scene::Scene& scene, std::string_view method, const Settings& set,
                       const RendererConfig& config, const FrameRequest& request) {
         OffScreen off_screen(context(), scene, tests::passes_by(method, set), config);
-        const auto done = off_screen.render(request, request.fovea());
+        const auto done = off_screen.render(request.frame_view(), request.fovea());
         return {off_screen.linear_picture(gaze::Eye::Left), off_screen.picture(gaze::Eye::Left),
                 done.gpu.pixel_hash.value_or(0), done.counts};
     }

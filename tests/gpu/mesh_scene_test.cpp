@@ -39,7 +39,7 @@ class MeshSceneTest : public FrameRendererTest {
         const MethodConfig of = config(method, width, height);
         OffScreen off_screen(context(), *made, passes_of(of), of);
         const FrameRequest asked = request(of, {width / 2.0, height / 2.0});
-        off_screen.render(asked, asked.fovea());
+        off_screen.render(asked.frame_view(), asked.fovea());
         return off_screen.picture(gaze::Eye::Left);
     }
 
@@ -199,7 +199,7 @@ TEST_F(MeshSceneTest, IsTheSameByEveryMethodWherePixelsAreShadedDirectly) {
         of.depth_format = vk::Format::eD32Sfloat;
         OffScreen off_screen(context(), *made, passes_of(of), of);
         const FrameRequest asked = request(of, {70.5, 80.5});
-        off_screen.render(asked, asked.fovea());
+        off_screen.render(asked.frame_view(), asked.fovea());
         for (const gaze::Eye eye : gaze::kEyes) {
             const Picture seen = off_screen.picture(eye);
             if (method == Method::Full) {
@@ -229,7 +229,7 @@ TEST_F(MeshSceneTest, IsLitAlikeByEveryMethod) {
     const FrameRequest asked = request(of, {48.0, 36.0});
     const auto shown = [&](const std::string& method) {
         OffScreen off_screen(context(), *made, tests::passes_by(method), of);
-        off_screen.render(asked, asked.fovea());
+        off_screen.render(asked.frame_view(), asked.fovea());
         return off_screen.picture(gaze::Eye::Left);
     };
     const Picture full = shown("full");
@@ -301,7 +301,7 @@ TEST_F(FilterTest, ReadsNoCellThatWasNotShaded) {
                 of.unshaded = unshaded;
                 OffScreen off_screen(context(), scene(), passes_of(of), of);
                 const FrameRequest asked = request(of, fovea);
-                return off_screen.render(asked, asked.fovea()).gpu.pixel_hash;
+                return off_screen.render(asked.frame_view(), asked.fovea()).gpu.pixel_hash;
             };
             EXPECT_EQ(hash({0.0F, 0.0F, 0.0F, 1.0F}), hash({5e4F, 0.0F, 5e4F, 1.0F}));
         }
@@ -341,7 +341,7 @@ TEST_F(FilterTest, KeepsAnEvenPictureAndCalmsTheGallery) {
         std::array<Picture, 2> seen;
         for (std::size_t i = 0; i < seen.size(); ++i) {
             const FrameRequest asked = turned(of, 0.3 + 0.0025 * static_cast<double>(i));
-            off_screen.render(asked, asked.fovea());
+            off_screen.render(asked.frame_view(), asked.fovea());
             seen.at(i) = off_screen.picture(gaze::Eye::Left);
         }
         double sum = 0.0;
@@ -372,7 +372,7 @@ TEST_F(FilterTest, CalmsHighlights) {
         std::array<Picture, 2> seen;
         for (std::size_t i = 0; i < seen.size(); ++i) {
             const FrameRequest asked = turned(of, 0.0025 * static_cast<double>(i));
-            off_screen.render(asked, asked.fovea());
+            off_screen.render(asked.frame_view(), asked.fovea());
             seen.at(i) = off_screen.picture(gaze::Eye::Left);
         }
         double changes = 0.0;
@@ -402,7 +402,7 @@ TEST_F(FilterTest, HighlightsOfAFlatSurfaceStayAsTheyAre) {
             const MethodConfig of = coarse(FilterUse::Off, method);
             OffScreen off_screen(context(), *made, passes_of(of), of);
             const FrameRequest asked = turned(of, 0.0);
-            off_screen.render(asked, asked.fovea());
+            off_screen.render(asked.frame_view(), asked.fovea());
             return off_screen.picture(gaze::Eye::Left);
         };
         const Picture plain = seen({});

@@ -81,7 +81,7 @@ class MethodContract : public FrameRendererTest, public testing::WithParamInterf
 
     static OffScreen::Rendered draw(const RendererConfig& config, const FrameRequest& frame) {
         OffScreen off_screen(context(), scene(), tests::passes_by(GetParam()), config);
-        return off_screen.render(frame, frame.fovea());
+        return off_screen.render(frame.frame_view(), frame.fovea());
     }
 
     static void expect_counts_add_up(const frame::SampleCounts& counts, std::string_view where) {
@@ -141,7 +141,8 @@ TEST_P(MethodContract, TakesWhatFollowsItsPicture) {
             FrameRequest request = frame(at, config);
             std::optional<std::uint64_t> hash;
             for (request.index = 0; request.index < 3; ++request.index) {
-                const OffScreen::Rendered done = off_screen.render(request, request.fovea());
+                const OffScreen::Rendered done =
+                    off_screen.render(request.frame_view(), request.fovea());
                 expect_counts_add_up(done.counts, at.name);
                 hash = done.gpu.pixel_hash;
             }
@@ -165,12 +166,13 @@ TEST_P(MethodContract, LeavesOutWhatNoEyeSees) {
     request.hidden = foveation::hidden_areas(meshes, request.views);
     ASSERT_NE(request.hidden[0], nullptr);
     OffScreen off_screen(context(), scene(), tests::passes_by(GetParam()), config);
-    const frame::SampleCounts counts = off_screen.render(request, request.fovea()).counts;
+    const frame::SampleCounts counts =
+        off_screen.render(request.frame_view(), request.fovea()).counts;
     expect_counts_add_up(counts, "hidden");
     EXPECT_GT(counts.pixels_hidden, 0U);
     const Picture masked = off_screen.picture(gaze::Eye::Left);
     request.hidden = {};
-    off_screen.render(request, request.fovea());
+    off_screen.render(request.frame_view(), request.fovea());
     const Picture whole = off_screen.picture(gaze::Eye::Left);
     EXPECT_EQ(masked.pixels[0], (std::array<std::uint8_t, 3>{0, 0, 0})) << "a corner";
     const std::size_t middle = std::size_t{36} * 96 + 48;
@@ -184,8 +186,8 @@ TEST_P(MethodContract, IsFullResolutionWhereItIsAskedForEverything) {
     OffScreen all(context(), scene(), tests::passes_by(GetParam(), kEverything.at(GetParam())),
                   config);
     OffScreen full(context(), scene(), tests::passes_by("full"), config);
-    all.render(request, request.fovea());
-    full.render(request, request.fovea());
+    all.render(request.frame_view(), request.fovea());
+    full.render(request.frame_view(), request.fovea());
     for (const gaze::Eye eye : gaze::kEyes) {
         // 16-bit floats in between may round the other way.
         EXPECT_LE(largest_difference(all.picture(eye), full.picture(eye)), 1);
@@ -215,7 +217,7 @@ TEST_P(MethodContract, ListsItsPassesAndTimesThoseThatRan) {
     const RendererConfig config = pictures(96, 72);
     const FrameRequest request = frame(kSituations[0], config);
     OffScreen off_screen(context(), scene(), tests::passes_by(GetParam()), config);
-    const frame::FrameGpuRecord gpu = off_screen.render(request, request.fovea()).gpu;
+    const frame::FrameGpuRecord gpu = off_screen.render(request.frame_view(), request.fovea()).gpu;
     const frame::PassList& listed = off_screen.renderer().passes();
     ASSERT_GT(listed.size(), 0U);
     EXPECT_GT(off_screen.renderer().grids().size(), 0U);

@@ -41,7 +41,7 @@ class RivalMethods : public FrameRendererTest {
 
         OffScreen::Rendered next(FrameRequest request) {
             request.index = frame_++;
-            return off_screen_.render(request, request.fovea());
+            return off_screen_.render(request.frame_view(), request.fovea());
         }
         Picture left(const FrameRequest& request) {
             next(request);
@@ -248,7 +248,7 @@ TEST_F(RivalMethods, SparseGuidedByDepthKeepsEdges) {
     config.depth_format = vk::Format::eD32Sfloat;
     const FrameRequest at = request_for(config, {80, 60});
     OffScreen full(context(), scene(), tests::passes_by("full"), config);
-    full.render(at, at.fovea());
+    full.render(at.frame_view(), at.fovea());
     const LinearPicture exact = full.linear_picture(gaze::Eye::Left);
     const std::vector<double> nearness = nearness_of(at, full.depth(gaze::Eye::Left));
     const LinearPicture plain = Run("sparse", {}, config).left_linear(at);

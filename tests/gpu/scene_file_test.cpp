@@ -19,7 +19,7 @@ class SceneFileTest : public FrameRendererTest {
         const MethodConfig of = config(method, 96, 72);
         OffScreen off_screen(context(), *scene, passes_of(of), of);
         const FrameRequest asked = request(of, {48.0, 36.0});
-        off_screen.render(asked, asked.fovea());
+        off_screen.render(asked.frame_view(), asked.fovea());
         return off_screen.picture(gaze::Eye::Left);
     }
 };

@@ -101,7 +101,7 @@ TEST_F(SeenDepth, IsKeptByEveryMethodThatShadesPixelsAroundTheFovea) {
             const FrameRequest frame = request(with, fovea);
             const Rendered exact = render(full, frame);
             OffScreen off_screen(context(), scene(), tests::passes_by(method, set), with);
-            off_screen.render(frame, frame.fovea());
+            off_screen.render(frame.frame_view(), frame.fovea());
             for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
                 const gaze::DepthPatch& patch = off_screen.renderer().seen_depth()[e];
                 ASSERT_GT(patch.nearness.size(), 8U) << method << ' ' << fovea.x_px;

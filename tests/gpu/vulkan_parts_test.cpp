@@ -75,7 +75,7 @@ TEST_F(VulkanParts, PicturesAreThereInLinearLightToo) {
     const MethodConfig full = config(Method::Full);
     OffScreen off_screen(context(), scene(), passes_of(full), full);
     const FrameRequest at = request(full, {80, 60});
-    off_screen.render(at, at.fovea());
+    off_screen.render(at.frame_view(), at.fovea());
     const Picture bytes = off_screen.picture(gaze::Eye::Left);
     const LinearPicture linear = off_screen.linear_picture(gaze::Eye::Left);
     ASSERT_EQ(linear.pixels.size(), bytes.pixels.size());

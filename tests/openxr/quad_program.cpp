@@ -1,8 +1,11 @@
 #include "tests/openxr/quad_program.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <exception>
 #include <map>
 #include <numbers>
 #include <stdexcept>
@@ -55,6 +58,7 @@ std::vector<VkImage> images_of(XrSwapchain swapchain) {
                                    reinterpret_cast<XrSwapchainImageBaseHeader*>(images.data())),
         "xrEnumerateSwapchainImages");
     std::vector<VkImage> all;
+    all.reserve(images.size());
     for (const auto& image : images) {
         all.push_back(image.image);
     }
@@ -196,8 +200,12 @@ QuadProgram::QuadProgram(Scene scene, std::uint32_t side_px)
 }
 
 QuadProgram::~QuadProgram() {
-    end();
-    layer<PFN_xrDestroyInstance>("xrDestroyInstance")(instance_.handle());
+    try {
+        end();
+        layer<PFN_xrDestroyInstance>("xrDestroyInstance")(instance_.handle());
+    } catch (const std::exception& error) {
+        ADD_FAILURE() << error.what();
+    }
 }
 
 void QuadProgram::end() {

@@ -65,7 +65,7 @@ class FrameRendererTest : public testing::Test {
 
     static Rendered render(const MethodConfig& config, const FrameRequest& request) {
         OffScreen off_screen(context(), scene(), passes_of(config), config);
-        const OffScreen::Rendered done = off_screen.render(request, request.fovea());
+        const OffScreen::Rendered done = off_screen.render(request.frame_view(), request.fovea());
         Rendered rendered;
         rendered.passes = off_screen.renderer().passes();
         rendered.counts = done.counts;

@@ -37,6 +37,8 @@ struct FrameRequest : FrameView {
     gaze::PerEye<gaze::PixelPosition> foveae;
     gaze::PerEye<glm::dvec3> gaze_directions{};
 
+    /// What a renderer takes: all but the gaze.
+    [[nodiscard]] const FrameView& frame_view() const { return *this; }
     [[nodiscard]] gaze::FrameFovea fovea() const {
         gaze::FrameFovea fovea;
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {

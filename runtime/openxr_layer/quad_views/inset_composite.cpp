@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <ranges>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -150,8 +151,8 @@ InsetComposite::~InsetComposite() {
     for (const auto& [format, pass] : passes_) {
         vk_.DestroyRenderPass(device_.device, pass, nullptr);
     }
-    for (auto undo = undo_.rbegin(); undo != undo_.rend(); ++undo) {
-        (*undo)();
+    for (const std::function<void()>& undo : std::views::reverse(undo_)) {
+        undo();
     }
 }
 

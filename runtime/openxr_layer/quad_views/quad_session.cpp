@@ -31,8 +31,12 @@ bool is_field(const XrFovf& fov) {
 }  // namespace
 
 QuadSession::~QuadSession() {
-    for (Target& target : targets_) {
-        destroy(target);
+    try {
+        for (Target& target : targets_) {
+            destroy(target);
+        }
+    } catch (...) {  // NOLINT(bugprone-empty-catch)
+        // The application ends its session either way, and must not end with it.
     }
 }
 
@@ -57,6 +61,7 @@ std::vector<VkImage> QuadSession::images_of(XrSwapchain swapchain) const {
             swapchain, count, &count, reinterpret_cast<XrSwapchainImageBaseHeader*>(images.data())),
         "xrEnumerateSwapchainImages");
     std::vector<VkImage> all;
+    all.reserve(images.size());
     for (const XrSwapchainImageVulkanKHR& image : images) {
         all.push_back(image.image);
     }

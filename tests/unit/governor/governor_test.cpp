@@ -50,6 +50,7 @@ class Machine {
     }
     std::vector<Frame> frames(std::size_t count, double load, const SeenEyes& eyes = kFixation) {
         std::vector<Frame> all;
+        all.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             all.push_back(frame(load, eyes));
         }

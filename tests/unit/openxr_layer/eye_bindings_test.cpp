@@ -13,7 +13,7 @@ using ::testing::IsEmpty;
 
 template <typename Handle>
 Handle handle(std::uintptr_t number) {
-    return reinterpret_cast<Handle>(number);
+    return reinterpret_cast<Handle>(number);  // NOLINT(performance-no-int-to-ptr)
 }
 
 struct TwoSets : testing::Test {

@@ -43,7 +43,7 @@ TEST(GazeHistory, GivesTheNearestSample) {
     GazeHistory history(HistoryPolicy{});
     EXPECT_EQ(asked(history, 0, 0).seen, nullptr);
     for (int i = 0; i < 20; ++i) {
-        history.add(sample_at(10 * i, to(i)));
+        history.add(sample_at(std::int64_t{10} * i, to(i)));
     }
     for (const auto& [ms, nearest] :
          {std::pair{0, 0}, {4, 0}, {6, 10}, {84, 80}, {86, 90}, {190, 190}, {260, 190}, {-40, 0}}) {

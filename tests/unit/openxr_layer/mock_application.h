@@ -64,6 +64,7 @@ class MockApplication {
     }
     XrResult suggest(const std::vector<XrAction>& bound) {
         std::vector<XrActionSuggestedBinding> bindings;
+        bindings.reserve(bound.size());
         for (const XrAction action : bound) {
             bindings.push_back({action, path("/user/eyes_ext/input/gaze_ext/pose")});
         }

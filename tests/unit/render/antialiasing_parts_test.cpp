@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "runtime/render/post_filter.h"
 #include "runtime/render/saccade_landing.h"
@@ -51,7 +52,7 @@ class SaccadeLandingTest : public testing::Test {
   protected:
     bool looks(double gaze_deg, double head_deg = 0.0,
                std::optional<gaze::EyeEvent> event = std::nullopt) {
-        const auto rad = [](double deg) { return deg * 3.14159265358979 / 180.0; };
+        const auto rad = [](double deg) { return deg * std::numbers::pi / 180.0; };
         gaze::FoveaPoint fovea;
         fovea.direction = {std::sin(rad(gaze_deg)), 0.0, -std::cos(rad(gaze_deg))};
         fovea.event = event;
