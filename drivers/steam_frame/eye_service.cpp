@@ -15,8 +15,6 @@
 namespace gazeloop::drivers::steam_frame {
 namespace {
 
-/// How far apart the two reads of a sample are. A service stores its 129 bytes in well under that.
-constexpr std::int64_t kSettle_ns = 20'000;
 /// After so long without a sample the path is looked at, which may be another file by now.
 constexpr std::int64_t kLookAtPath_ns = 200'000'000;
 /// Longer than any blink or hiccup: the user is told.

@@ -36,6 +36,9 @@ class SharedFile {
     std::string path_;
 };
 
+/// How far apart the two reads of a sample are. A service stores its 129 bytes in well under that.
+inline constexpr std::int64_t kSettle_ns = 20'000;
+
 /// Reads a sample without the writer's lock into `image`: false where the counter is still
 /// `known_counter`, or where several attempts were all torn. A sample is taken where two reads,
 /// `settle_ns` (0: at once) apart, have the same counter and the same record to the last byte. That
