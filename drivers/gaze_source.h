@@ -18,7 +18,8 @@ struct SourceEvent {
     time::Stamp time;
     std::string text;  ///< one line
     /// For FrameObserver::on_event: "tracker", "tracker-fault" where it is there and cannot be
-    /// used, or "axes" where directions are in doubt.
+    /// used, "gaze-unplaced" where something must be set before its gaze has a direction, or
+    /// "axes" where directions are in doubt.
     frame::EventKind kind = frame::kTrackerEvent;
 };
 

@@ -126,8 +126,10 @@ class DeviceSource::Reader {
         const auto greet = [&] {
             greeted = true;
             feed_.tell(time::measured_now(), "plugged in: " + tracker.text());
+            const std::optional<std::string> missing = tracker.facts().missing;
             for (const std::string& remark : tracker.remarks()) {
-                feed_.tell(time::measured_now(), remark);
+                feed_.tell(time::measured_now(), remark,
+                           remark == missing ? frame::kUnplacedGazeEvent : frame::kTrackerEvent);
             }
         };
         if (failures_ == 0) {

@@ -34,6 +34,8 @@ struct TrackerFacts {
     std::optional<double> maximum_screen_height_m;
     /// Feature reports that it gives no answer for, by id.
     std::vector<std::uint8_t> unanswered_reports;
+    /// What its gaze needs to have a direction, and how to say it; none: nothing is missing.
+    std::optional<std::string> missing;
 };
 
 /// What came from a tracker.

@@ -147,6 +147,7 @@ TrackerFacts TrackerSession::facts() const {
     facts.maximum_screen_width_m = features_.maximum_width_m;
     facts.maximum_screen_height_m = features_.maximum_height_m;
     facts.unanswered_reports = unanswered_;
+    facts.missing = told_problem_;
     if (samples_.status()) {
         facts.status = text_of(*samples_.status());
     }
@@ -296,7 +297,9 @@ Expected<void> TrackerSession::read(std::chrono::milliseconds longest, DeviceFee
     }
     if (asking_) {
         for (std::string& line : take_answers()) {
-            feed.tell(time::measured_now(), std::move(line));
+            const bool unplaced = line == told_problem_;
+            feed.tell(time::measured_now(), std::move(line),
+                      unplaced ? frame::kUnplacedGazeEvent : frame::kTrackerEvent);
         }
     }
     ask_again(arrived_ns);  // the status comes from one that was stopped, too

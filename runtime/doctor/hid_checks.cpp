@@ -64,6 +64,10 @@ Finding found(const drivers::hid::FoundTracker& tracker, const drivers::TrackerP
     } else {
         finding.found += fmt::format(": {} samples in {:.1f} s, {} of them with gaze",
                                      probe.counts.samples, probe.seconds, probe.with_gaze);
+        if (probe.with_gaze == 0 && probe.facts.missing) {
+            finding.verdict = Verdict::Warning;
+            finding.remedy = *probe.facts.missing;
+        }
     }
     if (const auto& ids = probe.facts.unanswered_reports; !ids.empty()) {
         finding.verdict = Verdict::Warning;

@@ -30,8 +30,12 @@ inline constexpr EventKind kErrorEvent{"error", EventWeight::Routine};  ///< sai
 inline constexpr EventKind kTrackerEvent{"tracker", EventWeight::Notice};
 /// It is there, and cannot be used.
 inline constexpr EventKind kTrackerFaultEvent{"tracker-fault", EventWeight::Warning};
+/// Its gaze has no direction until something that it does not state is set.
+inline constexpr EventKind kUnplacedGazeEvent{"gaze-unplaced", EventWeight::Warning};
 inline constexpr EventKind kAxesEvent{"axes", EventWeight::Warning};
 inline constexpr EventKind kTraceEvent{"trace", EventWeight::Routine};  ///< a block of its own
+/// What a scene's work lacks, since nothing shown needs it: of the whole run, without a time.
+inline constexpr EventKind kLeftOutEvent{"left-out", EventWeight::Notice};
 inline constexpr EventKind kClockEvent{"clock", EventWeight::Warning};
 inline constexpr EventKind kDisplayEvent{"display", EventWeight::Warning};
 inline constexpr EventKind kBudgetBrokenEvent{"budget-broken", EventWeight::Warning};
@@ -66,7 +70,8 @@ inline constexpr std::array kEventKinds{
     kViewGoodEvent,     kDisplayTimeOddEvent, kDisplayTimeGoodEvent,
     kPeriodOddEvent,    kFrameDiscardedEvent, kFrameRefusedEvent,
     kEventsLostEvent,   kSessionOddEvent,     kTrackerFaultEvent,
-    kQualityLevelEvent, kQualityFloorEvent};
+    kQualityLevelEvent, kQualityFloorEvent,   kLeftOutEvent,
+    kUnplacedGazeEvent};
 
 /// A kind that is not known (of a later version's recording) is worth a line.
 [[nodiscard]] constexpr EventWeight weight_of(std::string_view kind) {

@@ -21,6 +21,9 @@ std::optional<double> seconds(const time::Stamp& began, const time::Stamp& at) {
 }
 
 std::string when(const latency::Happening& happening, const time::Stamp& began) {
+    if (happening.kind.view() == frame::kLeftOutEvent.name) {
+        return " all along";
+    }
     const auto first = seconds(began, happening.first);
     const auto last = seconds(began, happening.last);
     const std::string times =

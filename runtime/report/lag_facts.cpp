@@ -64,6 +64,8 @@ void LagObserver::on_event(time::Stamp, std::string_view kind, std::string_view 
         // A replay's source is the recording, which tells whose gaze that was.
         const GazeOrigin told = origin_of(text);
         origin_ = told != GazeOrigin::Unknown ? told : origin_;
+    } else if (kind == frame::kUnplacedGazeEvent.name) {
+        unplaced_ = FixedText<240>(text);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/fixed_text.h"
 #include "runtime/frame/frame_observer.h"
 #include "runtime/gaze/smoothing.h"
 #include "runtime/latency/budget.h"
@@ -30,6 +31,7 @@ struct LagFacts {
     latency::PredictionCheck prediction{};
     latency::GazeUseCounts use{};
     gaze::SmoothingFinding smoothing{};
+    std::string_view unplaced{};  ///< what gaze needs to have a direction; empty: nothing
     std::span<const NamedValue> settings{};  ///< of the run, as far as they are known
     std::span<const NamedValue> device{};    ///< likewise, as a session's table of that name
 
@@ -67,11 +69,13 @@ class LagObserver final : public frame::FrameObserver {
     [[nodiscard]] GazeOrigin origin() const { return origin_; }
     [[nodiscard]] const latency::GazeUseCounts& use() const { return use_.counts(); }
     [[nodiscard]] gaze::SmoothingFinding smoothing() const { return smoothing_.finding(); }
+    [[nodiscard]] const FixedText<240>& unplaced() const { return unplaced_; }
 
   private:
     gaze::GazeSmoothing smoothing_;
     latency::GazeUse use_;
     GazeOrigin origin_ = GazeOrigin::Unknown;
+    FixedText<240> unplaced_;  ///< kUnplacedGazeEvent's latest
 };
 
 }  // namespace gazeloop::report

@@ -329,6 +329,12 @@ constexpr std::array kRemedy{
                     "gaze.stale_ms{}.",
                     now(f, "gaze.stale_ms"));
             }},
+    LagRule{
+        "try-placing-gaze",
+        [](const LagFacts& f) { return f.report->frames.with_gaze() == 0 && !f.unplaced.empty(); },
+        [](const LagFacts& f) {
+            return fmt::format("Set what it does not state: {}.", f.unplaced);
+        }},
     LagRule{"try-calibrating", [](const LagFacts& f) { return f.report->frames.with_gaze() == 0; },
             [](const LagFacts& f) {
                 return fmt::format(

@@ -105,6 +105,7 @@ Expected<SessionSummary> summarize(const session::OpenSession& session, const Ru
                           .origin = lag.origin(),
                           .use = lag.use(),
                           .smoothing = lag.smoothing(),
+                          .unplaced = lag.unplaced(),
                           .end = *std::move(end)};
 }
 

@@ -26,6 +26,7 @@ struct SessionSummary {
     GazeOrigin origin = GazeOrigin::Unknown;
     latency::GazeUseCounts use{};
     gaze::SmoothingFinding smoothing{};
+    FixedText<240> unplaced{};  ///< what its gaze needed to have a direction; empty: nothing
     session::PlaybackEnd end;
 };
 

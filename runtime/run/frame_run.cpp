@@ -172,6 +172,9 @@ class FrameRun {
         recorder_ = value_or_throw(session::SessionRecorder::create(
             *request_.record, header,
             request_.clock == RunClock::Wall ? session::WhenFull::Drop : session::WhenFull::Wait));
+        for (const std::string& skipped : scene_->skipped()) {
+            recorder_->event(time::Stamp{}, frame::kLeftOutEvent.name, skipped);
+        }
         recording_ = std::make_unique<RecordingObserver>(*recorder_);
         if (request_.record_study) {
             request_.record_study(*recorder_);
@@ -419,6 +422,9 @@ class FrameRun {
         session::EventCursor events(*request_.recording->session);
         while (value_or_throw(events.next())) {
             const session::RecordedEvent& event = *events.row();
+            if (event.kind == frame::kLeftOutEvent.name) {
+                continue;  // the replay's own scene says what it leaves out
+            }
             summary.add_event(event.time, event.kind, event.text);
             lag_.on_event(event.time, event.kind, event.text);
         }
@@ -471,6 +477,7 @@ class FrameRun {
                                          tracker_figures(settings, lag_.origin()), report),
                                      .use = lag_.use(),
                                      .smoothing = lag_.smoothing(),
+                                     .unplaced = lag_.unplaced().view(),
                                      .settings = settings,
                                      .device = device};
         const RunSummary said{.report = report,

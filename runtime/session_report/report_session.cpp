@@ -103,6 +103,7 @@ void fill(const ReportRequest& request, const session::OpenSession& session, Ses
                                         .prediction = made.prediction,
                                         .use = summary.use,
                                         .smoothing = summary.smoothing,
+                                        .unplaced = summary.unplaced.view(),
                                         .settings = made.info.header.config,
                                         .device = made.info.header.device});
     if (made.budget) {

@@ -102,6 +102,27 @@ TEST(CheckHid, SaysWhatATrackerDoesNotAnswer) {
     EXPECT_EQ(findings[1].facts["unanswered_feature_reports"], nlohmann::json({0x12}));
 }
 
+// A calibration would not help: its points have no direction without a screen and a distance.
+TEST(CheckHid, SaysWhatGazeOnAScreenNeedsToHaveADirection) {
+    EmulatedTracker tracker(drivers::hid::second_layout(false));
+    tracker.plug_in();
+    constexpr std::size_t kReportBytes = 1 + 3 + 8 + 2 * 4 + 3 * 4;
+    std::vector<std::uint8_t> report(kReportBytes, 0x01);
+    for (std::uint8_t time = 1; time < 9; ++time) {
+        report[4] = time;
+        tracker.send(report);
+    }
+    Findings findings = check_hid(kBriefly);
+    ASSERT_EQ(findings.size(), 2U);
+    EXPECT_GT(findings[1].facts["samples"], 0) << findings[1].found;
+    EXPECT_EQ(findings[1].facts["samples_with_gaze"], 0);
+    EXPECT_EQ(findings[1].verdict, Verdict::Warning) << findings[1].found;
+    for (const char* const setting : {"hid.viewing_distance_m", "hid.screen_width_m"}) {
+        EXPECT_NE(findings[1].remedy.find(setting), std::string::npos) << findings[1].remedy;
+    }
+    EXPECT_EQ(findings[1].remedy.find("calibrate"), std::string::npos) << findings[1].remedy;
+}
+
 TEST(CheckHid, SaysWhatATrackersDescriptorLacks) {
     EmulatedTracker tracker(blind_tracker().bytes());
     tracker.plug_in();

@@ -142,16 +142,17 @@ class Numbering {
         if (take_late_rows(before, i)) {
             return 0;
         }
+        const auto range = wraps(before, i);
         if (i + 1 < count_ && sequence(i + 1) && *sequence(i + 1) != *sequence(before) &&
-            follows(before, i + 1)) {
+            follows(before, i + 1) && !(range && is_followed_by_late_rows(before, i, *range))) {
             report_outlier(i);
             return 0;
         }
         last_ = i;
-        if (const auto range = wraps(before, i)) {
+        if (range) {
             report_restart(i, fmt::format("the sequence wraps from {} to {}: counted on",
                                           *sequence(before), *sequence(i)));
-            return lose(before, i, *sequence(i) + *range - *sequence(before));
+            return lose(before, i, *sequence(i) + *range - *sequence(before), *range);
         }
         note_break(i);
         report_restart(i, fmt::format("the sequence begins anew, {} after {}: counted on",
@@ -206,11 +207,27 @@ class Numbering {
         return std::nullopt;
     }
 
+    /// Whether a number over a wrap comes before those that it left out, and the count goes on from
+    /// it: else it is an outlier.
+    [[nodiscard]] bool is_followed_by_late_rows(std::size_t before, std::size_t wrapped,
+                                                std::uint64_t range) const {
+        const Gap gap{.position = wrapped,
+                      .before = *sequence(before),
+                      .after = *sequence(wrapped) + range,
+                      .missing = 0,
+                      .range = range};
+        std::size_t end = wrapped + 1;
+        const std::size_t latest = std::min(count_, end + kMostLate);
+        while (end < latest && sequence(end) && gap.holds(*sequence(end))) {
+            ++end;
+        }
+        return end > wrapped + 1 && end < count_ && sequence(end) && follows(wrapped, end);
+    }
+
     /// Whether the rows from here on, up to one that follows what is before, are those that seemed
     /// lost further up: they were filed late, and are lost no more.
     bool take_late_rows(std::size_t before, std::size_t first) {
-        constexpr std::size_t kMost = 256;
-        const std::size_t latest = std::min(count_, first + kMost);
+        const std::size_t latest = std::min(count_, first + kMostLate);
         std::size_t end = first;
         while (end < latest && sequence(end) && gap_of(*sequence(end)) != nullptr) {
             ++end;
@@ -240,12 +257,23 @@ class Numbering {
         return true;
     }
 
+    /// Rows in a row that may be filed late.
+    static constexpr std::size_t kMostLate = 256;
+
     /// Numbers that no row had, between two.
     struct Gap {
         std::size_t position = 0;  ///< of the row after it
         std::uint64_t before = 0;
-        std::uint64_t after = 0;
+        std::uint64_t after = 0;  ///< counted on over a wrap
         std::uint64_t missing = 0;
+        std::uint64_t range = 0;  ///< of the counter that wrapped in it; 0: none did
+
+        [[nodiscard]] bool holds(std::uint64_t number) const {
+            const auto inside = [this](std::uint64_t counted) {
+                return counted > before && counted < after;
+            };
+            return inside(number) || (range > 0 && inside(number + range));
+        }
     };
 
     /// The gap that a number belongs to, of the latest.
@@ -254,13 +282,14 @@ class Numbering {
         const std::size_t looked_at = std::min(gaps_.size(), kLatest);
         const auto found =
             std::find_if(gaps_.end() - static_cast<std::ptrdiff_t>(looked_at), gaps_.end(),
-                         [&](const Gap& gap) { return number > gap.before && number < gap.after; });
+                         [&](const Gap& gap) { return gap.holds(number); });
         return found == gaps_.end() ? nullptr : &*found;
     }
 
     /// Counts what the tracker lost of so many steps of the sequence; some rows in between were
     /// left out by the reader.
-    std::uint64_t lose(std::size_t before, std::size_t after, std::uint64_t steps) {
+    std::uint64_t lose(std::size_t before, std::size_t after, std::uint64_t steps,
+                       std::uint64_t range = 0) {
         // Rows with a number of their own in between had their turn: only numbers are left.
         const std::uint64_t positions = after - before;
         std::uint64_t missing = steps > positions ? steps - positions : 0;
@@ -284,7 +313,7 @@ class Numbering {
         missing -= std::min<std::uint64_t>(missing, left_out.size());
         lost_ += missing;
         if (missing > 0) {
-            gaps_.push_back({after, *sequence(before), *sequence(after), missing});
+            gaps_.push_back({after, *sequence(before), *sequence(before) + steps, missing, range});
         }
         return missing;
     }

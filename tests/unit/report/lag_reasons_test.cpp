@@ -114,6 +114,12 @@ const std::vector<RuleCase>& cases() {
              m.facts.use.lost_by_reason[static_cast<std::size_t>(gaze::LossReason::Stale)] = 200;
          },
          "gaze.stale_ms (now 100)"},
+        {"try-placing-gaze",
+         [](Made& m) {
+             m.forget_gaze(400);
+             m.facts.unplaced = "a direction needs the viewing distance";
+         },
+         "Set what it does not state: a direction needs the viewing distance."},
         {"try-calibrating", [](Made& m) { m.forget_gaze(400); },
          "neither eye in 400 of its 400 samples"},
         {"try-nothing", [](Made& m) { m.report.gaze_age_at_display = {}; }, "once that is mended"},

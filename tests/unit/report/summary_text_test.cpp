@@ -242,6 +242,7 @@ TEST(SummaryText, SaysWhatHappenedOnlyWhereSomethingDid) {
     summary.add_event(at(150), "display-time-odd", "the announced display time lies 7 s ahead");
     summary.add_event(at(1350), "display-time-odd", "the announced display time lies 9 s ahead");
     summary.add_event(at(350), "head-found", "the head is tracked");
+    summary.add_event({}, "left-out", "shadows: no light casts one");
     summary.add_event({}, "display", std::string(150, 'x') + " " + std::string(80, 'y'));
     const latency::SummaryReport report = summary.report();
     const std::string text = summary_text(report);
@@ -250,12 +251,13 @@ TEST(SummaryText, SaysWhatHappenedOnlyWhereSomethingDid) {
                           "- display-time-odd, 2 times from 0.050 s to 1.250 s: the announced "
                           "display time lies 9 s ahead\n"
                           "- head-found at 0.250 s: the head is tracked\n"
+                          "- left-out all along: shadows: no light casts one\n"
                           "- display, at an unknown time:"));
     for (const std::string& line : lines(text)) {
         EXPECT_LE(line.size(), 100U) << line;
     }
     const nlohmann::ordered_json json = summary_json(report);
-    ASSERT_EQ(json["happenings"].size(), 3U);
+    ASSERT_EQ(json["happenings"].size(), 4U);
     EXPECT_EQ(json["happenings"][0]["kind"], "display-time-odd");
     EXPECT_EQ(json["happenings"][0]["warning"], true);
     EXPECT_EQ(json["happenings"][0]["times"], 2);

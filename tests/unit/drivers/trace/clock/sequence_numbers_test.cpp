@@ -186,6 +186,21 @@ TEST(SequenceNumbers, DoNotLoseRowsThatWereFiledLate) {
     EXPECT_THAT(sequence.findings[0].text, HasSubstr("20 rows of a gap further up, 300 to 319"));
 }
 
+TEST(SequenceNumbers, DoNotLoseRowsThatWereFiledLateWhereTheyWrap) {
+    for (const std::vector<std::uint64_t>& swapped :
+         {std::vector<std::uint64_t>{252, 253, 254, 0, 255, 1, 2, 3},
+          std::vector<std::uint64_t>{253, 254, 255, 1, 0, 2, 3, 4},
+          std::vector<std::uint64_t>{252, 253, 254, 2, 255, 0, 1, 3}}) {
+        const SequenceNumbers sequence = of(numbered(swapped));
+        EXPECT_EQ(sequence.lost, 0U);
+        ASSERT_THAT(sequence.numbers, SizeIs(swapped.size()));
+        EXPECT_EQ(sequence.numbers.back() - sequence.numbers.front(), swapped.size() - 1);
+        ASSERT_THAT(sequence.findings, SizeIs(2));
+        EXPECT_THAT(sequence.findings[0].text, HasSubstr("wraps"));
+        EXPECT_THAT(sequence.findings[1].text, HasSubstr("filed late"));
+    }
+}
+
 TEST(SequenceNumbers, DoNotLoseRowsThatWereFiledLateAndLeftOut) {
     auto rows = good_rows(800);
     std::rotate(rows.begin() + 300, rows.begin() + 310, rows.begin() + 410);
