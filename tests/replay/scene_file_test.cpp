@@ -73,6 +73,33 @@ TEST(SceneFiles, ThatCannotBeUsedEndTheRunWithThree) {
     EXPECT_THAT(result.err, HasSubstr("requires \"KHR_draco_mesh_compression\""));
 }
 
+// The run, its report and a replay say the same of what the scene did without.
+TEST(SceneFiles, TellWhatTheyDidWithout) {
+    const TemporaryFolder folder;
+    write(folder / "a.glb", one_triangle().glb());
+    const std::string session = (folder / "a.gaze").string();
+    const ProgramResult run =
+        run_gazeloop({"run", "--scene", (folder / "a.glb").string(), "--gaze", "fixed:0,0",
+                      "--target", "headless", "--clock", "virtual", "--frames", "2", "--record",
+                      session, "--set", "render.scale=0.05", "--json", "-"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto parts = nlohmann::json::parse(run.out)["left_out"]["parts"];
+    ASSERT_FALSE(parts.empty());
+    const ProgramResult report = run_gazeloop({"report", session, "--json", "-"});
+    ASSERT_EQ(report.exit_code, 0) << report.err;
+    std::vector<nlohmann::json> told;
+    const auto reported = nlohmann::json::parse(report.out);
+    for (const auto& happening : reported["happenings"]) {
+        if (happening["kind"] == "left-out") {
+            told.push_back(happening["text"]);
+        }
+    }
+    EXPECT_EQ(nlohmann::json(told), parts);
+    const ProgramResult replay = run_gazeloop({"replay", session, "--json", "-"});
+    ASSERT_EQ(replay.exit_code, 0) << replay.err;
+    EXPECT_EQ(nlohmann::json::parse(replay.out)["left_out"]["parts"], parts);
+}
+
 TEST(SceneFiles, OfLightFieldsAreMadeAndShown) {
     const TemporaryFolder folder;
     const std::string out = (folder / "field").string();
