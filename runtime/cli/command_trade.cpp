@@ -40,7 +40,8 @@ ExitCode trade_of(const TradeCommand& command, const std::string& command_line) 
         {.display = value_or_throw(profiles::display_in_force(values.profile, settings)),
          .render = values.render,
          .vulkan = values.vulkan,
-         .methods = values.methods},
+         .methods = values.methods,
+         .light_field = values.light_field},
         settings,
         {.progress = [](const std::string& said) { spdlog::info("{}", said); },
          .interrupted = run::interrupted,
@@ -58,7 +59,8 @@ void add_trade_command(Command program, const std::string& command_line) {
     RunOptions& options = command->options;
     options.aliases = {
         {"--display", "profile.display", "display profile, by name or .toml file"},
-        {"--scene", "render.scene", "scene to render: raymarch, gallery, or a .gltf or .glb file"},
+        {"--scene", "render.scene",
+         "scene to render: raymarch, gallery, or a .gltf, .glb or .lightfield file"},
         {"--spp", "render.spp", "samples per texel or pixel, 1 to 16"},
     };
     options.switches.clear();

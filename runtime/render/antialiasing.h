@@ -4,6 +4,9 @@
 
 namespace gazeloop::render {
 
+/// Whether a filter runs.
+enum class FilterUse : std::uint8_t { Off, On, AsSceneNeeds };
+
 /// What is done against aliasing besides samples. All off: pictures as the methods make them.
 struct Antialiasing {
     /// Largest size of the post filter (post_filter.h), px; below 3: none.

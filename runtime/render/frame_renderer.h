@@ -20,9 +20,6 @@
 
 namespace gazeloop::render {
 
-/// Whether a filter runs.
-enum class FilterUse : std::uint8_t { Off, On, AsSceneNeeds };
-
 struct RendererConfig {
     std::uint32_t samples = 1;  ///< per texel or pixel, [1, kMaxSamples]
     gaze::PerEye<vk::Extent2D> extents;

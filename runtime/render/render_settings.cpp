@@ -16,6 +16,12 @@ Antialiasing antialiasing_of(const RenderSettings& render) {
             .forget_at_landings = render.forget_at_landings};
 }
 
+FilterUse lp_gaussian_of(const RenderSettings& render) {
+    return render.lp_gaussian == "on"    ? FilterUse::On
+           : render.lp_gaussian == "off" ? FilterUse::Off
+                                         : FilterUse::AsSceneNeeds;
+}
+
 std::vector<settings::SettingRow> rows_of(RenderSettings& render,
                                           std::vector<std::string> methods) {
     using settings::Choice;

@@ -33,6 +33,9 @@ struct RenderSettings {
 /// What they say of antialiasing.
 [[nodiscard]] Antialiasing antialiasing_of(const RenderSettings& render);
 
+/// Whether a log-polar buffer's periphery is smoothed.
+[[nodiscard]] FilterUse lp_gaussian_of(const RenderSettings& render);
+
 /// `methods`: the names that render.method may have.
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(RenderSettings& render,
                                                         std::vector<std::string> methods);

@@ -21,6 +21,7 @@
 #include "runtime/recordings/trace_log.h"
 #include "runtime/recordings/trace_of_session.h"
 #include "runtime/render/off_screen.h"
+#include "runtime/render/scene_options.h"
 #include "runtime/render/snapshot.h"
 #include "runtime/report/lag_reasons.h"
 #include "runtime/report/output_file.h"
@@ -92,10 +93,7 @@ class FrameRun {
         check_recorded_target(request_, config_);
         check_picture(request_, config_);
         scene_ = scene::make_scene(*context_, values_.render.scene,
-                                   {.require_all = values_.render.require == "all",
-                                    .specular_filter = values_.render.specular_filter,
-                                    .footprint = values_.render.footprint,
-                                    .light_field = values_.light_field});
+                                   render::scene_options(values_.render, values_.light_field));
         render::FrameRenderer renderer(*context_, *scene_, make_passes(values_.render.method),
                                        config_);
         spdlog::info("Vulkan: {} ({})", context_->device_name(), context_->driver());
@@ -154,10 +152,7 @@ class FrameRun {
                 .hash = request_.hash,
                 .seen_depth = request_.openxr_gaze && request_.openxr_gaze->from_depth,
                 .frames_in_flight = static_cast<std::uint32_t>(values_.render.frames_in_flight),
-                .lp_gaussian = values_.render.lp_gaussian == "on" ? render::FilterUse::On
-                               : values_.render.lp_gaussian == "off"
-                                   ? render::FilterUse::Off
-                                   : render::FilterUse::AsSceneNeeds,
+                .lp_gaussian = render::lp_gaussian_of(values_.render),
                 .antialiasing = render::antialiasing_of(values_.render),
                 .unshaded = std::nullopt};
     }

@@ -17,6 +17,8 @@ struct LightFieldSettings {
     [[nodiscard]] light_field::Lens lens() const {
         return {.focus_m = focus_m, .aperture_m = aperture_m};
     }
+
+    friend bool operator==(const LightFieldSettings&, const LightFieldSettings&) = default;
 };
 
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(LightFieldSettings& light_field);

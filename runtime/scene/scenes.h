@@ -21,6 +21,8 @@ struct SceneOptions {
     /// raymarch.
     bool footprint = false;
     LightFieldSettings light_field{};
+
+    friend bool operator==(const SceneOptions&, const SceneOptions&) = default;
 };
 
 /// A scene by its name, or of a file (scene_file.h, light_field_file.h). Throws SetupError: Usage

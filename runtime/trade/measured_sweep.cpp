@@ -23,8 +23,7 @@ std::string of_file(const SweepRecord& record, const std::string& file) {
 
 Expected<SweepRecord> measured_sweep(const vulkan::Context& context, const SweepQuestion& question,
                                      const std::vector<SweepPoint>& points,
-                                     const methods::MethodSettings& values,
-                                     settings::Settings& settings,
+                                     const SweptValues& values, settings::Settings& settings,
                                      const std::filesystem::path& journal, SweepHooks hooks) {
     auto record = begin_record(question, points, settings, context.device_name());
     if (!record) {

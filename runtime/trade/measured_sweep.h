@@ -12,8 +12,7 @@ namespace gazeloop::trade {
 /// measured is in the file at once. Errors: as begin_record(), SweepJournal::open() and sweep().
 Expected<SweepRecord> measured_sweep(const vulkan::Context& context, const SweepQuestion& question,
                                      const std::vector<SweepPoint>& points,
-                                     const methods::MethodSettings& values,
-                                     settings::Settings& settings,
+                                     const SweptValues& values, settings::Settings& settings,
                                      const std::filesystem::path& journal, SweepHooks hooks);
 
 /// The journals of a sweep's shards as one record; nothing is measured. `said` is told what they

@@ -10,7 +10,7 @@
 
 #include "runtime/methods/registry.h"
 #include "runtime/render/off_screen.h"
-#include "runtime/scene/scenes.h"
+#include "runtime/render/scene_options.h"
 #include "runtime/trade/point_picture.h"
 #include "runtime/trade/settings_of_point.h"
 #include "runtime/trade/time_left.h"
@@ -22,8 +22,8 @@ namespace {
 class CaseSweep {
   public:
     CaseSweep(const vulkan::Context& context, const SweepQuestion& question, std::size_t at_case,
-              const methods::MethodSettings& values, settings::Settings& settings,
-              const SweepHooks& hooks, SweepRecord& record)
+              const SweptValues& values, settings::Settings& settings, const SweepHooks& hooks,
+              SweepRecord& record)
         : context_(context),
           question_(question),
           at_case_(at_case),
@@ -59,7 +59,6 @@ class CaseSweep {
         if (known == contenders_.size() && all_timed) {
             return {};
         }
-        scene_ = scene::make_scene(context_, case_.scene);
         if (known < contenders_.size()) {
             if (auto judged = judge_all(); !judged) {
                 return judged;
@@ -122,15 +121,25 @@ class CaseSweep {
         return foveae;
     }
 
-    [[nodiscard]] std::unique_ptr<render::OffScreen> renderer(const render::MakePasses& passes,
-                                                              std::uint32_t samples) const {
-        render::RendererConfig config;
-        config.samples = samples;
+    /// The case's scene, made once for each way to make it.
+    [[nodiscard]] scene::Scene& scene(const scene::SceneOptions& options) {
+        for (const auto& [made_with, scene] : scenes_) {
+            if (made_with == options) {
+                return *scene;
+            }
+        }
+        scenes_.emplace_back(options, scene::make_scene(context_, case_.scene, options));
+        return *scenes_.back().second;
+    }
+
+    [[nodiscard]] std::unique_ptr<render::OffScreen> renderer(scene::Scene& scene,
+                                                              const render::MakePasses& passes,
+                                                              render::RendererConfig config) const {
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
             config.extents[e] =
                 vk::Extent2D(question_.views[e].width_px, question_.views[e].height_px);
         }
-        return std::make_unique<render::OffScreen>(context_, *scene_, passes, config);
+        return std::make_unique<render::OffScreen>(context_, scene, passes, config);
     }
 
     [[nodiscard]] gaze::Eye eye() const { return question_.comparison.eye; }
@@ -146,11 +155,13 @@ class CaseSweep {
                             "--frames, or smaller pictures (--set render.scale=0.5)",
                             frames(), bytes >> 20U, kMostReferenceBytes >> 20U)});
         }
-        const auto passes = methods::find_method("full")->passes(values_, settings_);
+        const auto passes = methods::find_method("full")->passes(values_.methods, settings_);
         if (!passes) {
             return std::unexpected(passes.error());
         }
-        const auto full = renderer(*passes, question_.reference_samples);
+        render::RendererConfig config;
+        config.samples = question_.reference_samples;
+        const auto full = renderer(scene({.light_field = values_.light_field}), *passes, config);
         for (std::size_t frame = 0; frame < frames(); ++frame) {
             if (auto stopped = stop_if_interrupted(); !stopped) {
                 return stopped;
@@ -212,18 +223,23 @@ class CaseSweep {
         }
         if (method.check_picture != nullptr) {
             for (const gaze::EyeView& one : question_.views) {
-                if (auto checked =
-                        method.check_picture(values_, settings_, {one.width_px, one.height_px});
+                if (auto checked = method.check_picture(values_.methods, settings_,
+                                                        {one.width_px, one.height_px});
                     !checked) {
                     return checked;
                 }
             }
         }
-        const auto passes = method.passes(values_, settings_);
+        const auto passes = method.passes(values_.methods, settings_);
         if (!passes) {
             return std::unexpected(passes.error());
         }
-        contender.renderer = renderer(*passes, question_.samples);
+        render::RendererConfig config;
+        config.samples = question_.samples;
+        config.lp_gaussian = render::lp_gaussian_of(values_.render);
+        config.antialiasing = render::antialiasing_of(values_.render);
+        contender.renderer = renderer(
+            scene(render::scene_options(values_.render, values_.light_field)), *passes, config);
         return {};
     }
 
@@ -348,11 +364,12 @@ class CaseSweep {
     const SweepQuestion& question_;
     std::size_t at_case_;
     const CaseQuestion& case_;
-    const methods::MethodSettings& values_;
+    const SweptValues& values_;
     settings::Settings& settings_;
     const SweepHooks& hooks_;
     SweepRecord& record_;
-    std::unique_ptr<scene::Scene> scene_;  ///< outlives the renderers
+    /// Outlive the renderers.
+    std::vector<std::pair<scene::SceneOptions, std::unique_ptr<scene::Scene>>> scenes_;
     std::vector<Contender> contenders_;
     std::set<std::pair<unsigned, std::size_t>> timed_;  ///< round, frame
     std::vector<render::LinearPicture> reference_;
@@ -361,7 +378,7 @@ class CaseSweep {
 }  // namespace
 
 Expected<void> sweep(const vulkan::Context& context, const SweepQuestion& question,
-                     const methods::MethodSettings& values, settings::Settings& settings,
+                     const SweptValues& values, settings::Settings& settings,
                      const SweepHooks& hooks, SweepRecord& record) {
     for (std::size_t at_case = 0; at_case < question.cases.size(); ++at_case) {
         if (auto done =

@@ -4,10 +4,10 @@
 #include <functional>
 #include <string>
 
-#include "runtime/methods/method_settings.h"
 #include "runtime/settings/settings.h"
 #include "runtime/trade/sweep_question.h"
 #include "runtime/trade/sweep_record.h"
+#include "runtime/trade/swept_values.h"
 #include "runtime/vulkan/context.h"
 
 namespace gazeloop::trade {
@@ -22,13 +22,14 @@ struct SweepHooks {
 };
 
 /// Measures what `record` lacks of this shard and adds it. Case by case: quality first, each point
-/// with a history of its own and new; then the timed rounds, frame by frame, all points in turns.
-/// Every point has rendered all of the case's frames once before its first timed one, also where a
-/// sweep goes on. `values` are those whose rows `settings` hold; they are as before in the end. A
-/// point that fails says so in its record. Errors: as scene and device (SetupError is thrown);
-/// Usage where the reference's frames take more than kMostReferenceBytes; Interrupted.
+/// with a history of its own and new, against full resolution without filters; then the timed
+/// rounds, frame by frame, all points in turns. Every point has rendered all of the case's frames
+/// once before its first timed one, also where a sweep goes on. `values` are those whose rows
+/// `settings` hold; they are as before in the end. A point that fails says so in its record.
+/// Errors: as scene and device (SetupError is thrown); Usage where the reference's frames take more
+/// than kMostReferenceBytes; Interrupted.
 Expected<void> sweep(const vulkan::Context& context, const SweepQuestion& question,
-                     const methods::MethodSettings& values, settings::Settings& settings,
+                     const SweptValues& values, settings::Settings& settings,
                      const SweepHooks& hooks, SweepRecord& record);
 
 inline constexpr std::uint64_t kMostReferenceBytes = std::uint64_t{4} << 30U;

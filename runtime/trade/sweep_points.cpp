@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace gazeloop::trade {
 namespace {
@@ -11,8 +13,15 @@ std::unexpected<Error> refuse(std::string text) {
     return std::unexpected(Error{ErrorKind::Usage, std::move(text)});
 }
 
+/// What any method's pictures may be filtered by.
+constexpr std::array<std::string_view, 7> kFilters{
+    "render.footprint",   "render.footprint_taps",  "render.lp_gaussian",
+    "render.post_filter", "render.specular_filter", "render.taa",
+    "render.taa_reset"};
+
 bool is_of(const std::string& key, const std::string& method) {
-    return key.starts_with(method + '.');
+    return key.starts_with(method + '.') ||
+           std::ranges::find(kFilters, std::string_view(key)) != kFilters.end();
 }
 
 }  // namespace

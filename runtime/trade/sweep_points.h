@@ -31,9 +31,9 @@ Expected<Varied> parse_varied(const std::string& text);
 /// Most points that one sweep has.
 inline constexpr std::size_t kMostSweepPoints = 1000;
 
-/// Each method with every combination of the settings that are its own ("kfr.sigma" is kfr's); the
-/// last one varies fastest. Errors (Usage): no method, a key varied twice, a key that is no
-/// method's here, more than kMostSweepPoints.
+/// Each method with every combination of the settings that are its own ("kfr.sigma" is kfr's), or
+/// every method's: the filters of render.*. The last one varies fastest. Errors (Usage): no method,
+/// a key varied twice, a key that is no method's here, more than kMostSweepPoints.
 Expected<std::vector<SweepPoint>> sweep_points(const std::vector<std::string>& methods,
                                                const std::vector<Varied>& varied);
 

@@ -79,8 +79,9 @@ Expected<SweepRecord> begin_record(const SweepQuestion& question,
         record.cases.push_back(
             {.scene = of_case.scene, .gaze = of_case.gaze, .fewest_cells = *fewest});
     }
-    std::ranges::copy_if(points, std::back_inserter(record.points),
-                         [](const SweepPoint& point) { return point.method != "full"; });
+    std::ranges::copy_if(points, std::back_inserter(record.points), [](const SweepPoint& point) {
+        return point.method != "full" || !point.settings.empty();
+    });
     return record;
 }
 

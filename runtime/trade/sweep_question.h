@@ -42,7 +42,8 @@ struct SweepQuestion {
     bool with_pictures = false;  ///< keeps each point's last frame, small, and where it differs
 };
 
-/// A record that nothing is measured of yet: full resolution, then the points (without `full`).
+/// A record that nothing is measured of yet: full resolution, then the points (`full` where a
+/// setting makes it another).
 /// Errors: a line that check_mar_line refuses, a gaze that no view has.
 Expected<SweepRecord> begin_record(const SweepQuestion& question,
                                    const std::vector<SweepPoint>& points,

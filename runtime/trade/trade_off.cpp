@@ -164,8 +164,10 @@ SweepRecord record_of(const TradeRequest& request, const TradeScene& scene,
                                    .device = scene.vulkan.device,
                                    .device_origin = settings.origin("vulkan.device")},
                                   nullptr);
-    return value_or_throw(
-        measured_sweep(context, question, points, scene.methods, settings, request.journal, hooks));
+    return value_or_throw(measured_sweep(
+        context, question, points,
+        {.methods = scene.methods, .render = scene.render, .light_field = scene.light_field},
+        settings, request.journal, hooks));
 }
 
 }  // namespace

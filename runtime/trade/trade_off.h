@@ -53,6 +53,7 @@ struct TradeScene {
     const render::RenderSettings& render;
     const vulkan::VulkanSettings& vulkan;
     const methods::MethodSettings& methods;
+    const scene::LightFieldSettings& light_field;
 };
 
 /// Measures (or merges) all points, writes what was asked for, and gives whether each has figures

@@ -42,9 +42,12 @@ std::vector<trade::SweepSheet> swept(const vulkan::Context& context,
                                      const trade::SweepQuestion& question,
                                      const std::vector<trade::SweepPoint>& points) {
     run::ProgramSettings settings;
+    const run::ProgramValues& values = settings.values();
     const auto say = [](const std::string& said) { fmt::print(stderr, "{}\n", said); };
     return trade::sheets_of(value_or_throw(trade::measured_sweep(
-        context, question, points, settings.values().methods, settings, {},
+        context, question, points,
+        {.methods = values.methods, .render = values.render, .light_field = values.light_field},
+        settings, {},
         {.progress = say, .interrupted = [] { return false; }, .judged = {}, .timed = {}})));
 }
 

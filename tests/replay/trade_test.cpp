@@ -175,6 +175,31 @@ TEST(Trade, RecommendsAndFits) {
     EXPECT_THAT(seen.out, HasSubstr("data-plots=\"2\""));
 }
 
+// What is set, or varied, is in the pictures; the reference is without.
+TEST(Trade, RendersByTheFiltersThatAreSet) {
+    const auto contrast_of = [](const std::vector<std::string>& filters) {
+        std::vector<std::string> arguments{"--methods", "kfr", "--sigma",  "2.4", "--alpha", "4",
+                                           "--frames",  "1",   "--rounds", "1",   "--json",  "-"};
+        arguments.insert(arguments.end(), filters.begin(), filters.end());
+        const ProgramResult result = trade(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        std::vector<double> contrast;
+        for (const json report = json::parse(result.out); const json& point : report.at("points")) {
+            contrast.push_back(point.at("figures").at("contrast").at("mean").get<double>());
+        }
+        return contrast;
+    };
+    const std::vector<double> plain = contrast_of({});
+    const std::vector<double> set = contrast_of({"--set", "render.footprint_taps=16"});
+    const std::vector<double> varied = contrast_of({"--vary", "render.footprint_taps=1,16"});
+    ASSERT_EQ(plain.size(), 2U);
+    ASSERT_EQ(set.size(), 2U);
+    ASSERT_EQ(varied.size(), 3U);
+    EXPECT_NE(set[1], plain[1]);
+    EXPECT_EQ(varied[1], plain[1]);
+    EXPECT_EQ(varied[2], set[1]);
+}
+
 TEST(Trade, GivesTheSameQualityTwice) {
     const std::vector<std::string> asked{"--methods", "acuity", "--mar",  "0.022", "--frames", "2",
                                          "--rounds",  "1",      "--gaze", "5,3",   "--json",   "-"};

@@ -28,6 +28,16 @@ TEST(SweepPoints, AreEveryCombinationOfAMethodsOwnSettings) {
                             "kfr: kfr.sigma=1.8 kfr.alpha=4", "acuity: acuity.mar=.022"));
 }
 
+TEST(SweepPoints, VaryWhatFiltersEveryMethodsPictures) {
+    const auto points =
+        sweep_points({"full", "kfr"}, {{"kfr.sigma", {"1.8"}}, {"render.taa", {"false", "true"}}});
+    ASSERT_TRUE(points);
+    EXPECT_THAT(texts(*points), ElementsAre("full: render.taa=false", "full: render.taa=true",
+                                            "kfr: kfr.sigma=1.8 render.taa=false",
+                                            "kfr: kfr.sigma=1.8 render.taa=true"));
+    EXPECT_FALSE(sweep_points({"kfr"}, {{"render.spp", {"1", "4"}}})) << "all points share it";
+}
+
 TEST(SweepPoints, RefuseWhatMakesNoSweep) {
     EXPECT_FALSE(sweep_points({}, {}));
     EXPECT_FALSE(sweep_points({"kfr"}, {{"kfr.sigma", {"1"}}, {"kfr.sigma", {"2"}}}));
