@@ -17,7 +17,8 @@ void TradeOptions::add_to(Command command) {
     command.option("--mar", asked.slopes, "values of acuity.mar").type("LIST").not_empty();
     command
         .option("--vary", asked.varied,
-                "values of any setting of a method; may be repeated: all combinations are rendered")
+                "values of any setting of a method, or filter of render.*; may be repeated: all "
+                "combinations are rendered")
         .type("KEY=V1,V2,...");
     command.flag("--published-grid", asked.published,
                  "also every sigma and alpha of the KFR paper's pilot study (58 points)");

@@ -10,24 +10,18 @@
 
 #include "runtime/gaze/gaze_to_fovea.h"
 #include "runtime/gaze/view.h"
+#include "tests/support/generated_numbers.h"
 
 namespace gazeloop::gaze {
 namespace {
 
-/// Any double at all: normal numbers of every size, subnormals, infinities, not-a-numbers.
-double any_double() { return std::bit_cast<double>(*rc::gen::arbitrary<std::uint64_t>()); }
+using tests::any_double;
+using tests::between;
 
 glm::dvec3 any_vector() {
     const double x = any_double();
     const double y = any_double();
     return {x, y, any_double()};
-}
-
-double between(double low, double high) {
-    constexpr std::int64_t kSteps = 1 << 30;
-    return low + (high - low) *
-                     static_cast<double>(*rc::gen::inRange<std::int64_t>(0, kSteps + 1)) /
-                     static_cast<double>(kSteps);
 }
 
 glm::dvec3 vector_within(double reach) {

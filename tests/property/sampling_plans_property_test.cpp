@@ -17,22 +17,13 @@
 #include "runtime/foveation/plans/layer_plan.h"
 #include "runtime/foveation/plans/shading_rings.h"
 #include "runtime/foveation/plans/sparse_pattern.h"
+#include "tests/support/generated_numbers.h"
 
 namespace gazeloop::foveation {
 namespace {
 
-double between(double low, double high) {
-    return low + (high - low) * *rc::gen::inRange(0, 1'000'001) * 1e-6;
-}
-
-/// Any number, the ones that are none included.
-double anything() {
-    return *rc::gen::oneOf(
-        rc::gen::arbitrary<double>(),
-        rc::gen::element(0.0, -0.0, 1e-300, 1e300, std::numeric_limits<double>::quiet_NaN(),
-                         std::numeric_limits<double>::infinity(),
-                         -std::numeric_limits<double>::infinity()));
-}
+using tests::anything;
+using tests::between;
 
 gaze::EyeView any_view() {
     const double left = -between(0.5, 84.0);

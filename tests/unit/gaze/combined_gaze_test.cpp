@@ -11,9 +11,12 @@
 #include <numbers>
 
 #include "runtime/gaze/direction.h"
+#include "tests/support/generated_numbers.h"
 
 namespace gazeloop::gaze {
 namespace {
+
+using tests::between;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -139,12 +142,6 @@ TEST(CombinedGaze, StatesLessWhereMoreIsKnown) {
         EXPECT_EQ(parallax_error_rad(kEyes_m, 1.0, {0.5, farthest_m}),
                   parallax_error_rad(kEyes_m, 1.0, {0.5, kInfinity}));
     }
-}
-
-/// A number between two, of any of a million steps.
-double between(double least, double greatest) {
-    constexpr int kSteps = 1'000'000;
-    return least + (greatest - least) * *rc::gen::inRange(0, kSteps + 1) / kSteps;
 }
 
 // Whatever is looked at, at any depth the bound is for: no eye is farther off.

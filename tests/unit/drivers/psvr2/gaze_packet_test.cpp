@@ -9,10 +9,13 @@
 #include <vector>
 
 #include "sim/psvr2_packet.h"
+#include "tests/support/generated_numbers.h"
 #include "tests/unit/drivers/psvr2/packet_bytes.h"
 
 namespace gazeloop::drivers::psvr2 {
 namespace {
+
+using tests::between;
 
 using tests::good_packet;
 using tests::PacketBytes;
@@ -152,16 +155,14 @@ RC_GTEST_PROP(GazePacket, IsPlausibleWhateverTheBytes, ()) {
 // The simulation's packets, which were written apart from the decoder, say what went in.
 RC_GTEST_PROP(GazePacket, OfTheSimulationSaysWhatWentIn,
               (std::uint64_t time_us, std::uint32_t frame)) {
-    const auto number = [](double low, double high) {
-        return low + (high - low) * *rc::gen::inRange(0, 10'000) / 10'000.0;
-    };
     gaze::GazeSample sample;
     for (const gaze::Eye eye : gaze::kEyes) {
         gaze::EyeRay& ray = sample.eyes[gaze::index(eye)];
         ray.valid = *rc::gen::arbitrary<bool>();
         ray.openness = *rc::gen::element(-1.0, 0.0, 1.0);
-        ray.origin_m = {eye == gaze::Eye::Left ? -0.031 : 0.031, number(-0.01, 0.01), 0.02};
-        ray.direction = glm::normalize(glm::dvec3(number(-1, 1), number(-1, 1), number(-2, -0.2)));
+        ray.origin_m = {eye == gaze::Eye::Left ? -0.031 : 0.031, between(-0.01, 0.01), 0.02};
+        ray.direction =
+            glm::normalize(glm::dvec3(between(-1, 1), between(-1, 1), between(-2, -0.2)));
     }
     const auto packet = decode_gaze_packet(sim::psvr2_packet(sample, time_us, frame));
     RC_ASSERT(packet.has_value());
