@@ -43,7 +43,8 @@ glm::dvec3 FixedGaze::direction() const {
             -std::cos(azimuth) * std::cos(elevation)};
 }
 
-FixedSource::FixedSource(const FixedGaze& fixed_gaze) : gaze_(fixed_gaze) {}
+FixedSource::FixedSource(const FixedGaze& fixed_gaze)
+    : gaze_(fixed_gaze), direction_(fixed_gaze.direction()) {}
 
 void FixedSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) {
     gaze::GazeSample sample;
@@ -52,7 +53,7 @@ void FixedSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& sampl
     sample.sampled = {now_ns, time::StampKind::Modelled};
     sample.arrived = sample.sampled;
     for (gaze::EyeRay& ray : sample.eyes) {
-        ray.direction = gaze_.direction();
+        ray.direction = direction_;
         ray.valid = true;
     }
     samples.push_back(sample);

@@ -34,6 +34,7 @@ class FixedSource final : public GazeSource {
 
   private:
     FixedGaze gaze_;
+    glm::dvec3 direction_;
     std::uint64_t sequence_ = 0;
 };
 

@@ -24,6 +24,22 @@ glm::dvec3 origin_of(const gaze::GazeSample& sample) {
                   gaze::in_the_head(sample.eyes[1].origin_m));
 }
 
+/// An angle from -180 to 180 degrees.
+struct Turn {
+    double cos = 1.0;
+    double sin = 0.0;
+};
+
+/// Without trigonometry, since each sample needs it and finds nothing of it in the caches.
+Turn half_of(const Turn& turn) {
+    if (turn.cos >= 0.0) {
+        const double cos = std::sqrt(0.5 * (1.0 + turn.cos));
+        return {.cos = cos, .sin = turn.sin / (2.0 * cos)};
+    }
+    const double sin = std::copysign(std::sqrt(0.5 * (1.0 - turn.cos)), turn.sin);
+    return {.cos = turn.sin / (2.0 * sin), .sin = sin};
+}
+
 /// Of the eyes with that confidence at the least.
 gaze::PerEye<std::optional<glm::dvec3>> directions_of(const gaze::GazeSample& sample,
                                                       double confidence) {
@@ -34,11 +50,11 @@ gaze::PerEye<std::optional<glm::dvec3>> directions_of(const gaze::GazeSample& sa
 }  // namespace
 
 glm::dquat turn_to(const glm::dvec3& direction) {
-    const double level = std::hypot(direction.x, direction.z);
-    const double yaw = level > 0.0 ? std::atan2(-direction.x, -direction.z) / 2.0 : 0.0;
-    const double pitch = std::atan2(direction.y, level) / 2.0;
-    return {std::cos(yaw) * std::cos(pitch), std::cos(yaw) * std::sin(pitch),
-            std::sin(yaw) * std::cos(pitch), -std::sin(yaw) * std::sin(pitch)};
+    const double level = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+    const Turn yaw =
+        level > 0.0 ? half_of({.cos = -direction.z / level, .sin = -direction.x / level}) : Turn{};
+    const Turn pitch = half_of({.cos = level, .sin = direction.y});
+    return {yaw.cos * pitch.cos, yaw.cos * pitch.sin, yaw.sin * pitch.cos, -yaw.sin * pitch.sin};
 }
 
 GazeHistory::GazeHistory(const HistoryPolicy& policy)

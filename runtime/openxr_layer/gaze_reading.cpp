@@ -42,7 +42,7 @@ std::optional<Locating> locating(LayeredInstance& layered, XrSpace space, XrSpac
     return std::nullopt;
 }
 
-std::optional<GivenGaze> gaze_at(const Locating& locating, XrTime time) {
+std::optional<GivenGaze> gaze_at(const Locating& locating, XrTime time, SeenGaze* sample) {
     if (locating.feed == nullptr) {
         return std::nullopt;
     }
@@ -54,12 +54,14 @@ std::optional<GivenGaze> gaze_at(const Locating& locating, XrTime time) {
             if (at.seen == nullptr) {
                 return std::nullopt;
             }
+            if (sample != nullptr) {
+                *sample = *at.seen;
+            }
             return GivenGaze{.in_head = {.pose = *at.seen->in_head, .turning = at.turning},
                              .nominal = at.nominal,
                              .time_ns = at.seen->time_ns,
                              .time_known = at.seen->sample.sampled.known(),
-                             .time = 0,
-                             .seen = *at.seen};
+                             .time = 0};
         });
     if (given) {
         given->time = locating.times.xr_time(given->time_ns).value_or(0);

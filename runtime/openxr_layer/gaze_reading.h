@@ -15,7 +15,6 @@ struct GivenGaze {
     std::int64_t time_ns = 0;  ///< host time
     bool time_known = false;   ///< of the eyes, not of the arrival
     XrTime time = 0;           ///< the same on the runtime's time line; 0: it has none for it
-    SeenGaze seen;
 };
 
 /// A gaze space of a session, as far as it is to be located.
@@ -38,8 +37,9 @@ struct Locating {
 [[nodiscard]] std::optional<Locating> locating(LayeredInstance& layered, XrSpace space,
                                                XrSpace base);
 
-/// The gaze at a time of the runtime's.
-[[nodiscard]] std::optional<GivenGaze> gaze_at(const Locating& locating, XrTime time);
+/// The gaze at a time of the runtime's. `sample`, where it is wanted: what it was made of.
+[[nodiscard]] std::optional<GivenGaze> gaze_at(const Locating& locating, XrTime time,
+                                               SeenGaze* sample = nullptr);
 
 /// Where the head is in a space, as the runtime says, at the gaze's time; at `otherwise` where it
 /// knows no pose for that.

@@ -11,7 +11,7 @@
 
 namespace gazeloop::openxr_layer {
 
-/// A call that the layer stands in for, and its way down.
+/// A call that the layer stands in for, and its way down. It must not outlive what it is made of.
 template <auto Next>
 class Call {
   public:
@@ -30,7 +30,7 @@ class Call {
     [[nodiscard]] const std::optional<XrResult>& result() const { return result_; }
 
   private:
-    Instances::Pointer instance_;
+    const Instances::Pointer& instance_;
     std::optional<XrResult> result_;
 };
 

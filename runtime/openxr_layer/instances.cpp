@@ -38,6 +38,9 @@ Instances::Pointer Instances::of(XrInstance instance) const {
 
 Instances::Pointer Instances::of_child(const Key& child) const {
     const std::lock_guard lock(mutex_);
+    if (instances_.size() == 1) {
+        return instances_.front();  // as mostly: nothing is looked for
+    }
     if (const auto found = children_.find(child); found != children_.end()) {
         return found->second.instance;
     }

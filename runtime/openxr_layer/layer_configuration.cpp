@@ -108,6 +108,7 @@ HistoryPolicy policy_of(const gaze::GazeSettings& gaze) {
                          .hold_ns = time::ms_to_ns(gaze.hold_ms),
                          .motion = gaze::fovea_policy(gaze).motion};
     policy.motion.tell_events = gaze.events;
+    policy.motion.predict = false;  // applications are told what was seen
     return policy;
 }
 

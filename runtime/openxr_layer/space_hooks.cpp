@@ -24,6 +24,7 @@ struct Place {
     XrSpaceLocationFlags flags = 0;
     Moving moving;
     std::optional<GivenGaze> gaze;
+    std::optional<SeenGaze> sample{};  ///< the gaze's, where it was wanted
 };
 
 /// Orientation and position of a gaze are tracked together; a sub-nominal one has no
@@ -44,7 +45,9 @@ XrResult place(const NextFunctions& next, const Locating& locating, XrSpace spac
                XrTime time, Place& placed) {
     const bool ours = !locating.space || locating.space->gives_gaze;
     const bool bases = !locating.base || locating.base->gives_gaze;
-    auto gaze = ours && bases ? gaze_at(locating, time) : std::nullopt;
+    const auto gaze = ours && bases
+                          ? gaze_at(locating, time, placed.sample ? &*placed.sample : nullptr)
+                          : std::nullopt;
     if (!gaze) {
         return XR_SUCCESS;
     }
@@ -83,24 +86,23 @@ XrSpaceVelocityFlags velocity_of(const Place& placed, XrVector3f& linear, XrVect
            (valid && placed.moving.angular ? XR_SPACE_VELOCITY_ANGULAR_VALID_BIT : 0);
 }
 
-void tell_sample(const Locating& locating, const std::optional<GivenGaze>& gaze,
-                 XrGazeSampleGAZELOOP& told) {
+void tell_sample(const Locating& locating, const Place& placed, XrGazeSampleGAZELOOP& told) {
     void* const next = told.next;
     told = {};
     told.type = XR_TYPE_GAZE_SAMPLE_GAZELOOP;
     told.next = next;
-    if (!gaze) {
+    if (!placed.gaze) {
         return;
     }
-    const gaze::GazeSample& sample = gaze->seen.sample;
+    const gaze::GazeSample& sample = placed.sample->sample;
     told.isAvailable = XR_TRUE;
-    told.sampleTime = gaze->time_known ? gaze->time : 0;
+    told.sampleTime = placed.gaze->time_known ? placed.gaze->time : 0;
     told.uncertainty = sample.uncertainty_ns.value_or(-1);
     told.arrivalTime =
         sample.arrived.known() ? locating.times.xr_time(sample.arrived.ns).value_or(0) : 0;
     told.sequence = sample.sequence;
     told.processing = static_cast<XrGazeProcessingGAZELOOP>(sample.processing);
-    told.event = static_cast<XrGazeEventGAZELOOP>(gaze->seen.event);
+    told.event = static_cast<XrGazeEventGAZELOOP>(placed.sample->event);
     for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
         const gaze::EyeRay& ray = sample.eyes[eye];
         XrGazeSampleEyeGAZELOOP& one = told.eyes[eye];
@@ -198,7 +200,13 @@ XrResult locate_space(Call<&Next::LocateSpace>& call, XrSpace space, XrSpace bas
     if (sample != nullptr) {
         sample->time = 0;
     }
+    auto* const told = layered.tells_samples ? in_chain<XrGazeSampleGAZELOOP>(
+                                                   location->next, XR_TYPE_GAZE_SAMPLE_GAZELOOP)
+                                             : nullptr;
     Place placed;
+    if (told != nullptr) {
+        placed.sample.emplace();
+    }
     if (const XrResult result = place(layered.next, *locate, space, base, time, placed);
         XR_FAILED(result)) {
         return result;
@@ -221,11 +229,8 @@ XrResult locate_space(Call<&Next::LocateSpace>& call, XrSpace space, XrSpace bas
     if (sample != nullptr && has_gaze && placed.gaze->time_known) {
         sample->time = placed.gaze->time;
     }
-    auto* const told = layered.tells_samples ? in_chain<XrGazeSampleGAZELOOP>(
-                                                   location->next, XR_TYPE_GAZE_SAMPLE_GAZELOOP)
-                                             : nullptr;
     if (told != nullptr) {
-        tell_sample(*locate, placed.gaze, *told);
+        tell_sample(*locate, placed, *told);
     }
     if (has_gaze) {
         note_gaze_read(layered, locate->session);

@@ -19,6 +19,7 @@
 #include "runtime/time/clock.h"
 #include "runtime/vulkan/memory.h"
 #include "runtime/vulkan/run_once.h"
+#include "tests/support/layer_in_process.h"
 
 namespace gazeloop::tests {
 
@@ -28,9 +29,6 @@ using openxr::xr_check;
 namespace {
 
 constexpr auto kFormat = VK_FORMAT_R8G8B8A8_SRGB;
-
-/// The loader's instance, which the layer gets as if it were new.
-XrInstance g_instance = XR_NULL_HANDLE;
 
 /// The swapchains that were made below the layer, and the pictures of the frame that ended last.
 struct Below {
@@ -103,12 +101,6 @@ render::LinearPicture read(const Below::Known& known) {
     return picture;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL made_instance(const XrInstanceCreateInfo*,
-                                             const openxr_layer::XrApiLayerCreateInfo*,
-                                             XrInstance* instance) {
-    *instance = g_instance;
-    return XR_SUCCESS;
-}
 XRAPI_ATTR XrResult XRAPI_CALL keep_instance(XrInstance) { return XR_SUCCESS; }
 
 XRAPI_ATTR XrResult XRAPI_CALL create_swapchain(XrSession session,
@@ -164,6 +156,14 @@ vulkan::ContextOptions with_validation() {
     return options;
 }
 
+openxr::InstanceOptions wishes_of(QuadWay way) {
+    openxr::InstanceOptions options;
+    if (way == QuadWay::Loader) {
+        options.wanted.push_back(XR_VARJO_QUAD_VIEWS_EXTENSION_NAME);
+    }
+    return options;
+}
+
 display::DisplayProfile display_of(std::uint32_t side_px) {
     display::DisplayProfile display;
     display.width_px = display.height_px = side_px;
@@ -176,25 +176,35 @@ display::DisplayProfile display_of(std::uint32_t side_px) {
 }  // namespace
 
 template <typename Function>
-Function QuadProgram::layer(const char* name) const {
-    const auto function = openxr_layer::function_of<Function>(&openxr_layer::get_instance_proc_addr,
-                                                              instance_.handle(), name);
+Function QuadProgram::call(const char* name) const {
+    const auto find =
+        way_ == QuadWay::Loader ? &xrGetInstanceProcAddr : &openxr_layer::get_instance_proc_addr;
+    const auto function = openxr_layer::function_of<Function>(find, instance_.handle(), name);
     if (function == nullptr) {
         throw std::runtime_error(name);
     }
     return function;
 }
 
-QuadProgram::QuadProgram(Scene scene, std::uint32_t side_px)
+QuadProgram::QuadProgram(Scene scene, std::uint32_t side_px, QuadWay way)
     : scene_(std::move(scene)),
+      way_(way),
       choice_(openxr::choose_runtime(display_of(side_px))),
-      instance_(choice_, {}),
+      instance_(choice_, wishes_of(way)),
       vulkan_(instance_),
       context_(with_validation(), &vulkan_) {
-    g_instance = instance_.handle();
     g_below = {};
     g_below.context = &context_;
-    make_layer();
+    AskedInstance asked{.application = "four views",
+                        .extensions = {XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME}};
+    if (way == QuadWay::InProcessCore) {
+        asked.version = XR_MAKE_VERSION(1, 1, 0);
+    } else {
+        asked.extensions.push_back(XR_VARJO_QUAD_VIEWS_EXTENSION_NAME);
+    }
+    if (way != QuadWay::Loader) {
+        put_layer_above(instance_.handle(), asked, &below);
+    }
     begin_session();
     make_swapchains();
 }
@@ -202,7 +212,9 @@ QuadProgram::QuadProgram(Scene scene, std::uint32_t side_px)
 QuadProgram::~QuadProgram() {
     try {
         end();
-        layer<PFN_xrDestroyInstance>("xrDestroyInstance")(instance_.handle());
+        if (way_ != QuadWay::Loader) {  // else it ends with its owner
+            call<PFN_xrDestroyInstance>("xrDestroyInstance")(instance_.handle());
+        }
     } catch (const std::exception& error) {
         ADD_FAILURE() << error.what();
     }
@@ -211,26 +223,8 @@ QuadProgram::~QuadProgram() {
 void QuadProgram::end() {
     if (session_ != XR_NULL_HANDLE) {
         context_.device().waitIdle();
-        layer<PFN_xrDestroySession>("xrDestroySession")(std::exchange(session_, XR_NULL_HANDLE));
+        call<PFN_xrDestroySession>("xrDestroySession")(std::exchange(session_, XR_NULL_HANDLE));
     }
-}
-
-void QuadProgram::make_layer() {
-    openxr_layer::XrApiLayerNextInfo next{};
-    next.structType = openxr_layer::XrLoaderStruct::ApiLayerNextInfo;
-    next.nextGetInstanceProcAddr = &below;
-    next.nextCreateApiLayerInstance = &made_instance;
-    openxr_layer::XrApiLayerCreateInfo create{};
-    create.structType = openxr_layer::XrLoaderStruct::ApiLayerCreateInfo;
-    create.nextInfo = &next;
-    const std::array extensions{XR_VARJO_QUAD_VIEWS_EXTENSION_NAME,
-                                XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME};
-    auto info = typed<XrInstanceCreateInfo>(XR_TYPE_INSTANCE_CREATE_INFO);
-    std::strcpy(info.applicationInfo.applicationName, "four views");
-    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
-    info.enabledExtensionNames = extensions.data();
-    XrInstance instance = XR_NULL_HANDLE;
-    xr_check(openxr_layer::create_instance(&info, &create, &instance), "the layer's instance");
 }
 
 void QuadProgram::begin_session() {
@@ -242,12 +236,12 @@ void QuadProgram::begin_session() {
     auto info = typed<XrSessionCreateInfo>(XR_TYPE_SESSION_CREATE_INFO);
     info.next = &binding;
     info.systemId = instance_.system();
-    xr_check(layer<PFN_xrCreateSession>("xrCreateSession")(instance_.handle(), &info, &session_),
+    xr_check(call<PFN_xrCreateSession>("xrCreateSession")(instance_.handle(), &info, &session_),
              "xrCreateSession");
     auto space = typed<XrReferenceSpaceCreateInfo>(XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
     space.referenceSpaceType = XR_REFERENCE_SPACE_TYPE_LOCAL;
     space.poseInReferenceSpace = openxr::to_xr({});
-    xr_check(layer<PFN_xrCreateReferenceSpace>("xrCreateReferenceSpace")(session_, &space, &local_),
+    xr_check(call<PFN_xrCreateReferenceSpace>("xrCreateReferenceSpace")(session_, &space, &local_),
              "xrCreateReferenceSpace");
     const std::int64_t deadline_ns = time::monotonic_ns() + 10'000'000'000;
     for (auto state = XR_SESSION_STATE_UNKNOWN; state != XR_SESSION_STATE_READY;) {
@@ -259,14 +253,14 @@ void QuadProgram::begin_session() {
     }
     auto begin = typed<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
     begin.primaryViewConfigurationType = openxr_layer::kQuadViews;
-    xr_check(layer<PFN_xrBeginSession>("xrBeginSession")(session_, &begin), "xrBeginSession");
+    xr_check(call<PFN_xrBeginSession>("xrBeginSession")(session_, &begin), "xrBeginSession");
 }
 
 std::optional<XrSessionState> QuadProgram::poll() {
     std::optional<XrSessionState> state;
     auto event = typed<XrEventDataBuffer>(XR_TYPE_EVENT_DATA_BUFFER);
     while (!state &&
-           layer<PFN_xrPollEvent>("xrPollEvent")(instance_.handle(), &event) == XR_SUCCESS) {
+           call<PFN_xrPollEvent>("xrPollEvent")(instance_.handle(), &event) == XR_SUCCESS) {
         if (event.type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) {
             XrEventDataSessionStateChanged changed{};
             std::memcpy(&changed, &event, sizeof changed);
@@ -281,7 +275,7 @@ void QuadProgram::make_swapchains() {
     sizes_.assign(openxr_layer::kQuadViewCount,
                   typed<XrViewConfigurationView>(XR_TYPE_VIEW_CONFIGURATION_VIEW));
     std::uint32_t count = 0;
-    xr_check(layer<PFN_xrEnumerateViewConfigurationViews>("xrEnumerateViewConfigurationViews")(
+    xr_check(call<PFN_xrEnumerateViewConfigurationViews>("xrEnumerateViewConfigurationViews")(
                  instance_.handle(), instance_.system(), openxr_layer::kQuadViews,
                  openxr_layer::kQuadViewCount, &count, sizes_.data()),
              "xrEnumerateViewConfigurationViews");
@@ -295,7 +289,7 @@ void QuadProgram::make_swapchains() {
         info.sampleCount = info.faceCount = info.arraySize = info.mipCount = 1;
         Swapchain made{
             .handle = XR_NULL_HANDLE, .images = {}, .width = info.width, .height = info.height};
-        xr_check(layer<PFN_xrCreateSwapchain>("xrCreateSwapchain")(session_, &info, &made.handle),
+        xr_check(call<PFN_xrCreateSwapchain>("xrCreateSwapchain")(session_, &info, &made.handle),
                  "xrCreateSwapchain");
         made.images = images_of(made.handle);
         swapchains_.push_back(std::move(made));
@@ -342,12 +336,12 @@ render::LinearPicture QuadProgram::seen(const Scene& scene, const XrFovf& fov, s
 void QuadProgram::draw(Swapchain& swapchain, const XrFovf& fov) {
     std::uint32_t index = 0;
     const auto acquire = typed<XrSwapchainImageAcquireInfo>(XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO);
-    xr_check(layer<PFN_xrAcquireSwapchainImage>("xrAcquireSwapchainImage")(swapchain.handle,
-                                                                           &acquire, &index),
+    xr_check(call<PFN_xrAcquireSwapchainImage>("xrAcquireSwapchainImage")(swapchain.handle,
+                                                                          &acquire, &index),
              "xrAcquireSwapchainImage");
     auto wait = typed<XrSwapchainImageWaitInfo>(XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
     wait.timeout = XR_INFINITE_DURATION;
-    xr_check(layer<PFN_xrWaitSwapchainImage>("xrWaitSwapchainImage")(swapchain.handle, &wait),
+    xr_check(call<PFN_xrWaitSwapchainImage>("xrWaitSwapchainImage")(swapchain.handle, &wait),
              "xrWaitSwapchainImage");
     const std::vector<std::uint8_t> bytes = drawn(scene_, fov, swapchain.width, swapchain.height);
     vulkan::HostBuffer buffer(context_, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc);
@@ -362,7 +356,7 @@ void QuadProgram::draw(Swapchain& swapchain, const XrFovf& fov) {
     });
     const auto release = typed<XrSwapchainImageReleaseInfo>(XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO);
     xr_check(
-        layer<PFN_xrReleaseSwapchainImage>("xrReleaseSwapchainImage")(swapchain.handle, &release),
+        call<PFN_xrReleaseSwapchainImage>("xrReleaseSwapchainImage")(swapchain.handle, &release),
         "xrReleaseSwapchainImage");
 }
 
@@ -371,12 +365,12 @@ QuadProgram::Frame QuadProgram::run(int frames) {
     for (int i = 0; i < frames; ++i) {
         while (poll()) {
         }
-        g_below.reads = i == frames - 1;
+        g_below.reads = way_ != QuadWay::Loader && i == frames - 1;
         const auto wait = typed<XrFrameWaitInfo>(XR_TYPE_FRAME_WAIT_INFO);
         auto state = typed<XrFrameState>(XR_TYPE_FRAME_STATE);
-        xr_check(layer<PFN_xrWaitFrame>("xrWaitFrame")(session_, &wait, &state), "xrWaitFrame");
+        xr_check(call<PFN_xrWaitFrame>("xrWaitFrame")(session_, &wait, &state), "xrWaitFrame");
         const auto begin = typed<XrFrameBeginInfo>(XR_TYPE_FRAME_BEGIN_INFO);
-        xr_check(layer<PFN_xrBeginFrame>("xrBeginFrame")(session_, &begin), "xrBeginFrame");
+        xr_check(call<PFN_xrBeginFrame>("xrBeginFrame")(session_, &begin), "xrBeginFrame");
         auto locate = typed<XrViewLocateInfo>(XR_TYPE_VIEW_LOCATE_INFO);
         locate.viewConfigurationType = openxr_layer::kQuadViews;
         locate.displayTime = state.predictedDisplayTime;
@@ -384,9 +378,9 @@ QuadProgram::Frame QuadProgram::run(int frames) {
         auto view_state = typed<XrViewState>(XR_TYPE_VIEW_STATE);
         frame.views.fill(typed<XrView>(XR_TYPE_VIEW));
         std::uint32_t count = 0;
-        xr_check(layer<PFN_xrLocateViews>("xrLocateViews")(session_, &locate, &view_state,
-                                                           openxr_layer::kQuadViewCount, &count,
-                                                           frame.views.data()),
+        xr_check(call<PFN_xrLocateViews>("xrLocateViews")(session_, &locate, &view_state,
+                                                          openxr_layer::kQuadViewCount, &count,
+                                                          frame.views.data()),
                  "xrLocateViews");
         std::array<XrCompositionLayerProjectionView, openxr_layer::kQuadViewCount> pictures{};
         for (std::size_t view = 0; view < pictures.size(); ++view) {
@@ -413,7 +407,10 @@ QuadProgram::Frame QuadProgram::run(int frames) {
         end.environmentBlendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
         end.layerCount = 1;
         end.layers = &shown;
-        xr_check(layer<PFN_xrEndFrame>("xrEndFrame")(session_, &end), "xrEndFrame");
+        xr_check(call<PFN_xrEndFrame>("xrEndFrame")(session_, &end), "xrEndFrame");
+    }
+    if (way_ == QuadWay::Loader) {
+        return frame;
     }
     if (g_below.shown.size() != gaze::kEyeCount) {
         throw std::runtime_error("the runtime got no two pictures");

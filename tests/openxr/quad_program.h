@@ -12,9 +12,19 @@
 
 namespace gazeloop::tests {
 
+/// How the calls of an application come to the runtime.
+enum class QuadWay : std::uint8_t {
+    /// Through the layer's code in this process, and from there to the loader, where the pictures
+    /// that the runtime gets are read back.
+    InProcess,
+    /// The same for an application of OpenXR 1.1, which needs no extension for its four views. (No
+    /// loader before 1.1 lets it in itself.)
+    InProcessCore,
+    /// As everybody's: to the loader, which loads the layers of the environment.
+    Loader,
+};
+
 /// An application of OpenXR with four views that draws with Vulkan, on Monado's null compositor.
-/// Its calls go through the layer in this process, and from there to the loader, where the pictures
-/// that the runtime gets are read back.
 class QuadProgram {
   public:
     /// Linear light where a ray hits the plane at distance 1 in front of an eye: x to the right, y
@@ -22,14 +32,15 @@ class QuadProgram {
     using Scene = std::function<glm::vec3(double x, double y)>;
 
     /// `side_px`: of the display's pictures, for a right angle. Failures throw.
-    QuadProgram(Scene scene, std::uint32_t side_px);
+    QuadProgram(Scene scene, std::uint32_t side_px, QuadWay way = QuadWay::InProcess);
     QuadProgram(const QuadProgram&) = delete;
     QuadProgram& operator=(const QuadProgram&) = delete;
     ~QuadProgram();
 
     struct Frame {
         std::array<XrView, 4> views{};
-        gaze::PerEye<render::LinearPicture> shown;  ///< what the runtime got
+        /// What the runtime got; nothing where the loader stands between.
+        gaze::PerEye<render::LinearPicture> shown;
     };
     /// Draws so many frames; the last one.
     Frame run(int frames);
@@ -53,8 +64,7 @@ class QuadProgram {
     };
 
     template <typename Function>
-    [[nodiscard]] Function layer(const char* name) const;
-    void make_layer();
+    [[nodiscard]] Function call(const char* name) const;
     void begin_session();
     /// The session's next state, where the runtime has told one.
     std::optional<XrSessionState> poll();
@@ -62,6 +72,7 @@ class QuadProgram {
     void draw(Swapchain& swapchain, const XrFovf& fov);
 
     Scene scene_;
+    QuadWay way_;
     openxr::RuntimeChoice choice_;
     openxr::Instance instance_;
     openxr::VulkanObjects vulkan_;

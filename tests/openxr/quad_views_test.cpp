@@ -10,7 +10,9 @@
 #include "runtime/openxr_layer/quad_views/inset.h"
 #include "runtime/quality/foveated_contrast.h"
 #include "runtime/session/session_file.h"
+#include "tests/openxr/layered_application.h"
 #include "tests/openxr/quad_program.h"
+#include "tests/support/openxr_validation.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::tests {
@@ -20,19 +22,17 @@ constexpr std::uint32_t kSide_px = 960;
 constexpr double kAzimuth_deg = 9.0;
 constexpr double kElevation_deg = -6.0;
 
-/// Files of the layer in a folder of the test's.
-struct QuadHome {
-    explicit QuadHome(const std::string& settings) {
-        for (const char* const name : {"XDG_CONFIG_HOME", "XDG_STATE_HOME", "XDG_DATA_HOME"}) {
-            setenv(name, folder.file("home").c_str(), 1);
-        }
-        setenv("GAZELOOP_LAYER_SETTINGS", settings.c_str(), 1);
+/// The layer's files in a folder of the test's; the loader loads no layer unless it is told to.
+struct QuadHome : LayeredHome {
+    explicit QuadHome(std::vector<std::string> more = {}, const std::string& loaded = "")
+        : LayeredHome([&more] {
+              more.insert(more.begin(), "layer.gaze=fixed:9,-6");
+              return more;
+          }()) {
+        setenv("XR_ENABLE_API_LAYERS", loaded.c_str(), 1);
         setenv("GAZELOOP_HEAD_STILL", "1", 1);
     }
-    ScratchFolder folder;
 };
-
-const std::string kSettings = "layer.gaze=fixed:9,-6";
 
 /// Stripes and rings at every scale that the full picture holds: up to a third of a cycle a pixel
 /// in its middle. Their contrast is that of most pictures.
@@ -88,7 +88,7 @@ render::LinearPicture enlarged(const render::LinearPicture& half, std::uint32_t 
 }
 
 TEST(QuadViews, LookLikeTheFullPictureToWhoLooksThere) {
-    const QuadHome home(kSettings);
+    const QuadHome home;
     QuadProgram program(pattern, kSide_px);
     const QuadProgram::Frame frame = program.run(5);
     for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
@@ -151,7 +151,7 @@ TEST(QuadViews, LookLikeTheFullPictureToWhoLooksThere) {
 
 /// A picture of one colour is one colour: no edge of an inset shows.
 TEST(QuadViews, HideTheirInsets) {
-    const QuadHome home(kSettings);
+    const QuadHome home;
     QuadProgram program([](double, double) { return glm::vec3(0.2F, 0.5F, 0.8F); }, 320);
     const QuadProgram::Frame frame = program.run(3);
     for (const render::LinearPicture& shown : frame.shown) {
@@ -164,11 +164,18 @@ TEST(QuadViews, HideTheirInsets) {
     EXPECT_EQ(program.validation_messages(), 0U);
 }
 
+/// Frames of which the GPU was timed while it composited them.
+std::size_t composited(const session::SessionFile& session) {
+    return static_cast<std::size_t>(std::ranges::count_if(session.frames, [](const auto& frame) {
+        return frame.gpu_known && frame.gpu.passes[0].value_or(0) > 0;
+    }));
+}
+
 /// What the composite costs the GPU is in the recording, frame by frame.
 TEST(QuadViews, RecordWhatTheirCompositeCosts) {
     ScratchFolder folder;
     const std::string file = folder.file("quad.gaze");
-    const QuadHome home(kSettings + "\nlayer.record=" + file);
+    const QuadHome home({"layer.record=" + file});
     {
         QuadProgram program([](double x, double) { return glm::vec3(0.5F + 0.3F * float(x)); },
                             320);
@@ -177,15 +184,60 @@ TEST(QuadViews, RecordWhatTheirCompositeCosts) {
     }
     const session::SessionFile session = value_or_throw(session::read_session(file));
     ASSERT_GE(session.frames.size(), 15U);
-    std::size_t timed = 0;
-    for (const session::RecordedFrame& frame : session.frames) {
-        timed += frame.gpu_known && frame.gpu.passes[0].value_or(0) > 0 ? 1 : 0;
-    }
-    EXPECT_GE(timed, session.frames.size() / 2);
+    EXPECT_GE(composited(session), session.frames.size() / 2);
     const std::string json = folder.file("report.json");
     const ProgramResult report = run_gazeloop({"report", file, "--json", json});
     EXPECT_EQ(report.exit_code, 0) << report.err;
     EXPECT_THAT(report.out, testing::HasSubstr("composite"));
+}
+
+/// In OpenXR 1.1 it is a view configuration of the core, and asks for no extension.
+TEST(QuadViews, NeedNoExtensionInTheCore) {
+    const QuadHome home;
+    QuadProgram program([](double, double) { return glm::vec3(0.2F, 0.5F, 0.8F); }, 320,
+                        QuadWay::InProcessCore);
+    const QuadProgram::Frame frame = program.run(3);
+    EXPECT_EQ(frame.shown[0].width, 320U);
+    EXPECT_NEAR(frame.shown[1].pixels[0].y, 0.5, 0.01);
+    EXPECT_EQ(program.validation_messages(), 0U);
+}
+
+/// The loader, the layer's library and Monado, as an application has them; OpenXR's validation
+/// layer listens between application and layer, then between layer and runtime.
+TEST(QuadViews, GoThroughTheLoader) {
+    const std::string ours = "XR_APILAYER_GAZELOOP_gaze";
+    const std::string validation = "XR_APILAYER_LUNARG_core_validation";
+    for (const std::string& loaded : {validation + ":" + ours, ours + ":" + validation}) {
+        SCOPED_TRACE(loaded);
+        const ScratchFolder folder;
+        const std::string recorded = folder.file("quad.gaze");
+        const std::string said = folder.file("validation.txt");
+        const QuadHome home({"layer.record=" + recorded}, loaded);
+        for (const auto& [name, value] : openxr_validation_to(said)) {
+            setenv(name.c_str(), value.c_str(), 1);
+        }
+        {
+            QuadProgram program(pattern, 320, QuadWay::Loader);
+            ASSERT_EQ(program.sizes().size(), 4U);
+            const QuadProgram::Frame frame = program.run(30);
+            for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
+                const XrFovf& outer = frame.views[eye].fov;
+                const XrFovf& inset = frame.views[eye + gaze::kEyeCount].fov;
+                EXPECT_LT(outer.angleLeft, inset.angleLeft);
+                EXPECT_GT(outer.angleRight, inset.angleRight);
+                // An inset lies on the pixels of the full picture.
+                EXPECT_NEAR(0.5 * (std::tan(inset.angleLeft) + std::tan(inset.angleRight)),
+                            std::tan(glm::radians(kAzimuth_deg)), 2.0 / 320.0);
+            }
+            EXPECT_EQ(program.validation_messages(), 0U);
+        }
+        EXPECT_EQ(openxr_validation_messages(said), "");
+        const session::SessionFile session = value_or_throw(session::read_session(recorded));
+        EXPECT_GE(session.frames.size(), 25U);
+        EXPECT_GE(composited(session), session.frames.size() / 2);
+        EXPECT_THAT(home.log(), testing::HasSubstr("follows where it is looked"));
+        EXPECT_THAT(home.log(), testing::Not(testing::HasSubstr("warning")));
+    }
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <span>
 #include <string_view>
 
-#include "runtime/openxr_layer/instance_creation.h"
 #include "runtime/time/clock.h"
+#include "tests/support/layer_in_process.h"
 
 namespace gazeloop::openxr_layer {
 namespace {
@@ -385,17 +385,7 @@ void MockRuntime::reset() {
 
 XrResult MockRuntime::create_through_layer(const std::vector<const char*>& wanted,
                                            XrInstance& instance) {
-    XrApiLayerNextInfo next{};
-    next.structType = XrLoaderStruct::ApiLayerNextInfo;
-    next.nextGetInstanceProcAddr = &get_proc;
-    next.nextCreateApiLayerInstance = &make_instance;
-    XrApiLayerCreateInfo layer{};
-    layer.structType = XrLoaderStruct::ApiLayerCreateInfo;
-    layer.nextInfo = &next;
-    auto info = openxr::typed<XrInstanceCreateInfo>(XR_TYPE_INSTANCE_CREATE_INFO);
-    info.enabledExtensionCount = static_cast<std::uint32_t>(wanted.size());
-    info.enabledExtensionNames = wanted.data();
-    return create_instance(&info, &layer, &instance);
+    return tests::create_through_layer({.extensions = wanted}, &get_proc, &make_instance, instance);
 }
 
 PFN_xrVoidFunction MockRuntime::find_through_layer(XrInstance instance, const char* name) {
