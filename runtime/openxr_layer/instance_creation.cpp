@@ -26,10 +26,16 @@ bool has(const Names& names, std::string_view name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-/// What the one below lists; nothing where it does not answer without an instance.
-std::vector<XrExtensionProperties> offered_below(PFN_xrGetInstanceProcAddr next) {
+/// What the runtime lists; nothing where it does not answer without an instance. Layers between
+/// are not asked: they have nothing to say to this, and Debian's validation layer calls it an
+/// error.
+std::vector<XrExtensionProperties> offered_below(const XrApiLayerNextInfo& next) {
+    const XrApiLayerNextInfo* lowest = &next;
+    while (lowest->next != nullptr) {
+        lowest = lowest->next;
+    }
     const auto enumerate = function_of<PFN_xrEnumerateInstanceExtensionProperties>(
-        next, XR_NULL_HANDLE, "xrEnumerateInstanceExtensionProperties");
+        lowest->nextGetInstanceProcAddr, XR_NULL_HANDLE, "xrEnumerateInstanceExtensionProperties");
     std::uint32_t count = 0;
     if (enumerate == nullptr || XR_FAILED(enumerate(nullptr, 0, &count, nullptr))) {
         return {};
@@ -142,7 +148,7 @@ constexpr std::array kGiven{Given{XR_FB_FOVEATION_EXTENSION_NAME,
                             Given{XR_VARJO_QUAD_VIEWS_EXTENSION_NAME, &OwnExtensions::quad_views,
                                   &LayerSettings::quad_views}};
 
-Extensions extensions_of(const XrInstanceCreateInfo& info, PFN_xrGetInstanceProcAddr next,
+Extensions extensions_of(const XrInstanceCreateInfo& info, const XrApiLayerNextInfo& next,
                          const LayerSettings& settings) {
     Extensions extensions;
     extensions.wanted.assign(info.enabledExtensionNames,
@@ -261,8 +267,7 @@ XrResult make(const XrInstanceCreateInfo& info, const XrApiLayerCreateInfo& laye
     if (!twice) {
         try {
             layered->configuration = configuration_or_none();
-            extensions = extensions_of(info, own.nextGetInstanceProcAddr,
-                                       layered->configuration.values.layer);
+            extensions = extensions_of(info, own, layered->configuration.values.layer);
             passed_on.enabledExtensionCount =
                 static_cast<std::uint32_t>(extensions.passed_on.size());
             passed_on.enabledExtensionNames = extensions.passed_on.data();

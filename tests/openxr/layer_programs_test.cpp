@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "runtime/openxr_layer/provided_extensions.h"
 #include "runtime/session/session_file.h"
 #include "tests/support/cache_folder.h"
 #include "tests/support/openxr_validation.h"
@@ -32,6 +34,28 @@ class LayerPrograms : public testing::Test {
         std::vector<std::string> all{"layer"};
         all.insert(all.end(), words.begin(), words.end());
         return run_gazeloop(all, {.environment = more});
+    }
+
+    /// Monado for a program that no program of ours starts, and the same home.
+    [[nodiscard]] Environment monado(const Environment& more = {}) const {
+        Environment environment{
+            {"HOME", folder_.file("home")},
+            {"XDG_CONFIG_HOME", folder_.file("home/config")},
+            {"XDG_STATE_HOME", folder_.file("home/state")},
+            {"XDG_DATA_HOME", folder_.file("home/data")},
+            {"XR_RUNTIME_JSON", cache_folder() + "/monado/share/openxr/1/openxr_monado.json"},
+            {"SIMULATED_ENABLE", "1"},
+            {"XRT_COMPOSITOR_NULL", "1"},
+            {"OXR_NO_PRINTING", "1"}};
+        environment.insert(environment.end(), more.begin(), more.end());
+        return environment;
+    }
+    /// The extensions that applications of this environment are offered.
+    [[nodiscard]] static std::string offered(const Environment& environment) {
+        const ProgramResult list =
+            run_program({"openxr_runtime_list"}, {.environment = environment});
+        EXPECT_EQ(list.exit_code, 0) << list.err;
+        return list.out;
     }
 
     ScratchFolder folder_;
@@ -127,33 +151,62 @@ TEST_F(LayerPrograms, IsSwitchedOnAndOffForTheUser) {
     EXPECT_THAT(enabled.out, HasSubstr("on for this user"));
     EXPECT_THAT(enabled.out, HasSubstr("fixed:3,4"));
     // No program of ours is asked for it any more.
-    const Environment monado{
-        {"HOME", folder_.file("home")},
-        {"XDG_CONFIG_HOME", folder_.file("home/config")},
-        {"XDG_STATE_HOME", folder_.file("home/state")},
-        {"XDG_DATA_HOME", folder_.file("home/data")},
-        {"XR_RUNTIME_JSON", cache_folder() + "/monado/share/openxr/1/openxr_monado.json"},
-        {"SIMULATED_ENABLE", "1"},
-        {"XRT_COMPOSITOR_NULL", "1"},
-        {"OXR_NO_PRINTING", "1"}};
-    const auto times_listed = [](const std::string& text) {
-        std::size_t times = 0;
-        for (std::size_t at = 0;
-             (at = text.find("XR_EXT_eye_gaze_interaction", at)) != std::string::npos; ++at) {
-            ++times;
-        }
-        return times;
-    };
-    const ProgramResult list = run_program({"openxr_runtime_list"}, {.environment = monado});
-    EXPECT_EQ(times_listed(list.out), 1U) << list.out << list.err;
-    EXPECT_THAT(list.out, HasSubstr("XR_GAZELOOP_gaze_sample"));
+    const std::string list = offered(monado());
+    for (const auto& [name, version] : openxr_layer::kProvidedExtensions) {
+        const std::string entry = std::string(name) + " ";
+        const std::size_t at = list.find(entry);
+        ASSERT_NE(at, std::string::npos) << name << "\n" << list;
+        EXPECT_EQ(list.find(entry, at + 1), std::string::npos) << name << " is listed once";
+    }
     const auto json = nlohmann::json::parse(layer({"status", "--json"}).out);
     EXPECT_EQ(json["enabled_for_user"], true);
     EXPECT_EQ(json["gaze"], "fixed:3,4");
     EXPECT_EQ(json["applications"].size(), 1U);
     EXPECT_EQ(layer({"disable"}).exit_code, 0);
-    EXPECT_THAT(run_program({"openxr_runtime_list"}, {.environment = monado}).out,
-                Not(HasSubstr("XR_GAZELOOP_gaze_sample")));
+    EXPECT_THAT(offered(monado()), Not(HasSubstr("XR_GAZELOOP_gaze_sample")));
+}
+
+/// What `layer enable` lists and what is built and installed is one list.
+TEST_F(LayerPrograms, ListTheSameExtensionsInEveryManifest) {
+    std::ifstream in(GAZELOOP_BINARY_DIR "/openxr_layer/XrApiLayer_gazeloop.json");
+    const auto manifest = nlohmann::json::parse(in);
+    std::vector<std::string> listed;
+    for (const auto& one : manifest.at("api_layer").at("instance_extensions")) {
+        listed.push_back(one.at("name").get<std::string>() + " " +
+                         one.at("extension_version").get<std::string>());
+    }
+    std::vector<std::string> provided;
+    for (const auto& [name, version] : openxr_layer::kProvidedExtensions) {
+        provided.push_back(std::string(name) + " " + std::to_string(version));
+    }
+    EXPECT_EQ(listed, provided);
+}
+
+/// As packages install it: nothing is enabled, and one variable is set.
+TEST_F(LayerPrograms, AreGivenTheInstalledLayerByAVariable) {
+    const std::string prefix = folder_.file("prefix");
+    const ProgramResult installed =
+        run_program({GAZELOOP_CMAKE, "--install", GAZELOOP_BINARY_DIR, "--prefix", prefix});
+    ASSERT_EQ(installed.exit_code, 0) << installed.out << installed.err;
+    const std::pair searched{std::string("XDG_DATA_DIRS"), prefix + "/share:/usr/share"};
+    const std::pair on{std::string("GAZELOOP_LAYER"), std::string("1")};
+    const std::pair off{std::string("GAZELOOP_LAYER_DISABLE"), std::string("1")};
+    EXPECT_THAT(offered(monado({searched})), Not(HasSubstr("XR_GAZELOOP_gaze_sample")));
+    EXPECT_THAT(offered(monado({searched, on})), HasSubstr("XR_GAZELOOP_gaze_sample"));
+    EXPECT_THAT(offered(monado({searched, on, off})), Not(HasSubstr("XR_GAZELOOP_gaze_sample")));
+
+    // The installed program knows where its layer lies; who searches elsewhere is helped.
+    Environment environment = monado();
+    environment.emplace_back("XDG_CACHE_HOME", cache_);
+    const std::vector<std::string> run{
+        prefix + "/bin/gazeloop", "layer", "run", "--gaze", "fixed:3,4", "--",
+        "openxr_runtime_list"};
+    const ProgramResult under = run_program(run, {.environment = environment});
+    EXPECT_EQ(under.exit_code, 0) << under.err;
+    EXPECT_THAT(under.out, HasSubstr("XR_GAZELOOP_gaze_sample"));
+    const ProgramResult status =
+        run_program({prefix + "/bin/gazeloop", "layer", "status"}, {.environment = environment});
+    EXPECT_THAT(status.out, HasSubstr("openxr_runtime_list"));
 }
 
 TEST_F(LayerPrograms, SaysWhatItCannotRun) {

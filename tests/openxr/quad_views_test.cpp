@@ -31,6 +31,9 @@ struct QuadHome : LayeredHome {
           }()) {
         setenv("XR_ENABLE_API_LAYERS", loaded.c_str(), 1);
         setenv("GAZELOOP_HEAD_STILL", "1", 1);
+        // What an earlier test of this process has set would stay.
+        unsetenv("GAZELOOP_DISPLAY_WIDTH_PX");
+        unsetenv("GAZELOOP_DISPLAY_HEIGHT_PX");
     }
 };
 
@@ -217,9 +220,10 @@ TEST(QuadViews, GoThroughTheLoader) {
             setenv(name.c_str(), value.c_str(), 1);
         }
         {
-            QuadProgram program(pattern, 320, QuadWay::Loader);
+            QuadProgram program([](double x, double) { return glm::vec3(0.5F + 0.3F * float(x)); },
+                                kSide_px, QuadWay::Loader);
             ASSERT_EQ(program.sizes().size(), 4U);
-            const QuadProgram::Frame frame = program.run(30);
+            const QuadProgram::Frame frame = program.run(12);
             for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
                 const XrFovf& outer = frame.views[eye].fov;
                 const XrFovf& inset = frame.views[eye + gaze::kEyeCount].fov;
@@ -227,15 +231,21 @@ TEST(QuadViews, GoThroughTheLoader) {
                 EXPECT_GT(outer.angleRight, inset.angleRight);
                 // An inset lies on the pixels of the full picture.
                 EXPECT_NEAR(0.5 * (std::tan(inset.angleLeft) + std::tan(inset.angleRight)),
-                            std::tan(glm::radians(kAzimuth_deg)), 2.0 / 320.0);
+                            std::tan(glm::radians(kAzimuth_deg)), 2.0 / kSide_px);
             }
             EXPECT_EQ(program.validation_messages(), 0U);
         }
         EXPECT_EQ(openxr_validation_messages(said), "");
         const session::SessionFile session = value_or_throw(session::read_session(recorded));
-        EXPECT_GE(session.frames.size(), 25U);
+        EXPECT_GE(session.frames.size(), 10U);
         EXPECT_GE(composited(session), session.frames.size() / 2);
-        EXPECT_THAT(home.log(), testing::HasSubstr("follows where it is looked"));
+        EXPECT_TRUE(std::ranges::any_of(session.events, [](const session::RecordedEvent& event) {
+            return event.kind == "foveation-read";
+        }));
+        for (const session::RecordedFrame& frame : session.frames) {
+            EXPECT_EQ(frame.frame.stamps.display.kind, time::StampKind::Predicted)
+                << "the runtime's times are the host's, whoever stands between";
+        }
         EXPECT_THAT(home.log(), testing::Not(testing::HasSubstr("warning")));
     }
 }

@@ -16,11 +16,12 @@ struct AskedInstance {
     std::vector<const char*> extensions;
 };
 
-/// An instance through the layer's code in this process, as the loader makes one: `create` makes
-/// the instance below the layer, whose functions `below` gives.
-inline XrResult create_through_layer(const AskedInstance& asked, PFN_xrGetInstanceProcAddr below,
-                                     openxr_layer::PFN_xrCreateApiLayerInstance create,
-                                     XrInstance& instance) {
+/// An instance through the layer in this process, as the loader makes one: `create` makes the
+/// instance below the layer, whose functions `below` gives.
+inline XrResult create_through_layer(
+    const AskedInstance& asked, PFN_xrGetInstanceProcAddr below,
+    openxr_layer::PFN_xrCreateApiLayerInstance create, XrInstance& instance,
+    openxr_layer::PFN_xrCreateApiLayerInstance layers_create = &openxr_layer::create_instance) {
     openxr_layer::XrApiLayerNextInfo next{};
     next.structType = openxr_layer::XrLoaderStruct::ApiLayerNextInfo;
     next.nextGetInstanceProcAddr = below;
@@ -33,7 +34,7 @@ inline XrResult create_through_layer(const AskedInstance& asked, PFN_xrGetInstan
     info.applicationInfo.apiVersion = asked.version;
     info.enabledExtensionCount = static_cast<std::uint32_t>(asked.extensions.size());
     info.enabledExtensionNames = asked.extensions.data();
-    return openxr_layer::create_instance(&info, &layer, &instance);
+    return layers_create(&info, &layer, &instance);
 }
 
 /// The layer above an instance that is there already, which it gets as if it were new. `below` must

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "runtime/environment.h"
@@ -23,7 +26,22 @@ constexpr const char* kUsualFolders =
     "/usr/local/share/openxr/1/api_layers/explicit.d:/usr/share/openxr/1/api_layers/explicit.d:"
     "/etc/openxr/1/api_layers/explicit.d";
 
+/// The data folders that everybody has who sets none.
+constexpr const char* kUsualDataFolders = "/usr/local/share:/usr/share";
+
 void set(const char* name, const std::string& value) { setenv(name, value.c_str(), 1); }
+
+/// The loader finds an installed layer in the data folder of its prefix, which must be among those
+/// it searches.
+void search_data_of(const std::filesystem::path& program) {
+    const std::string data =
+        (program.parent_path() / GAZELOOP_DATA_FROM_PROGRAM).lexically_normal().string();
+    const std::string folders = environment_value("XDG_DATA_DIRS").value_or(kUsualDataFolders);
+    const std::vector<std::string> searched = split_list(folders);
+    if (std::ranges::find(searched, data) == searched.end()) {
+        set("XDG_DATA_DIRS", fmt::format("{}:{}", data, folders));
+    }
+}
 
 }  // namespace
 
@@ -53,7 +71,8 @@ Error launch(const std::vector<std::string>& command, const std::vector<std::str
     } catch (const SetupError& error) {
         return {error.kind(), error.what()};
     }
-    // Of the build the manifest lies beside the library; installed ones are switched on by name.
+    // Of the build the manifest lies beside the library; installed ones are switched on by
+    // variable.
     set("GAZELOOP_LAYER", "1");
     unsetenv("GAZELOOP_LAYER_DISABLE");
     const auto folder = library->parent_path();
@@ -65,6 +84,8 @@ Error launch(const std::vector<std::string>& command, const std::vector<std::str
         const auto layers = environment_value("XR_ENABLE_API_LAYERS");
         set("XR_ENABLE_API_LAYERS",
             fmt::format("{}{}{}", layers.value_or(""), layers ? ":" : "", kLayerName));
+    } else {
+        search_data_of(std::filesystem::read_symlink("/proc/self/exe", failure));
     }
     std::vector<char*> words;
     words.reserve(command.size() + 1);

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
 #include <system_error>
 #include <utility>
 
 #include "runtime/openxr_layer/instance_creation.h"
 #include "runtime/openxr_layer/layer_configuration.h"
 #include "runtime/openxr_layer/private_file.h"
+#include "runtime/openxr_layer/provided_extensions.h"
 #include "runtime/openxr_layer/user_folders.h"
 
 namespace gazeloop::openxr_layer {
@@ -69,8 +71,9 @@ Expected<void> enable(const std::vector<std::string>& assignments) {
         }
     }
     nlohmann::ordered_json extensions = nlohmann::ordered_json::array();
-    extensions.push_back({{"name", "XR_EXT_eye_gaze_interaction"}, {"extension_version", "2"}});
-    extensions.push_back({{"name", "XR_GAZELOOP_gaze_sample"}, {"extension_version", "1"}});
+    for (const auto& [name, version] : kProvidedExtensions) {
+        extensions.push_back({{"name", name}, {"extension_version", std::to_string(version)}});
+    }
     const nlohmann::ordered_json json{
         {"file_format_version", "1.0.0"},
         {"api_layer",

@@ -80,6 +80,30 @@ TEST(LayerCalls, KeepTwoInstancesApart) {
     MockRuntime::through_layer<PFN_xrDestroyInstance>(other, "xrDestroyInstance")(other);
 }
 
+/// Of a runtime that has the core of 1.0 alone, the times are the host's once a frame has shown it.
+TEST(LayerCalls, GiveGazeAboveTheOldestRuntime) {
+    const Home home;
+    set_settings("layer.gaze=fixed:0,0");
+    MockRuntime::the().set_oldest(true);
+    {
+        MockApplication application;
+        set_up(application);
+        application.frame(application.spaces[2]);
+        ASSERT_EQ(application.sync(), XR_SUCCESS);
+        EXPECT_TRUE(application.active(application.actions[0]));
+        XrResult result = XR_SUCCESS;
+        EXPECT_EQ(
+            application
+                .locate(application.spaces[0], application.spaces[1], MockRuntime::now(), result)
+                .locationFlags,
+            kAll);
+        EXPECT_EQ(result, XR_SUCCESS);
+        EXPECT_EQ(application.call<newer::LocateSpaces>("xrLocateSpaces"), nullptr);
+        EXPECT_FALSE(MockRuntime::the().saw_eyes());
+    }
+    MockRuntime::the().set_oldest(false);
+}
+
 TEST(LayerCalls, AllocateNothingInSteadyState) {
     const Home home;
     const std::string session = home.folder.path() / "session.gaze";

@@ -351,13 +351,21 @@ XrResult get_proc(XrInstance, const char* name, PFN_xrVoidFunction* function) {
         {"xrConvertTimeToTimespecTimeKHR", as_void(&to_timespec)},
         {"xrConvertTimespecTimeToTimeKHR", as_void(&from_timespec)},
     };
-    const auto found = kFunctions.find(name);
+    const std::string_view text = name;
+    if (mock().oldest() && (text.ends_with("KHR") || text.starts_with("xrEnumerateInstance"))) {
+        *function = nullptr;
+        return XR_ERROR_FUNCTION_UNSUPPORTED;
+    }
+    const auto found = kFunctions.find(text);
     *function = found != kFunctions.end() ? found->second : nullptr;
     return *function != nullptr ? XR_SUCCESS : XR_ERROR_FUNCTION_UNSUPPORTED;
 }
 
 XrResult make_instance(const XrInstanceCreateInfo* info, const XrApiLayerCreateInfo*,
                        XrInstance* instance) {
+    if (mock().oldest() && info->enabledExtensionCount > 0) {
+        return XR_ERROR_EXTENSION_NOT_PRESENT;
+    }
     for (const char* const name :
          std::span(info->enabledExtensionNames, info->enabledExtensionCount)) {
         if (std::string_view(name) != XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME &&
@@ -385,12 +393,13 @@ void MockRuntime::reset() {
 
 XrResult MockRuntime::create_through_layer(const std::vector<const char*>& wanted,
                                            XrInstance& instance) {
-    return tests::create_through_layer({.extensions = wanted}, &get_proc, &make_instance, instance);
+    return tests::create_through_layer({.extensions = wanted}, &get_proc, &make_instance, instance,
+                                       layer_.create_instance);
 }
 
 PFN_xrVoidFunction MockRuntime::find_through_layer(XrInstance instance, const char* name) {
     PFN_xrVoidFunction function = nullptr;
-    get_instance_proc_addr(instance, name, &function);
+    the().layer_.get_instance_proc_addr(instance, name, &function);
     return function;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/openxr/xr_check.h"
+#include "runtime/openxr_layer/instance_creation.h"
 #include "runtime/openxr_layer/loader_interface.h"
 
 namespace gazeloop::openxr_layer {
@@ -22,6 +23,18 @@ class MockRuntime {
     /// As nothing had ever been made. `fail_next`: the next call of a function of that name fails.
     void reset();
     void fail_next(const std::string& function, XrResult result) { failures_[function] = result; }
+
+    /// The layer's two functions: those of this program, or of a library that was loaded.
+    struct Layer {
+        PFN_xrCreateApiLayerInstance create_instance = &openxr_layer::create_instance;
+        PFN_xrGetInstanceProcAddr get_instance_proc_addr = &openxr_layer::get_instance_proc_addr;
+    };
+    void set_layer(const Layer& layer) { layer_ = layer; }
+
+    /// From now on it has no more than the core of OpenXR 1.0, lists nothing to who has no
+    /// instance, and converts no times.
+    void set_oldest(bool oldest) { oldest_ = oldest; }
+    [[nodiscard]] bool oldest() const { return oldest_; }
 
     /// An instance through the layer, with these extensions; its functions by their names.
     XrResult create_through_layer(const std::vector<const char*>& extensions, XrInstance& instance);
@@ -65,6 +78,9 @@ class MockRuntime {
     };
 
     static PFN_xrVoidFunction find_through_layer(XrInstance instance, const char* name);
+
+    Layer layer_;
+    bool oldest_ = false;
 
     std::uint64_t last_ = 1000;
     std::set<std::uint64_t> live_;
