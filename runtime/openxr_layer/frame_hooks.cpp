@@ -12,7 +12,6 @@ namespace gazeloop::openxr_layer {
 namespace {
 
 using Next = NextFunctions;
-using Sizes = gaze::PerEye<std::array<std::uint32_t, 2>>;
 
 /// Calls `use(LayeredSession&)` where the session is recorded, under the instance's lock.
 template <typename Use>
@@ -170,9 +169,10 @@ XrResult locate_views(Call<&Next::LocateViews>& call, XrSession session,
     return result;
 }
 
-/// Of the first layer that is a stereo picture; 0 where there is none.
-Sizes sizes_of(const XrFrameEndInfo& info) {
-    Sizes sizes{};
+/// Of the first layer that is a stereo picture. Where all layers are panels, they are seen by views
+/// of the display's size.
+FrameTap::Pictures pictures_of(const XrFrameEndInfo& info, const std::optional<PictureSize>& full) {
+    FrameTap::Pictures pictures;
     for (std::uint32_t i = 0; i < info.layerCount && info.layers != nullptr; ++i) {
         const XrCompositionLayerBaseHeader* const layer = info.layers[i];
         if (layer == nullptr || layer->type != XR_TYPE_COMPOSITION_LAYER_PROJECTION) {
@@ -184,12 +184,36 @@ Sizes sizes_of(const XrFrameEndInfo& info) {
         }
         for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
             const XrExtent2Di& extent = projection.views[eye].subImage.imageRect.extent;
-            sizes[eye] = {static_cast<std::uint32_t>(std::max(extent.width, 0)),
-                          static_cast<std::uint32_t>(std::max(extent.height, 0))};
+            pictures.sizes_px[eye] = {static_cast<std::uint32_t>(std::max(extent.width, 0)),
+                                      static_cast<std::uint32_t>(std::max(extent.height, 0))};
         }
-        return sizes;
+        return pictures;
     }
-    return sizes;
+    if (info.layerCount > 0 && full) {
+        pictures.of_views = false;
+        pictures.sizes_px.fill({full->width_px, full->height_px});
+    }
+    return pictures;
+}
+
+/// An application may show panels alone and ask for no views. Its wearer sees by them all the same,
+/// so they are asked for in its place.
+void record_views_of_panels(LayeredInstance& layered, XrSession session,
+                            const XrFrameEndInfo& info) {
+    if_recorded(layered, session, [&](LayeredSession& known) {
+        if (info.layerCount == 0 || known.local_space == XR_NULL_HANDLE ||
+            !known.tap->lacks_views(info.displayTime)) {
+            return;
+        }
+        const auto views = stereo_views(layered.next, session, known.local_space, info.displayTime);
+        if (!views) {
+            return;
+        }
+        known.views_in = known.local_space;
+        tell_tap(layered, known, [&](FrameTap& tap) {
+            tap.located(info.displayTime, time::monotonic_ns(), *views, head_of(*views));
+        });
+    });
 }
 
 /// What the compositing of frames cost the GPU, as far as it has finished them.
@@ -200,10 +224,13 @@ void tell_composites(LayeredSession& session) {
 }
 
 XrResult end_frame(Call<&Next::EndFrame>& call, XrSession session, const XrFrameEndInfo* info) {
-    const std::int64_t before_ns = time::monotonic_ns();
     LayeredInstance& layered = call.instance();
     std::shared_ptr<QuadSession> quad;
     std::optional<std::uint64_t> frame;
+    if (info != nullptr) {
+        record_views_of_panels(layered, session, *info);
+    }
+    const std::int64_t before_ns = time::monotonic_ns();
     if (layered.owns.quad_views && info != nullptr) {
         const std::lock_guard lock(layered.mutex);
         const LayeredSession* const known = layered.session(session);
@@ -216,7 +243,8 @@ XrResult end_frame(Call<&Next::EndFrame>& call, XrSession session, const XrFrame
         quad != nullptr ? quad->end_frame(*info, frame) : call.down(session, info);
     if (XR_SUCCEEDED(result)) {
         if_recorded(layered, session, [&](LayeredSession& known) {
-            known.tap->ended(info->displayTime, before_ns, time::monotonic_ns(), sizes_of(*info));
+            known.tap->ended(info->displayTime, before_ns, time::monotonic_ns(),
+                             pictures_of(*info, known.full));
             if (quad != nullptr) {
                 tell_composites(known);
             }

@@ -88,6 +88,12 @@ void FrameTap::located(std::int64_t key, std::int64_t now_ns, const gaze::Stereo
     }
 }
 
+bool FrameTap::lacks_views(std::int64_t key) {
+    const std::lock_guard lock(mutex_);
+    const Frame* const frame = frame_of(key);
+    return frame != nullptr && !frame->viewed;
+}
+
 void FrameTap::read_gaze(std::int64_t now_ns) {
     const std::lock_guard lock(mutex_);
     if (begun_ == 0) {
@@ -100,7 +106,7 @@ void FrameTap::read_gaze(std::int64_t now_ns) {
 }
 
 void FrameTap::ended(std::int64_t key, std::int64_t before_ns, std::int64_t now_ns,
-                     const gaze::PerEye<std::array<std::uint32_t, 2>>& sizes_px) {
+                     const Pictures& pictures) {
     const std::lock_guard lock(mutex_);
     Frame* const frame = frame_of(key);
     if (frame == nullptr) {
@@ -113,9 +119,12 @@ void FrameTap::ended(std::int64_t key, std::int64_t before_ns, std::int64_t now_
     bool drawn = frame->viewed;
     record.samples = {};
     for (std::size_t eye = 0; eye < gaze::kEyeCount; ++eye) {
-        record.views[eye].width_px = sizes_px[eye][0];
-        record.views[eye].height_px = sizes_px[eye][1];
-        record.samples.pixels_output += std::uint64_t{sizes_px[eye][0]} * sizes_px[eye][1];
+        const auto& [width_px, height_px] = pictures.sizes_px[eye];
+        record.views[eye].width_px = width_px;
+        record.views[eye].height_px = height_px;
+        if (pictures.of_views) {
+            record.samples.pixels_output += std::uint64_t{width_px} * height_px;
+        }
         drawn = drawn && gaze::is_valid(record.views[eye]);
     }
     record.should_render = record.should_render && drawn;

@@ -45,9 +45,16 @@ class FrameTap {
     void located(std::int64_t key, std::int64_t now_ns, const gaze::StereoView& views,
                  const gaze::Pose& head);
     void read_gaze(std::int64_t now_ns);
-    /// The frame was handed over between two times, with pictures of these sizes (0: none).
+    /// Whether nobody has asked for the views of the frame with that display time.
+    [[nodiscard]] bool lacks_views(std::int64_t key);
+    /// What a frame was handed over with.
+    struct Pictures {
+        gaze::PerEye<std::array<std::uint32_t, 2>> sizes_px{};  ///< 0: none
+        bool of_views = true;  ///< false: of panels alone; the sizes are those of the display
+    };
+    /// The frame was handed over between two times.
     void ended(std::int64_t key, std::int64_t before_ns, std::int64_t now_ns,
-               const gaze::PerEye<std::array<std::uint32_t, 2>>& sizes_px);
+               const Pictures& pictures);
 
     /// The samples that came since the last call; `head_at` gives the head in the views' space at a
     /// host time, where it is known, and is asked for the newest only.

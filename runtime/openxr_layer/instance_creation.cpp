@@ -128,6 +128,7 @@ struct Extensions {
     Names wanted;     ///< by the application
     Names passed_on;  ///< of them and of the layer's own wishes, to the one below
     bool eye_gaze_passed = false;
+    bool times_for_layer_alone = false;
     OwnExtensions own;
 };
 
@@ -179,6 +180,7 @@ Extensions extensions_of(const XrInstanceCreateInfo& info, const XrApiLayerNextI
     extensions.own.quad_views = has_vulkan && (extensions.own.quad_views || in_core);
     if (lists(offered, kTimes) && !has(extensions.passed_on, kTimes)) {
         extensions.passed_on.push_back(kTimes);
+        extensions.times_for_layer_alone = true;
     }
     return extensions;
 }
@@ -243,6 +245,11 @@ void set_up(LayeredInstance& layered, const XrInstanceCreateInfo& info,
     keep(layered.sighting);
 }
 
+bool converts_times(std::string_view function) {
+    return function == "xrConvertTimeToTimespecTimeKHR" ||
+           function == "xrConvertTimespecTimeToTimeKHR";
+}
+
 /// Whether another copy of the layer is further down: two manifests may name it.
 bool is_below(const XrApiLayerNextInfo* next) {
     for (; next != nullptr; next = next->next) {
@@ -280,6 +287,7 @@ XrResult make(const XrInstanceCreateInfo& info, const XrApiLayerCreateInfo& laye
         return result;
     }
     layered->handle = *instance;
+    layered->hides_times = extensions.times_for_layer_alone;
     if (Instances::all().of(*instance) != nullptr) {
         return result;  // the copy below is this very library
     }
@@ -326,6 +334,9 @@ XRAPI_ATTR XrResult XRAPI_CALL get_instance_proc_addr(XrInstance instance, const
     const Instances::Pointer layered = Instances::all().of(instance);
     if (layered == nullptr) {
         return XR_ERROR_HANDLE_INVALID;
+    }
+    if (layered->hides_times && converts_times(name)) {
+        return XR_ERROR_FUNCTION_UNSUPPORTED;
     }
     if (std::string_view(name) == "xrGetInstanceProcAddr") {
         *function = reinterpret_cast<PFN_xrVoidFunction>(&get_instance_proc_addr);

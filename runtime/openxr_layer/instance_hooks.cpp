@@ -169,6 +169,9 @@ XrResult create_session(Call<&Next::CreateSession>& call, XrInstance instance,
     made.active.reserve(16);
     made.synced.reserve(16);
     made.tap = open_tap(layered);
+    if (made.tap != nullptr) {
+        made.full = recommended_size(layered.next, layered.handle, info->systemId);
+    }
     return result;
 }
 

@@ -37,6 +37,7 @@ struct LayeredSession {
     XrSpace local_space = XR_NULL_HANDLE;
     std::shared_ptr<GazeFeed> feed;        ///< null: there is no gaze
     std::unique_ptr<FrameTap> tap;         ///< null: nothing is recorded
+    std::optional<PictureSize> full;       ///< of recorded views, as the runtime recommends
     std::optional<FollowedFoveae> foveae;  ///< none: the application asked for no foveation
     std::shared_ptr<QuadSession> quad;     ///< null: it cannot have four views
     std::optional<XrTime> display;         ///< of the frame that was waited for last
@@ -85,6 +86,8 @@ struct LayeredInstance {
     std::string runtime;
     EyeGazeBy eye_gaze = EyeGazeBy::Nobody;
     bool tells_samples = false;  ///< XR_GAZELOOP_gaze_sample is enabled
+    /// XR_KHR_convert_timespec_time is enabled for the layer, and the application has not asked.
+    bool hides_times = false;
     OwnExtensions owns;
     InsetPolicy inset_policy;
     XrPath eyes = XR_NULL_PATH;  ///< /user/eyes_ext

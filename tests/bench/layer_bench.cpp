@@ -90,17 +90,19 @@ constexpr std::array<std::string_view, 7> kCalls{
 
 /// What was spent below the layer, in calls that the application would have made without it.
 Cost g_below;
+/// And in those that the layer makes to locate the head, as a runtime with eyes would itself.
+Cost g_locating_head;
 
 /// A call below the layer, watched. `kSlot` tells functions of one type apart.
-template <int kSlot, typename Function>
+template <int kSlot, Cost& kSum, typename Function>
 struct Watched;
-template <int kSlot, typename... Arguments>
-struct Watched<kSlot, XrResult(XRAPI_PTR*)(Arguments...)> {
+template <int kSlot, Cost& kSum, typename... Arguments>
+struct Watched<kSlot, kSum, XrResult(XRAPI_PTR*)(Arguments...)> {
     static inline XrResult(XRAPI_PTR* next)(Arguments...) = nullptr;
     static XRAPI_ATTR XrResult XRAPI_CALL call(Arguments... arguments) {
         const Cost before = now();
         const XrResult result = next(arguments...);
-        g_below += now() - before;
+        kSum += now() - before;
         return result;
     }
 };
@@ -143,11 +145,11 @@ XRAPI_ATTR XrResult XRAPI_CALL made_session(XrInstance, const XrSessionCreateInf
 XRAPI_ATTR XrResult XRAPI_CALL keep_session(XrSession) { return XR_SUCCESS; }
 XRAPI_ATTR XrResult XRAPI_CALL keep_instance(XrInstance) { return XR_SUCCESS; }
 
-template <int kSlot, typename Function>
+template <int kSlot, typename Function, Cost& kSum = g_below>
 PFN_xrVoidFunction watched(XrInstance instance, const char* name) {
-    Watched<kSlot, Function>::next =
+    Watched<kSlot, kSum, Function>::next =
         openxr_layer::function_of<Function>(&xrGetInstanceProcAddr, instance, name);
-    return reinterpret_cast<PFN_xrVoidFunction>(&Watched<kSlot, Function>::call);
+    return reinterpret_cast<PFN_xrVoidFunction>(&Watched<kSlot, kSum, Function>::call);
 }
 
 /// Below the layer: the loader, above Monado.
@@ -179,6 +181,8 @@ XRAPI_ATTR XrResult XRAPI_CALL below(XrInstance instance, const char* name,
         *function = watched<4, PFN_xrLocateViews>(instance, name);
     } else if (text == "xrEndFrame") {
         *function = watched<5, PFN_xrEndFrame>(instance, name);
+    } else if (text == "xrLocateSpace") {
+        *function = watched<6, PFN_xrLocateSpace, g_locating_head>(instance, name);
     } else {
         return xrGetInstanceProcAddr(instance, name, function);
     }
@@ -244,6 +248,7 @@ class Application {
         Cost all;
         Cost below;  ///< of it in calls that it would have made anyway
         Cost locating_space;
+        Cost locating_head;                          ///< of the layer's own
         std::array<double, kCalls.size()> own_us{};  ///< by call: all less below
     };
     Spent frame(bool through_layer) {
@@ -252,7 +257,7 @@ class Application {
         }
         const Calls& calls = through_layer ? through_ : past_;
         Spent spent;
-        g_below = {};
+        g_below = g_locating_head = {};
         Cost waiting;
         auto state = typed<XrFrameState>(XR_TYPE_FRAME_STATE);
         const auto wait = typed<XrFrameWaitInfo>(XR_TYPE_FRAME_WAIT_INFO);
@@ -297,6 +302,7 @@ class Application {
         end(timed, calls, state.predictedDisplayTime, views);
         spent.all = spent.all - waiting;
         spent.below = through_layer ? g_below - waiting : spent.all;
+        spent.locating_head = g_locating_head;
         return spent;
     }
     [[nodiscard]] bool gaze_is_active() const { return gaze_is_active_; }
@@ -423,6 +429,7 @@ struct Measured {
     std::vector<double> with_us;
     std::vector<double> without_us;
     std::vector<double> own_us;
+    std::vector<double> locating_head_us;
     std::array<std::vector<double>, kCalls.size()> by_call_us;
 };
 
@@ -447,6 +454,7 @@ struct Frames {
                                                     (locates ? usual_locate_us : 0.0));
             }
             measured.own_us.push_back(us(spent.all - spent.below) - usual_locate_us);
+            measured.locating_head_us.push_back(us(spent.locating_head));
         }
     }
 };
@@ -492,6 +500,8 @@ void add_case(const Case& at, const Options& options, std::vector<Figure>& figur
         std::nullopt);
     add("processor time, its own, p50", percentile(by_thread.own_us, 0.5), "us", std::nullopt);
     add("processor time, its own, p99", percentile(by_thread.own_us, 0.99), "us", 30.0);
+    add("of it the runtime's, to locate the head, p50", percentile(by_thread.locating_head_us, 0.5),
+        "us", std::nullopt);
     for (std::size_t call = 0; call < kCalls.size(); ++call) {
         add("own in " + std::string(kCalls[call]) + ", p50",
             percentile(by_thread.by_call_us[call], 0.5), "us", std::nullopt);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/session/session_file.h"
 #include "runtime/time/clock.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/unit/openxr_layer/any_call.h"
@@ -65,6 +66,19 @@ TEST(LayerCalls, GiveGazeThatTheRuntimeHasNeverHeardOf) {
     EXPECT_EQ(result, XR_ERROR_SESSION_LOST);
 }
 
+/// What the layer has enabled for itself is not the application's.
+TEST(LayerCalls, HideTheExtensionThatIsForTheLayer) {
+    const Home home;
+    set_settings("layer.gaze=fixed:0,0");
+    constexpr const char* kConvert = "xrConvertTimeToTimespecTimeKHR";
+    {
+        const MockApplication application;
+        EXPECT_EQ(application.call<PFN_xrVoidFunction>(kConvert), nullptr);
+    }
+    const MockApplication application({XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME});
+    EXPECT_NE(application.call<PFN_xrVoidFunction>(kConvert), nullptr);
+}
+
 TEST(LayerCalls, KeepTwoInstancesApart) {
     const Home home;
     set_settings("layer.gaze=fixed:0,0");
@@ -102,6 +116,35 @@ TEST(LayerCalls, GiveGazeAboveTheOldestRuntime) {
         EXPECT_FALSE(MockRuntime::the().saw_eyes());
     }
     MockRuntime::the().set_oldest(false);
+}
+
+/// An application of panels alone, which asks for no views and reads gaze, is measured as others.
+TEST(LayerCalls, RecordFramesOfPanelsAlone) {
+    const Home home;
+    const std::string file = home.folder.path() / "panels.gaze";
+    set_settings("layer.gaze=fixed:3,4\nlayer.record=" + file);
+    {
+        MockApplication application;
+        set_up(application);
+        for (int frame = 0; frame < 10; ++frame) {
+            application.frame_of_panels([&](XrTime display) {
+                application.sync();
+                XrResult result = XR_SUCCESS;
+                application.locate(application.spaces[0], application.spaces[1], display, result);
+            });
+        }
+        application.call<PFN_xrDestroySession>("xrDestroySession")(application.session);
+    }
+    const session::SessionFile session = value_or_throw(session::read_session(file));
+    ASSERT_EQ(session.frames.size(), 10U);
+    for (const session::RecordedFrame& recorded : session.frames) {
+        const frame::FrameRecord& frame = recorded.frame;
+        EXPECT_TRUE(frame.should_render);
+        EXPECT_EQ(frame.views[0].width_px, 1600U);
+        EXPECT_EQ(frame.samples.pixels_output, 0U) << "no picture of the views was drawn";
+        EXPECT_LE(frame.stamps.latch.ns, frame.stamps.submit.ns);
+    }
+    EXPECT_EQ(session.frames.back().frame.fovea.eyes[0].state, gaze::FoveaState::Tracking);
 }
 
 TEST(LayerCalls, AllocateNothingInSteadyState) {

@@ -150,6 +150,22 @@ class MockApplication {
         call<PFN_xrEndFrame>("xrEndFrame")(session, &end);
     }
 
+    /// One that shows a panel and asks for no views; `read(display)` is done before its end.
+    template <typename Read>
+    void frame_of_panels(Read&& read) {
+        auto state = openxr::typed<XrFrameState>(XR_TYPE_FRAME_STATE);
+        call<PFN_xrWaitFrame>("xrWaitFrame")(session, nullptr, &state);
+        call<PFN_xrBeginFrame>("xrBeginFrame")(session, nullptr);
+        read(state.predictedDisplayTime);
+        const auto panel = openxr::typed<XrCompositionLayerQuad>(XR_TYPE_COMPOSITION_LAYER_QUAD);
+        const auto* const layer = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&panel);
+        auto end = openxr::typed<XrFrameEndInfo>(XR_TYPE_FRAME_END_INFO);
+        end.displayTime = state.predictedDisplayTime;
+        end.layerCount = 1;
+        end.layers = &layer;
+        call<PFN_xrEndFrame>("xrEndFrame")(session, &end);
+    }
+
     /// All that it holds; its actions end.
     void forget() {
         for (const XrAction action : actions) {
