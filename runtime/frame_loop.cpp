@@ -191,6 +191,7 @@ class FrameLoop {
         if (const auto event = parts_.chooser->take_event()) {
             report_event(timeline_->now(), event->kind, event->text.view());
         }
+        planned_.scene_time_s = parts_.chooser->scene_time_s(planned_.scene_time_s);
         if (chosen == nullptr) {
             planned_.should_render = false;
         } else if (chosen != renderer_) {

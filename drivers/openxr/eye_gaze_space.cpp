@@ -8,13 +8,10 @@ using openxr::typed;
 using openxr::xr_check;
 using openxr::xr_check_session;
 
-EyeGazeSpace::EyeGazeSpace(const openxr::Session& session, const EyeGazeAction& action)
+EyeGazeSpace::EyeGazeSpace(openxr::Session& session, const EyeGazeAction& action)
     : session_(session), action_(action) {
-    auto attached = typed<XrSessionActionSetsAttachInfo>(XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO);
-    const XrActionSet set = action.set();
-    attached.countActionSets = 1;
-    attached.actionSets = &set;
-    xr_check(xrAttachSessionActionSets(session.handle(), &attached), "xrAttachSessionActionSets");
+    session.add_actions(action.set());
+    session.attach_actions();
     auto info = typed<XrActionSpaceCreateInfo>(XR_TYPE_ACTION_SPACE_CREATE_INFO);
     info.action = action.action();
     info.poseInActionSpace = openxr::to_xr({});
@@ -27,14 +24,7 @@ EyeGazeSpace::~EyeGazeSpace() {
     }
 }
 
-bool EyeGazeSpace::sync() const {
-    const XrActiveActionSet set{action_.set(), XR_NULL_PATH};
-    auto info = typed<XrActionsSyncInfo>(XR_TYPE_ACTIONS_SYNC_INFO);
-    info.countActiveActionSets = 1;
-    info.activeActionSets = &set;
-    return xr_check_session(xrSyncActions(session_.handle(), &info), "xrSyncActions") !=
-           XR_SESSION_NOT_FOCUSED;
-}
+bool EyeGazeSpace::sync() const { return session_.sync_actions(); }
 
 XrPath EyeGazeSpace::bound_profile() const {
     auto profile = typed<XrInteractionProfileState>(XR_TYPE_INTERACTION_PROFILE_STATE);

@@ -18,9 +18,9 @@ struct LocatedGaze {
 /// The gaze in a session.
 class EyeGazeSpace {
   public:
-    /// Attaches the action to the session, as its only one. Both must outlive this. Throws
-    /// SetupError.
-    EyeGazeSpace(const openxr::Session& session, const EyeGazeAction& action);
+    /// Attaches the action to the session, with those that were added before; no others can be
+    /// later. Both must outlive this. Throws SetupError.
+    EyeGazeSpace(openxr::Session& session, const EyeGazeAction& action);
     EyeGazeSpace(const EyeGazeSpace&) = delete;
     EyeGazeSpace& operator=(const EyeGazeSpace&) = delete;
     ~EyeGazeSpace();

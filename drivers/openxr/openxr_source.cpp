@@ -9,7 +9,7 @@
 
 namespace gazeloop::drivers {
 
-OpenXrSource::OpenXrSource(const openxr::Session& session, const OpenXrGazeOptions& options)
+OpenXrSource::OpenXrSource(openxr::Session& session, const OpenXrGazeOptions& options)
     : session_(session), options_(options), reader_(options.distance_m) {
     const openxr::Instance& instance = session.instance();
     if (!check_instance_gates(instance.handle(), instance.system(), instance.has(kEyeGazeExtension),

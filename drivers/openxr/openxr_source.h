@@ -20,9 +20,10 @@ struct OpenXrGazeOptions {
 /// read when it is asked for, at the latch, because the runtime itself keeps it up to date.
 class OpenXrSource final : public GazeSource {
   public:
-    /// `session` must outlive this, and have no other actions. Throws SetupError (NoDevice) where
-    /// the runtime or the headset has no eye gaze, naming the gate and what opens it.
-    OpenXrSource(const openxr::Session& session, const OpenXrGazeOptions& options);
+    /// `session` must outlive this; no action sets can be added to it later. Throws SetupError
+    /// (NoDevice) where the runtime or the headset has no eye gaze, naming the gate and what opens
+    /// it.
+    OpenXrSource(openxr::Session& session, const OpenXrGazeOptions& options);
 
     /// Throws SetupError (SessionLost) when the runtime is gone.
     void poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& samples) override;

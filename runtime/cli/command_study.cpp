@@ -52,7 +52,9 @@ void add_forget(Command study) {
         .required()
         .type("N")
         .number_between(1, 1e9);
-    app.option("files", options->files, "answers, as CSV").required().type("FILE...");
+    app.option("files", options->files, "recorded sittings, answers as CSV, or what --r-csv wrote")
+        .required()
+        .type("FILE...");
     app.does([=] {
         const std::vector<std::filesystem::path> files(options->files.begin(),
                                                        options->files.end());
@@ -79,6 +81,7 @@ void add_study_command(Command program, const std::string& command_line) {
     add_study_analyse(study);
     add_study_power(study);
     add_study_simulate(study);
+    add_study_published(study);
     add_forget(study);
 }
 

@@ -13,6 +13,10 @@ void PeopleOptions::add_to(Command app) {
                "what trade --json has found for the plan's levels: people see as the contrast "
                "metric does, in place of --threshold and --width")
         .type("FILE");
+    add_terms_to(app);
+}
+
+void PeopleOptions::add_terms_to(Command app) {
     app.option("--noise", question.people.terms.noise,
                "of what is felt, in just noticeable ones (0.5)")
         .number_between(0.0, 100.0);

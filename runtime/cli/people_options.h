@@ -10,6 +10,8 @@ struct PeopleOptions {
     study::PeopleQuestion question;
 
     void add_to(Command app);
+    /// What people are like, without how much they see.
+    void add_terms_to(Command app);
 };
 
 }  // namespace gazeloop::cli

@@ -9,6 +9,7 @@ namespace gazeloop::cli {
 /// Commands within `study`, each in a file of its own.
 void add_study_analyse(Command study);
 void add_study_power(Command study);
+void add_study_published(Command study);
 void add_study_simulate(Command study);
 void add_study_run(Command study, const std::string& command_line);
 

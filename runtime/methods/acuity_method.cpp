@@ -52,6 +52,7 @@ Method acuity_method() {
             .description =
                 "the log-polar map that the display and a MAR line ask for, in the gaze's frame",
             .rows = rows,
+            .follows_acuity = true,
             .plan = plan,
             .passes = passes};
 }

@@ -76,6 +76,7 @@ Method layers_method() {
     return {.name = "layers",
             .description = "eccentricity layers (Guenter et al. 2012): rectangles, coarser outward",
             .rows = rows,
+            .follows_acuity = true,
             .plan = plan,
             .passes = passes};
 }

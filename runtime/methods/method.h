@@ -51,6 +51,9 @@ struct Method {
     /// Rows of its settings, which lie in MethodSettings; null: it has none.
     std::vector<settings::SettingRow> (*rows)(MethodSettings& values) = nullptr;
 
+    /// Whether acuity.mar decides its samples.
+    bool follows_acuity = false;
+
     /// What it would shade and offer. Errors (Usage): settings that the picture does not allow.
     Expected<PlannedMethod> (*plan)(const PlanSubject& subject) = nullptr;
 

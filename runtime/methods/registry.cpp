@@ -40,6 +40,22 @@ std::vector<std::string> rendered_methods() {
     return names;
 }
 
+bool is_setting_of(const settings::SettingRow& row, const Method& method) {
+    if (row.only_while.key.empty()) {
+        return row.key.starts_with(std::string(method.name) + '.') ||
+               (row.key == "acuity.mar" && method.follows_acuity);
+    }
+    return std::ranges::find(row.only_while.values, method.name) != row.only_while.values.end();
+}
+
+bool is_setting_of(std::string_view key, std::string_view method) {
+    const Method* const found = find_method(method);
+    MethodSettings any;
+    const std::vector<settings::SettingRow> rows = rows_of(any);
+    const auto row = std::ranges::find(rows, key, &settings::SettingRow::key);
+    return found != nullptr && row != rows.end() && is_setting_of(*row, *found);
+}
+
 std::vector<settings::SettingRow> rows_of(MethodSettings& values) {
     std::vector<settings::SettingRow> rows;
     for (const Method& method : all_methods()) {

@@ -49,6 +49,7 @@ Method rings_method() {
     return {.name = "rings",
             .description = "rings of 1x1, 2x2 and 4x4 pixels per sample",
             .rows = rows,
+            .follows_acuity = true,
             .plan = plan,
             .passes = passes};
 }

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <thread>
 
@@ -105,6 +107,27 @@ void Session::request_exit() {
         exit_sent_ = true;
         exit_deadline_ = std::chrono::steady_clock::now() + kPatienceAtExit;
     }
+}
+
+void Session::attach_actions() {
+    if (action_sets_.empty() || actions_attached_) {
+        return;
+    }
+    std::vector<XrActionSet> sets;
+    std::ranges::transform(action_sets_, std::back_inserter(sets), &XrActiveActionSet::actionSet);
+    auto attached = typed<XrSessionActionSetsAttachInfo>(XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO);
+    attached.countActionSets = static_cast<std::uint32_t>(sets.size());
+    attached.actionSets = sets.data();
+    xr_check(xrAttachSessionActionSets(session_, &attached), "xrAttachSessionActionSets");
+    actions_attached_ = true;
+}
+
+bool Session::sync_actions() const {
+    auto info = typed<XrActionsSyncInfo>(XR_TYPE_ACTIONS_SYNC_INFO);
+    info.countActiveActionSets = static_cast<std::uint32_t>(action_sets_.size());
+    info.activeActionSets = action_sets_.data();
+    return xr_check_session(xrSyncActions(session_, &info), "xrSyncActions") !=
+           XR_SESSION_NOT_FOCUSED;
 }
 
 void Session::tell(const frame::EventKind& kind, std::string text) {

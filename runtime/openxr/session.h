@@ -64,6 +64,19 @@ class Session {
     /// or gives what is no pose. Throws SetupError (SessionLost).
     [[nodiscard]] std::optional<gaze::Pose> head_at(XrTime time) const;
 
+    // A session's action sets are attached once, all together, and synchronized together: those
+    // that a call leaves out are inactive until the next one.
+
+    /// Precondition: attach_actions() has not been called. The set must outlive the session's
+    /// frames.
+    void add_actions(XrActionSet set) { action_sets_.push_back({set, XR_NULL_PATH}); }
+    /// Attaches those that were added, once; does nothing without any, or the second time. Throws
+    /// SetupError.
+    void attach_actions();
+    /// Takes over the newest state of all their actions; false: the session does not have the
+    /// focus. Precondition: they are attached. Throws SetupError (SessionLost).
+    [[nodiscard]] bool sync_actions() const;
+
     /// Adds one line for take_events().
     void tell(const frame::EventKind& kind, std::string text);
     /// What happened since the last call.
@@ -86,6 +99,8 @@ class Session {
     std::uint64_t mask_changes_ = 0;
     std::vector<gaze::AnnouncedOrigin> new_origins_;
     std::vector<frame::Event> events_;
+    std::vector<XrActiveActionSet> action_sets_;
+    bool actions_attached_ = false;
     bool running_ = false;
     bool exit_requested_ = false;
     bool exit_sent_ = false;

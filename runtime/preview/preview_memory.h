@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "runtime/gaze/eye.h"
+#include "runtime/preview/pressed_ring.h"
 #include "runtime/preview/stage_bars.h"
 
 namespace gazeloop::preview {
@@ -56,9 +57,14 @@ struct PreviewMemory {
     std::atomic<std::uint64_t> asked{1};         ///< pictures the window has asked for
     std::atomic<std::uint64_t> given{0};         ///< pictures the loop has filled in
     std::atomic<std::uint32_t> eyes{kBothEyes};  ///< that the window shows
+    /// The loop wants to know what is pressed, in the window and on game controllers; else keys
+    /// choose what the window shows.
+    std::atomic<bool> takes_presses{false};
+    PressedRing presses;
     PreviewFrame frame;
     gaze::PerEye<std::array<std::byte, kBytesPerPixel * kMaxSidePx * kMaxSidePx>> pixels;
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 }  // namespace gazeloop::preview

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/preview/gamepads.h"
 #include "runtime/preview/preview_memory.h"
 
 namespace gazeloop::preview {
@@ -64,6 +65,9 @@ class Window {
                 static_cast<Window*>(glfwGetWindowUserPointer(at))->on_key(key);
             }
         });
+        glfwSetCharCallback(window, [](GLFWwindow* at, unsigned character) {
+            static_cast<Window*>(glfwGetWindowUserPointer(at))->on_character(character);
+        });
         glfwSetWindowRefreshCallback(window, [](GLFWwindow* at) {
             static_cast<Window*>(glfwGetWindowUserPointer(at))->stale_ = true;
         });
@@ -90,11 +94,23 @@ class Window {
                 draw();
             }
             glfwWaitEventsTimeout(kPollS);
+            if (memory_.takes_presses) {
+                gamepads_.take(memory_.presses);
+            }
         }
     }
 
   private:
+    void on_character(unsigned character) {
+        if (memory_.takes_presses && character < PressedRing::kFirstButton) {
+            memory_.presses.add(static_cast<std::uint8_t>(character));
+        }
+    }
+
     void on_key(int key) {
+        if (memory_.takes_presses && key != GLFW_KEY_ESCAPE) {
+            return;  // a character of its own
+        }
         switch (key) {
             case GLFW_KEY_ESCAPE:
             case GLFW_KEY_Q:
@@ -320,6 +336,7 @@ class Window {
     std::array<GLuint, gaze::kEyeCount> textures_{};
     bool shown_ = false;
     bool stale_ = false;
+    Gamepads gamepads_;
     bool show_ring_ = true;
     bool show_bars_ = true;
 };

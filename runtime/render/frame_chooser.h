@@ -42,6 +42,10 @@ class FrameChooser {
     /// Null: by nobody. The frame is handed over without pictures, and the display is black.
     virtual FrameRenderer* choose(const FrameToChoose& frame) = 0;
 
+    /// The scene's time in the chosen frame, s, in place of `time_s`: so that the scene moves alike
+    /// in pictures that are compared.
+    [[nodiscard]] virtual double scene_time_s(double time_s) const { return time_s; }
+
     /// Where the foveae of the chosen frame are drawn that the gaze has at `latched`.
     [[nodiscard]] virtual gaze::FrameFovea drawn(const gaze::FrameFovea& latched,
                                                  const gaze::StereoView& views) const = 0;

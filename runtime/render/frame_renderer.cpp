@@ -205,8 +205,9 @@ glm::dvec2 FrameRenderer::next_offset() {
     return offset;
 }
 
-FrameRecording FrameRenderer::recording(Slot& slot, const gaze::FrameFovea* fovea) {
-    FrameRecording frame{.view = *view_,
+FrameRecording FrameRenderer::recording(Slot& slot, const FrameView& view,
+                                        const gaze::FrameFovea* fovea) {
+    FrameRecording frame{.view = view,
                          .in_run = in_run_,
                          .slot = slot.number,
                          .frame_sets = {},
@@ -223,17 +224,23 @@ FrameRecording FrameRenderer::recording(Slot& slot, const gaze::FrameFovea* fove
 
 void FrameRenderer::begin(const FrameView& view) {
     prepare(view.views);
+    given_ = &view;
     view_ = &view;
+    if (config_.camera != CameraMotion::Still) {
+        carried_ = view;
+        carried_.views = carried(config_.camera, view.views, view.scene_time_s);
+        view_ = &carried_;
+    }
     Slot& slot = *slots_[submitted_ % slots_.size()];
     slot.recorder.reset();
     slot.frame_index = view.index;
-    in_run_ = {view.index, last_views_.begin(view.index, view.views)};
+    in_run_ = {view.index, last_views_.begin(view.index, view_->views)};
     const glm::dvec2 aside_px = next_offset();
     // Several samples fill their cell already.
     const glm::dvec2 aside = aside_px / std::sqrt(static_cast<double>(config_.samples));
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
-        slot.eyes[e].uniforms.write(frame_uniforms(view.views[e], view.scene_time_s,
+        slot.eyes[e].uniforms.write(frame_uniforms(view_->views[e], view.scene_time_s,
                                                    config_.samples, last_views_.of(eye), aside));
         slot.color[e] = vulkan::TrackedImage::of_earlier_frames(view.targets[e].image,
                                                                 vk::ImageAspectFlagBits::eColor);
@@ -243,9 +250,9 @@ void FrameRenderer::begin(const FrameView& view) {
     // What is drawn by pixels is drawn for pixels that lie aside.
     scene_->record_geometry(
         slot.recorder,
-        config_.antialiasing.over_frames ? moved_aside(view.views, aside_px) : view.views,
+        config_.antialiasing.over_frames ? moved_aside(view_->views, aside_px) : view_->views,
         view.scene_time_s, slot.number);
-    method_->record_before_gaze(slot.recorder, recording(slot, nullptr));
+    method_->record_before_gaze(slot.recorder, recording(slot, *view_, nullptr));
     if (slot.recorder.any()) {
         slot.recorder.submit(*begun_, ++begun_submitted_);
     }
@@ -272,12 +279,14 @@ frame::SampleCounts FrameRenderer::finish(const gaze::FrameFovea& fovea) {
         counts.pixels_output += std::uint64_t{view.width_px} * view.height_px;
         counts.pixels_hidden += hidden != nullptr ? hidden->hidden_pixels() : 0;
     }
-    const FrameRecording frame = recording(slot, &fovea);
+    const FrameRecording frame = recording(slot, *view_, &fovea);
     method_->record_after_gaze(slot.recorder, frame, plans_);
     if (config_.hash || method_->keeps_depth()) {
-        record_copies(slot, frame, fovea);
+        // Depth is read by who knows the head, and not how it is carried.
+        record_copies(slot, recording(slot, *given_, &fovea), fovea);
     }
     slot.recorder.submit(*timeline_, ++submitted_);
+    given_ = nullptr;
     view_ = nullptr;
     return counts;
 }

@@ -10,6 +10,7 @@
 #include "runtime/gaze/seen_depth.h"
 #include "runtime/gaze/view.h"
 #include "runtime/render/antialiasing.h"
+#include "runtime/render/camera_motion.h"
 #include "runtime/render/frame_view.h"
 #include "runtime/render/jitter.h"
 #include "runtime/render/last_views.h"
@@ -34,6 +35,7 @@ struct RendererConfig {
     /// The 3 x 3 Gaussian over a log-polar buffer's periphery.
     FilterUse lp_gaussian = FilterUse::AsSceneNeeds;
     Antialiasing antialiasing{};
+    CameraMotion camera = CameraMotion::Still;
     /// Radiance that cells outside the plan hold; unset: anything, since no pixel reads them.
     std::optional<std::array<float, 4>> unshaded;
 };
@@ -99,7 +101,8 @@ class FrameRenderer {
     struct Slot;
 
     void make_slots();
-    [[nodiscard]] FrameRecording recording(Slot& slot, const gaze::FrameFovea* fovea);
+    [[nodiscard]] FrameRecording recording(Slot& slot, const FrameView& view,
+                                           const gaze::FrameFovea* fovea);
     [[nodiscard]] glm::dvec2 next_offset();
     void record_copies(Slot& slot, const FrameRecording& frame, const gaze::FrameFovea& fovea);
     [[nodiscard]] frame::FrameGpuRecord collect(Slot& slot);
@@ -120,8 +123,10 @@ class FrameRenderer {
     std::uint64_t submitted_ = 0;            ///< frames; the timeline's value
     std::uint64_t begun_submitted_ = 0;
     std::uint64_t collected_ = 0;
-    const FrameView* view_ = nullptr;  ///< between begin() and finish()
-    foveation::FrameInRun in_run_;     ///< of the frame that was begun last
+    const FrameView* given_ = nullptr;  ///< between begin() and finish(), as the next one
+    const FrameView* view_ = nullptr;   ///< the given one, carried
+    FrameView carried_;
+    foveation::FrameInRun in_run_;  ///< of the frame that was begun last
     gaze::PerEye<foveation::EyePlan> plans_;
     LastViews last_views_;
     Jitter jitter_;

@@ -1,5 +1,6 @@
 #include "runtime/render/render_settings.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "runtime/render/frame_uniforms.h"
@@ -22,6 +23,11 @@ FilterUse lp_gaussian_of(const RenderSettings& render) {
                                          : FilterUse::AsSceneNeeds;
 }
 
+CameraMotion camera_of(const RenderSettings& render) {
+    const auto found = std::ranges::find(kCameraMotionNames, render.camera);
+    return static_cast<CameraMotion>(found - kCameraMotionNames.begin());
+}
+
 std::vector<settings::SettingRow> rows_of(RenderSettings& render,
                                           std::vector<std::string> methods) {
     using settings::Choice;
@@ -32,6 +38,13 @@ std::vector<settings::SettingRow> rows_of(RenderSettings& render,
                                         scene::kSceneFileExtensions.end());
     files.push_back(scene::kLightFieldExtension);
     return {
+        {"render.camera",
+         "carries the viewer through the scene: turned to and fro (pan), or round a circle of 0.2 "
+         "m "
+         "at 0.025 m/s (fly-1), at twice that, ... 0.8 m/s (fly-6)",
+         Choice{.value = &render.camera,
+                .names = {kCameraMotionNames.begin(), kCameraMotionNames.end()}},
+         Concerns::Picture},
         {"render.depth", "give depth images to the runtime where it takes them", &render.depth,
          Concerns::Output},
         {"render.footprint",

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/render/antialiasing.h"
+#include "runtime/render/camera_motion.h"
 #include "runtime/settings/setting_row.h"
 
 namespace gazeloop::render {
@@ -13,6 +14,7 @@ namespace gazeloop::render {
 struct RenderSettings {
     std::string method = "kfr";
     std::string scene = "raymarch";
+    std::string camera = "still";
     std::string require = "scene";
     std::string lp_gaussian = "scene";
     bool specular_filter = true;
@@ -35,6 +37,9 @@ struct RenderSettings {
 
 /// Whether a log-polar buffer's periphery is smoothed.
 [[nodiscard]] FilterUse lp_gaussian_of(const RenderSettings& render);
+
+/// What render.camera says.
+[[nodiscard]] CameraMotion camera_of(const RenderSettings& render);
 
 /// `methods`: the names that render.method may have.
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(RenderSettings& render,

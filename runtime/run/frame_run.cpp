@@ -8,10 +8,12 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "drivers/anatomy/anatomy_source.h"
 #include "drivers/calibrated/calibrated_source.h"
+#include "drivers/openxr/answer_actions.h"
 #include "runtime/calibration/calibration_settings.h"
 #include "runtime/latency/summary_observer.h"
 #include "runtime/methods/registry.h"
@@ -85,15 +87,19 @@ class FrameRun {
                                    .device_origin = request_.settings->origin("vulkan.device")},
             target_->vulkan_factory());
         target_->start(*context_);
+        if (request_.take_presses) {
+            take_presses(openxr);
+        }
         if (request_.openxr_gaze) {
             openxr_gaze_ =
                 std::make_unique<drivers::OpenXrSource>(openxr->session(), *request_.openxr_gaze);
+        } else if (openxr != nullptr) {
+            openxr->session().attach_actions();
         }
         config_ = renderer_config();
         check_recorded_target(request_, config_);
         check_picture(request_, config_);
-        scene_ = scene::make_scene(*context_, values_.render.scene,
-                                   render::scene_options(values_.render, values_.light_field));
+        scene_ = &scene_now();
         render::FrameRenderer renderer(*context_, *scene_, make_passes(values_.render.method),
                                        config_);
         spdlog::info("Vulkan: {} ({})", context_->device_name(), context_->driver());
@@ -124,6 +130,7 @@ class FrameRun {
         monitor_.open(monitor_options(config));
         run_loop(renderer, summary);
         preview_.reset();
+        window_presses_.reset();
         window_.reset();
         finish(summary);
         return failure_;
@@ -154,7 +161,33 @@ class FrameRun {
                 .frames_in_flight = static_cast<std::uint32_t>(values_.render.frames_in_flight),
                 .lp_gaussian = render::lp_gaussian_of(values_.render),
                 .antialiasing = render::antialiasing_of(values_.render),
+                .camera = render::camera_of(values_.render),
                 .unshaded = std::nullopt};
+    }
+
+    /// That of the settings as they are now. Its files are read the first time.
+    scene::Scene& scene_now() {
+        std::unique_ptr<scene::Scene>& scene = scenes_[values_.render.scene];
+        if (scene == nullptr) {
+            scene = scene::make_scene(*context_, values_.render.scene,
+                                      render::scene_options(values_.render, values_.light_field));
+        }
+        return *scene;
+    }
+
+    /// The subject's keys and buttons, before a gaze source attaches the session's actions.
+    void take_presses(present::OpenXrTarget* openxr) {
+        std::vector<present::ButtonSource*> sources;
+        if (openxr != nullptr) {
+            openxr_answers_ = std::make_unique<drivers::AnswerActions>(openxr->session());
+            sources.push_back(openxr_answers_.get());
+        }
+        if (window_ != nullptr) {
+            window_->memory().takes_presses = true;
+            window_presses_ = std::make_unique<preview::PressedReader>(window_->memory().presses);
+            sources.push_back(window_presses_.get());
+        }
+        request_.take_presses(std::move(sources));
     }
 
     void open_recording(const render::FrameRenderer& renderer) {
@@ -170,7 +203,8 @@ class FrameRun {
         for (const std::string& skipped : scene_->skipped()) {
             recorder_->event(time::Stamp{}, frame::kLeftOutEvent.name, skipped);
         }
-        recording_ = std::make_unique<RecordingObserver>(*recorder_);
+        recording_ = std::make_unique<RecordingObserver>(
+            *recorder_, request_.record_study ? "the study ends" : "the run goes on");
         if (request_.record_study) {
             request_.record_study(*recorder_);
         }
@@ -191,8 +225,8 @@ class FrameRun {
         }
         const gaze::StereoView views = profile_views(display_, target_->extents());
         const auto make = [this, views](const render::MakePasses& passes) {
-            auto renderer =
-                std::make_unique<render::FrameRenderer>(*context_, *scene_, passes, config_);
+            auto renderer = std::make_unique<render::FrameRenderer>(*context_, scene_now(), passes,
+                                                                    renderer_config());
             if (request_.clock == RunClock::Wall) {
                 render::warm_up(*context_, *renderer, views);
             } else if (request_.clock == RunClock::Virtual) {
@@ -550,12 +584,15 @@ class FrameRun {
     // The target's swapchains live on the context's device: they go first.
     std::unique_ptr<vulkan::Context> context_;
     std::unique_ptr<present::FrameTarget> target_;
+    std::unique_ptr<drivers::AnswerActions> openxr_answers_;
     std::unique_ptr<drivers::GazeSource> openxr_gaze_;  // of the target's session; until the loop's
     std::unique_ptr<preview::WindowProcess> window_;
+    std::unique_ptr<preview::PressedReader> window_presses_;
     std::unique_ptr<preview::PreviewFeed> preview_;  // writes into the window's memory
     bool window_broken_ = false;
     render::RendererConfig config_;
-    std::unique_ptr<scene::Scene> scene_;
+    std::map<std::string, std::unique_ptr<scene::Scene>> scenes_;  ///< by render.scene
+    scene::Scene* scene_ = nullptr;  ///< the run's; choosers may draw others too
     std::unique_ptr<render::FrameChooser, Release> chooser_;
     std::unique_ptr<frame::FrameObserver> overlay_;
     std::unique_ptr<render::Snapshot> snapshot_;

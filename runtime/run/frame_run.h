@@ -11,6 +11,7 @@
 #include "drivers/openxr/openxr_source.h"
 #include "runtime/error.h"
 #include "runtime/frame_loop.h"
+#include "runtime/present/button_source.h"
 #include "runtime/report/output_file.h"
 #include "runtime/run/program_settings.h"
 #include "runtime/session/open_session.h"
@@ -52,12 +53,16 @@ struct FrameRunRequest {
         make_overlay{};
     /// Decides by whom each frame is drawn; null: by render.method. Must outlive the run.
     render::FrameChooser* chooser = nullptr;
+    /// With the scene, the camera and what else of the settings decides pictures as these are now.
     using MakeRenderer =
         std::function<std::unique_ptr<render::FrameRenderer>(const render::MakePasses&)>;
     /// What a frame takes by a renderer, ms; none where that is not the wall clock's, or unknown.
     using TimeRenderer = std::function<std::optional<double>(render::FrameRenderer&)>;
     /// Called before the first frame, with what makes and times the chooser's renderers.
     std::function<void(const MakeRenderer&, const TimeRenderer&)> prepare_chooser{};
+    /// Called before the first frame with where somebody's presses come from: the preview's window
+    /// and game controllers, the controllers of an OpenXR runtime. Unset: nobody's are taken.
+    std::function<void(std::vector<present::ButtonSource*>)> take_presses{};
     /// Called with the recording, which then has a study's tables.
     std::function<void(session::SessionRecorder&)> record_study{};
     frame::FrameObserver* observer = nullptr;  ///< is told what the loop does, unless null

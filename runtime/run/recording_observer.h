@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <string_view>
+
 #include "runtime/frame/frame_observer.h"
 #include "runtime/session/session_recorder.h"
 
@@ -10,7 +12,10 @@ namespace gazeloop::run {
 /// Passes everything on to the session's recorder. Warns at once when recording is in trouble.
 class RecordingObserver final : public frame::FrameObserver {
   public:
-    explicit RecordingObserver(session::SessionRecorder& recorder) : recorder_(recorder) {}
+    /// `then`: what comes of trouble, "the run goes on".
+    explicit RecordingObserver(session::SessionRecorder& recorder,
+                               std::string_view then = "the run goes on")
+        : recorder_(recorder), then_(then) {}
     void on_sample(const gaze::GazeSample& sample, std::uint64_t frame) override {
         recorder_.add(sample, frame);
     }
@@ -20,7 +25,7 @@ class RecordingObserver final : public frame::FrameObserver {
         recorder_.add(record);
         if (!trouble_reported_ && recorder_.in_trouble()) {
             trouble_reported_ = true;
-            spdlog::warn("{}; the run goes on", recorder_.trouble());
+            spdlog::warn("{}; {}", recorder_.trouble(), then_);
         }
     }
     void on_gpu(const frame::FrameGpuRecord& record) override { recorder_.add(record); }
@@ -30,6 +35,7 @@ class RecordingObserver final : public frame::FrameObserver {
 
   private:
     session::SessionRecorder& recorder_;
+    std::string_view then_;
     bool trouble_reported_ = false;
 };
 

@@ -15,9 +15,11 @@ namespace {
 constexpr std::string_view kOrigin = "the study's plan";
 constexpr std::size_t kLongestSettings = 240;  // what a session's row holds
 
-/// The passes of a stimulus. Errors: as Settings::set() and the method's.
-Expected<render::MakePasses> passes_of(const study::Stimulus& stimulus, ProgramSettings& settings) {
-    settings::SettingsForNow now(settings);
+/// The passes of a stimulus, whose settings are `now`'s from then on. Errors: as Settings::set()
+/// and the method's.
+Expected<render::MakePasses> passes_of(const study::Stimulus& stimulus,
+                                       const ProgramSettings& settings,
+                                       settings::SettingsForNow& now) {
     if (auto set = now.set("render.method", stimulus.method, kOrigin); !set) {
         return std::unexpected(set.error());
     }
@@ -32,16 +34,19 @@ Expected<render::MakePasses> passes_of(const study::Stimulus& stimulus, ProgramS
 /// Whether a factor's setting is one of the method's.
 Expected<void> check_factor(const study::Plan& plan, const study::Factor& factor,
                             ProgramSettings& settings) {
-    settings::SettingsForNow now(settings);
-    if (auto set = now.set("render.method", plan.method, kOrigin); !set) {
+    if (auto set = settings::SettingsForNow(settings).set("render.method", plan.method, kOrigin);
+        !set) {
         return set;
     }
     methods::MethodSettings any;
     std::vector<std::string> known;
     for (const settings::SettingRow& row : methods::rows_of(any)) {
-        if (settings.is_in_use(row)) {
+        if (methods::is_setting_of(row, *methods::find_method(plan.method))) {
             known.push_back(row.key);
         }
+    }
+    if (study::is_of_all_methods(factor.key)) {
+        return {};
     }
     if (std::ranges::find(known, factor.key) == known.end()) {
         return std::unexpected(Error{
@@ -64,7 +69,8 @@ void show(Study& study, ProgramSettings& settings, FrameRunRequest& request) {
                                   const FrameRunRequest::TimeRenderer& /*time_of*/) {
         study.set_stimuli(std::make_unique<study::Stimuli>(
             [make, &settings](const study::Stimulus& stimulus) {
-                return make(value_or_throw(passes_of(stimulus, settings)));
+                settings::SettingsForNow now(settings);
+                return make(value_or_throw(passes_of(stimulus, settings, now)));
             },
             study.samples()));
     };
@@ -73,13 +79,15 @@ void show(Study& study, ProgramSettings& settings, FrameRunRequest& request) {
 }  // namespace
 
 Expected<void> take_plan(const study::Plan& plan, ProgramSettings& settings) {
-    if (!plan.scenes.empty()) {
-        return std::unexpected(
-            Error{ErrorKind::Usage, fmt::format("{}: scenes: a run draws one scene: leave the key "
-                                                "out, and name each sitting's with --scene",
-                                                plan.name)});
-    }
+    // What draws a scene is made at the start, and stays on the device.
+    constexpr std::size_t kMostScenes = 16;
     for (const study::Factor& factor : plan.factors) {
+        if (factor.key == "render.scene" && factor.levels.size() > kMostScenes) {
+            return std::unexpected(
+                Error{ErrorKind::Usage,
+                      fmt::format("{}: factor {}: {} scenes are more than {}", plan.name,
+                                  factor.name, factor.levels.size(), kMostScenes)});
+        }
         if (factor.key.empty() && factor.levels.size() > 1) {
             return std::unexpected(
                 Error{ErrorKind::Usage,
@@ -100,7 +108,8 @@ Expected<void> take_plan(const study::Plan& plan, ProgramSettings& settings) {
         for (const study::Stimulus& stimulus :
              {study::reference_stimulus(plan, trial),
               study::test_stimulus(plan, trial, trial.levels.front())}) {
-            if (auto passes = passes_of(stimulus, settings); !passes) {
+            settings::SettingsForNow now(settings);
+            if (auto passes = passes_of(stimulus, settings, now); !passes) {
                 return std::unexpected(passes.error());
             }
             const std::string text = stimulus.settings_text();
@@ -125,7 +134,9 @@ void show_study(study::StudyRun& study, ProgramSettings& settings, FrameRunReque
     };
     request.loop.end_with_source = false;
     request.loop.stop = [&study]() -> std::optional<LoopEnd> {
-        return study.over() || study.too_slow() ? std::optional(LoopEnd::Limit) : std::nullopt;
+        return study.over() || study.too_slow() || study.cannot_keep() || study.nobody_answers()
+                   ? std::optional(LoopEnd::Limit)
+                   : std::nullopt;
     };
 }
 

@@ -2,7 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <memory>
+#include <utility>
+#include <vector>
+
 #include "runtime/run/study_request.h"
+#include "runtime/study/controls.h"
 #include "runtime/study/plan_file.h"
 #include "runtime/study/sittings.h"
 
@@ -28,19 +33,33 @@ std::optional<ErrorKind> run_sitting(const StudySitting& sitting, ProgramSetting
     if (sitting.simulated) {
         people = study::people_of(*sitting.simulated, plan);
     }
-    const auto input = sitting.simulated ? study::simulated_input(plan, people, sitting.subject)
-                                         : study::keyboard_input(plan.design);
+    std::unique_ptr<study::SubjectInput> input;
+    if (sitting.simulated) {
+        input = study::simulated_input(plan, people, sitting.subject);
+    } else {
+        auto person = study::person_input(plan.design);
+        request.take_presses = [&listening = *person](std::vector<present::ButtonSource*> sources) {
+            listening.listen_to(std::move(sources));
+        };
+        input = std::move(person);
+    }
     study::StudyRun study(plan, queue, sitting.subject, *input,
                           [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
     show_study(study, settings, request);
     request.record = sittings.next;
     if (!sitting.quiet) {
         fmt::print(stderr, "{}: subject {}, {} trials left; {}\n", plan.name, sitting.subject,
-                   queue.left(), study::keys_text(plan.design));
+                   queue.left(), study::controls_text(plan.design));
     }
     const auto failure = frame_run(request);
     fmt::print(stderr, "{} answers, {} trials left; recorded to {}\n", study.answers(),
-               queue.left(), sittings.next.string());
+               study.left(), sittings.next.string());
+    if (study.nobody_answers() && !study.over()) {
+        throw SetupError(ErrorKind::Usage,
+                         "the standard input has ended, and there is no controller: nobody can "
+                         "answer; run it in a terminal, with --preview (keys and gamepads in its "
+                         "window), on OpenXR, or with --simulated");
+    }
     if (study.too_slow()) {
         throw SetupError(ErrorKind::NoDevice,
                          "this machine is too slow for the plan's times: pictures were over before "

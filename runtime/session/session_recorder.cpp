@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -10,6 +11,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include "runtime/session/new_session.h"
@@ -57,14 +59,27 @@ class SessionRecorder::Impl {
 
     template <typename T>
     void add(const T& record) {
+        add(record, when_full_);
+    }
+
+    template <typename T>
+    void add(const T& record, WhenFull when_full) {
         constexpr std::chrono::milliseconds kLook{1};
         while (!failed_.load(std::memory_order_acquire) && !queue_.try_push(record)) {
-            if (when_full_ == WhenFull::Drop) {
+            if (when_full == WhenFull::Drop) {
                 dropped_.fetch_add(1, std::memory_order_relaxed);
                 return;
             }
             std::this_thread::sleep_for(kLook);
         }
+    }
+
+    bool wait_until_written(std::chrono::milliseconds patience) {
+        std::unique_lock lock(mutex_);
+        const std::uint64_t asked = ++writes_asked_;
+        wake_.notify_one();
+        written_.wait_for(lock, patience, [&] { return writes_done_ >= asked || in_trouble(); });
+        return writes_done_ >= asked && !in_trouble();
     }
 
     RecordingStatus close() {
@@ -93,10 +108,12 @@ class SessionRecorder::Impl {
     /// Nothing here may throw, even out of memory. So the message is made when it is asked for.
     void run() {
         try {
-            while (!wait_for_close()) {
+            for (bool closing = false; !closing;) {
+                std::uint64_t asked = 0;
+                std::tie(closing, asked) = wait_for_work();
                 write_queued();
+                tell_written(asked);
             }
-            write_queued();
             writer_->finish();
         } catch (const std::exception&) {
             failure_ = std::current_exception();
@@ -107,6 +124,16 @@ class SessionRecorder::Impl {
         }
         writer_.reset();
         failed_.store(failure_ || moved_, std::memory_order_release);
+        tell_written(0);
+    }
+
+    /// Whoever waits for that looks again.
+    void tell_written(std::uint64_t asked) {
+        {
+            const std::lock_guard lock(mutex_);
+            writes_done_ = std::max(writes_done_, asked);
+        }
+        written_.notify_all();
     }
 
     void look_for_file() {
@@ -143,9 +170,12 @@ class SessionRecorder::Impl {
         }
     }
 
-    bool wait_for_close() {
+    /// Gives whether to close, and what has been asked for by then.
+    std::pair<bool, std::uint64_t> wait_for_work() {
         std::unique_lock lock(mutex_);
-        return wake_.wait_for(lock, kCommitInterval, [this] { return closing_; });
+        wake_.wait_for(lock, kCommitInterval,
+                       [this] { return closing_ || writes_asked_ > writes_done_; });
+        return {closing_, writes_asked_};
     }
 
     void write_queued() {
@@ -173,6 +203,9 @@ class SessionRecorder::Impl {
     std::optional<SessionWriter> writer_;
     std::mutex mutex_;
     std::condition_variable wake_;
+    std::condition_variable written_;
+    std::uint64_t writes_asked_ = 0;  ///< calls of wait_until_written()
+    std::uint64_t writes_done_ = 0;   ///< of these
     bool closing_ = false;
     std::thread thread_;
 };
@@ -230,12 +263,16 @@ void SessionRecorder::add(const gaze::HiddenChange& change) {
 
 void SessionRecorder::add(const gaze::OriginChange& change) { impl_->add(change); }
 
-void SessionRecorder::add(const TrialRecord& record) { impl_->add(record); }
+void SessionRecorder::add(const TrialRecord& record) { impl_->add(record, WhenFull::Wait); }
 
-void SessionRecorder::add(const ResponseRecord& record) { impl_->add(record); }
+void SessionRecorder::add(const ResponseRecord& record) { impl_->add(record, WhenFull::Wait); }
 
 void SessionRecorder::event(time::Stamp time, std::string_view kind, std::string_view text) {
     impl_->add(EventRecord{time, FixedText<32>(kind), FixedText<240>(text)});
+}
+
+bool SessionRecorder::wait_until_written(std::chrono::milliseconds patience) {
+    return impl_->wait_until_written(patience);
 }
 
 bool SessionRecorder::in_trouble() const { return impl_->in_trouble(); }

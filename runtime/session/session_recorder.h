@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -63,12 +64,18 @@ class SessionRecorder {
     void add(const gaze::HiddenChange& change);
     /// One for a frame at most.
     void add(const gaze::OriginChange& change);
-    /// Of a study. Precondition: the header said that it is one.
+    /// Of a study: these wait for a place in the queue, and are never dropped. Precondition: the
+    /// header said that it is one.
     void add(const TrialRecord& record);
     void add(const ResponseRecord& record);
     /// `kind` is one word of at most 32 bytes, e.g. "session-state", "gaze-lost", "interrupted";
     /// `text` is cut after 240 bytes, between characters.
     void event(time::Stamp time, std::string_view kind, std::string_view text);
+
+    /// Blocks until everything added so far has been committed, so that a process killed from now
+    /// on does not lose it. False: not within `patience`, or writing has ended early. On the thread
+    /// that adds.
+    [[nodiscard]] bool wait_until_written(std::chrono::milliseconds patience);
 
     /// Whether something has gone wrong that the user may want to know at once: writing has ended
     /// early, or the file has been moved or removed. Does not block.

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kUsualLapse = 0.015;
 constexpr double kPriorSpreads = 1.5;
+constexpr double kPriorBend = 1.0;
 constexpr double kLeastReach = 1e-3;
 constexpr int kMostSteps = 60;
 
@@ -50,8 +51,9 @@ PeoplePosterior::PeoplePosterior(std::span<const std::vector<LevelCount>> subjec
     reach_ = std::max(levels_.back() - levels_.front(), kLeastReach);
     const double lapse = std::log(kUsualLapse / (kMostLapse - kUsualLapse));
     priors_ << 0.5 * (levels_.front() + levels_.back()), std::log(reach_ / 5.0), lapse, lapse,
-        std::log(reach_ / 10.0);
-    prior_deviations_ << 2.0 * reach_, kPriorSpreads, kPriorSpreads, kPriorSpreads, kPriorSpreads;
+        std::log(reach_ / 10.0), 0.0;
+    prior_deviations_ << 2.0 * reach_, kPriorSpreads, kPriorSpreads, kPriorSpreads, kPriorSpreads,
+        kPriorBend;
     if (!varying || subjects_ < 2) {
         nodes_.push_back({});
         return;
@@ -96,7 +98,8 @@ FittedPeople PeoplePosterior::function_of(const Parameters& parameters) const {
                          .threshold = parameters[0],
                          .spread = std::exp(parameters[1]),
                          .lowest = lapse_of(parameters[2]),
-                         .highest = lapse_of(parameters[3])},
+                         .highest = lapse_of(parameters[3]),
+                         .bend = parameters[5]},
             .people = nodes_.size() > 1 ? std::exp(parameters[4]) : 0.0};
 }
 
@@ -105,10 +108,12 @@ PeoplePosterior::Point PeoplePosterior::point(double x, double z,
     const PsychometricFunction& f = people.function;
     const double sign = f.rising ? 1.0 : -1.0;
     const double deviation = sign * (x - f.threshold - people.people * z) / f.spread;
-    const double decided = normal_share(deviation);
+    const PsychometricFunction::Bent bent = PsychometricFunction::bent(deviation, f.bend);
+    const double decided = normal_share(bent.value);
     const double range = 1.0 - f.lowest - f.highest;
-    const double density =
-        range * std::exp(-0.5 * deviation * deviation) / std::sqrt(2.0 * std::numbers::pi);
+    const double of_bent =
+        range * std::exp(-0.5 * bent.value * bent.value) / std::sqrt(2.0 * std::numbers::pi);
+    const double density = of_bent * bent.by_u;
     Point point;
     // Away from 0 and 1, because lowest and highest are never 0.
     point.p = f.lowest + range * decided;
@@ -118,7 +123,7 @@ PeoplePosterior::Point PeoplePosterior::point(double x, double z,
     point.slope << -sign * density / f.spread, -density * deviation,
         (1.0 - decided) * f.lowest * (1.0 - f.lowest / kMostLapse),
         -decided * f.highest * (1.0 - f.highest / kMostLapse),
-        -sign * density / f.spread * people.people * z;
+        -sign * density / f.spread * people.people * z, of_bent * bent.by_bend;
     return point;
 }
 
@@ -227,7 +232,7 @@ PeoplePosterior::Parameters PeoplePosterior::most_probable(Parameters from,
         Parameters change = information.solve(here.gradient);
         // No step leaves the region in which the curvature means anything.
         const double longest =
-            std::max(std::abs(change[0]) / reach_, change.tail<4>().cwiseAbs().maxCoeff());
+            std::max(std::abs(change[0]) / reach_, change.tail<5>().cwiseAbs().maxCoeff());
         change /= std::max(longest, 1.0);
         Value there = at(from + change, times);
         for (int halving = 0; halving < 20 && !(there.logarithm >= here.logarithm); ++halving) {

@@ -14,8 +14,8 @@ namespace gazeloop::statistics {
 /// 1e-3 of a subject's likelihood while its own spread is above a third of the people's).
 class PeoplePosterior {
   public:
-    /// Threshold, ln spread, logits of lowest and highest below kMostLapse, ln people.
-    using Parameters = Eigen::Matrix<double, 5, 1>;
+    /// Threshold, ln spread, logits of lowest and highest below kMostLapse, ln people, bend.
+    using Parameters = Eigen::Matrix<double, 6, 1>;
 
     /// Precondition: a subject has trials.
     PeoplePosterior(std::span<const std::vector<LevelCount>> subjects, bool rising, bool varying);
@@ -32,7 +32,7 @@ class PeoplePosterior {
     [[nodiscard]] FittedPeople function_of(const Parameters& parameters) const;
 
   private:
-    using Square = Eigen::Matrix<double, 5, 5>;
+    using Square = Eigen::Matrix<double, 6, 6>;
     struct Count {
         double trials = 0.0;
         double yes = 0.0;

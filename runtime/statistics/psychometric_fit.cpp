@@ -33,19 +33,39 @@ std::vector<double> once_each(std::size_t count) { return std::vector<double>(co
 }  // namespace
 
 double PsychometricFunction::at(double x) const {
-    const double z = (rising ? 1.0 : -1.0) * (x - threshold) / spread;
-    return lowest + (1.0 - lowest - highest) * normal_share(z);
+    const double u = (rising ? 1.0 : -1.0) * (x - threshold) / spread;
+    return lowest + (1.0 - lowest - highest) * normal_share(bent(u, bend).value);
+}
+
+PsychometricFunction::Bent PsychometricFunction::bent(double u, double bend) {
+    constexpr double kStraight = 1e-4;
+    constexpr double kMostExponent = 30.0;  // the normal's tails have ended long before
+    if (std::abs(bend) < kStraight) {
+        return {u + 0.5 * bend * u * u, 1.0 + bend * u, 0.5 * u * u + bend * u * u * u / 3.0};
+    }
+    const double exponent = std::clamp(bend * u, -kMostExponent, kMostExponent);
+    const double power = std::exp(exponent);
+    const double value = std::expm1(exponent) / bend;
+    return {value, power, (exponent * power / bend - value) / bend};
 }
 
 double PsychometricFunction::x_where(double yes) const {
     constexpr double kEnd = 1e-3;
     const double decided = std::clamp((yes - lowest) / (1.0 - lowest - highest), kEnd, 1.0 - kEnd);
-    return threshold + (rising ? 1.0 : -1.0) * spread * normal_quantile(decided);
+    const double z = normal_quantile(decided);
+    // Where g ends before z: beyond where it changes by more than a thousandth.
+    const double u = bend == 0.0 ? z : std::log(std::max(1.0 + bend * z, kEnd)) / bend;
+    return threshold + (rising ? 1.0 : -1.0) * spread * u;
 }
 
 PsychometricFunction FittedPeople::together() const {
     PsychometricFunction all = function;
     all.spread = std::hypot(function.spread, people);
+    // g bends with x as before; its mean over people is that of an exponential.
+    const double share = people / function.spread;
+    all.bend = function.bend * all.spread / function.spread;
+    all.threshold -=
+        (function.rising ? 0.5 : -0.5) * function.bend * share * share * function.spread;
     return all;
 }
 

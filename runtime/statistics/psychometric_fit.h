@@ -13,14 +13,25 @@ struct LevelCount {
     std::uint32_t yes = 0;
 };
 
-/// P(yes | x) = lowest + (1 - lowest - highest) Phi(+-(x - threshold) / spread): the cumulative
-/// normal of a noisy decision, and answers of which no look at the pictures decides.
+/// P(yes | x) = lowest + (1 - lowest - highest) Phi(g(u)), u = +-(x - threshold) / spread and
+/// g(u) = (exp(bend u) - 1) / bend, u itself where bend is 0: the cumulative normal of a noisy
+/// decision on what grows with x by a straight line or, over a logarithmic axis, with a power of
+/// the level; and answers of which no look at the pictures decides.
 struct PsychometricFunction {
     bool rising = true;      ///< whether yes becomes more frequent with x
     double threshold = 0.0;  ///< where the decision goes either way, in the unit of x
     double spread = 1.0;     ///< of the noise, in the unit of x; > 0
     double lowest = 0.0;     ///< share of yes where no decision is yes, in [0, kMostLapse]
     double highest = 0.0;    ///< share of no where every decision is yes, in [0, kMostLapse]
+    double bend = 0.0;       ///< above 0: steeper where yes is more frequent
+
+    /// g, and its derivatives by u and by bend.
+    struct Bent {
+        double value;
+        double by_u;
+        double by_bend;
+    };
+    [[nodiscard]] static Bent bent(double u, double bend);
 
     [[nodiscard]] double at(double x) const;
     /// The x at which yes is so frequent. Where it comes so far nowhere: the x beyond which it
@@ -35,7 +46,8 @@ struct FittedPeople {
     PsychometricFunction function;  ///< of the mean person; of all together where levels are fixed
     double people = 0.0;            ///< deviation of thresholds between people; 0: not fitted
 
-    /// The function of all people's answers together, whose spread holds that of the people.
+    /// The function of all people's answers together, whose spread holds that of the people: to the
+    /// first order of the bend.
     [[nodiscard]] PsychometricFunction together() const;
 };
 
@@ -57,8 +69,8 @@ struct FitOptions {
 /// at once, have no finite fit. With r the reach of the levels tried (at least 1e-3): threshold
 /// normal about their middle with deviation 2 r; ln spread normal about ln(r / 5) and ln people
 /// about ln(r / 10), both with 1.5; lowest and highest about 1.5 % on a logit scale below
-/// kMostLapse, with 1.5. Twenty answers near the threshold outweigh them. `subjects`: the counts
-/// of each. Precondition: one of them has trials.
+/// kMostLapse, with 1.5; bend about 0 with 1. Twenty answers near the threshold outweigh them.
+/// `subjects`: the counts of each. Precondition: one of them has trials.
 [[nodiscard]] FittedPeople fit_people(std::span<const std::vector<LevelCount>> subjects,
                                       const FitOptions& options);
 

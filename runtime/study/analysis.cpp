@@ -88,6 +88,44 @@ CellResult cell_result(const Plan& plan, const Counts& counts, std::size_t cell)
     return result;
 }
 
+/// What one subject answered in a condition.
+std::vector<statistics::LevelCount> level_counts(const Plan& plan,
+                                                 const std::vector<Count>& of_subject,
+                                                 std::size_t condition) {
+    const Factor& factor = plan.factors.front();
+    std::vector<statistics::LevelCount> list;
+    for (std::size_t level = 0; level < factor.levels.size(); ++level) {
+        const Count& count = of_subject[level * plan.conditions() + condition];
+        if (count.trials > 0) {
+            list.push_back(
+                {.x = plan.x_of(factor.levels[level]), .trials = count.trials, .yes = count.yes});
+        }
+    }
+    return list;
+}
+
+statistics::FitOptions fit_options(const Plan& plan, const AnalysisOptions& options,
+                                   std::uint32_t resamples) {
+    return {.rising = plan.higher_is_better,
+            .adaptive = adaptive(plan.design),
+            .criterion = plan.criterion,
+            .seed = options.seed,
+            .resamples = resamples};
+}
+
+/// By condition.
+std::vector<std::optional<statistics::FittedThreshold>> fits_of(
+    const Plan& plan, const std::vector<Count>& of_subject, const AnalysisOptions& options) {
+    std::vector<std::optional<statistics::FittedThreshold>> fits(plan.conditions());
+    for (std::size_t condition = 0; condition < fits.size(); ++condition) {
+        if (const auto list = level_counts(plan, of_subject, condition); !list.empty()) {
+            fits[condition] = statistics::fit_threshold(
+                std::span(&list, 1), fit_options(plan, options, options.resamples / 5));
+        }
+    }
+    return fits;
+}
+
 ThresholdResult threshold_result(const Plan& plan, const StudyResult& study, const Counts& counts,
                                  std::size_t condition, const AnalysisOptions& options) {
     ThresholdResult result;
@@ -104,29 +142,16 @@ ThresholdResult threshold_result(const Plan& plan, const StudyResult& study, con
     result.mean = mean;
     result.deviation = deviation;
 
-    const Factor& factor = plan.factors.front();
     std::vector<std::vector<statistics::LevelCount>> subjects;
     for (const std::vector<Count>& of_subject : counts) {
-        std::vector<statistics::LevelCount> list;
-        for (std::size_t level = 0; level < factor.levels.size(); ++level) {
-            const Count& count = of_subject[level * plan.conditions() + condition];
-            if (count.trials > 0) {
-                list.push_back({.x = plan.x_of(factor.levels[level]),
-                                .trials = count.trials,
-                                .yes = count.yes});
-            }
-        }
-        if (!list.empty()) {
+        if (auto list = level_counts(plan, of_subject, condition); !list.empty()) {
             subjects.push_back(std::move(list));
         }
     }
     result.fitted = result.low = result.high = kNan;
     if (!subjects.empty()) {
-        result.fit = statistics::fit_threshold(subjects, {.rising = plan.higher_is_better,
-                                                          .adaptive = adaptive(plan.design),
-                                                          .criterion = plan.criterion,
-                                                          .seed = options.seed,
-                                                          .resamples = options.resamples});
+        result.fit =
+            statistics::fit_threshold(subjects, fit_options(plan, options, options.resamples));
         result.fitted = plan.level_at(result.fit->x);
         result.low = plan.level_at(result.fit->low);
         result.high = plan.level_at(result.fit->high);
@@ -134,7 +159,8 @@ ThresholdResult threshold_result(const Plan& plan, const StudyResult& study, con
     return result;
 }
 
-/// Answers to one level by condition, of one subject and session: the nth of each belong together.
+/// Answers to one level by condition, of one subject and session (of all sessions, where some
+/// conditions have sessions of their own): the nth of each belong together.
 struct BlockKey {
     unsigned subject;
     unsigned session;
@@ -154,8 +180,9 @@ LevelTest level_test(const Plan& plan, const BySubject& kept, std::size_t level)
                 continue;
             }
             const std::size_t condition = condition_of(plan, response.trial);
-            const std::size_t nth = seen[{response.trial.session, condition}]++;
-            auto& block = blocks[{subject, response.trial.session, nth}];
+            const unsigned session = plan.least_sessions() > 1 ? 0 : response.trial.session;
+            const std::size_t nth = seen[{session, condition}]++;
+            auto& block = blocks[{subject, session, nth}];
             block.resize(conditions);
             block[condition] = decisions.front().yes;
         }
@@ -229,6 +256,13 @@ StudyResult analyse(const Plan& plan, std::span<const Response> responses,
         }
     }
     const Counts counts = counts_of(plan, kept);
+    for (std::size_t i = 0, of_kept = 0; options.fit_subjects && i < result.subjects.size(); ++i) {
+        SubjectResult& subject = result.subjects[i];
+        subject.fits =
+            subject.excluded
+                ? std::vector<std::optional<statistics::FittedThreshold>>(plan.conditions())
+                : fits_of(plan, counts[of_kept++], options);
+    }
     for (std::size_t cell = 0; cell < plan.cells(); ++cell) {
         result.cells.push_back(cell_result(plan, counts, cell));
     }

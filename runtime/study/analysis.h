@@ -32,6 +32,9 @@ struct SubjectResult {
     std::size_t failed = 0;       ///< of these
     bool excluded = false;        ///< failed too many, or answered nothing that counts
     std::vector<std::optional<double>> thresholds{};  ///< by condition, by the papers' rules
+    /// By condition: over this subject's answers alone. Empty unless asked for; none: no answers,
+    /// or excluded.
+    std::vector<std::optional<statistics::FittedThreshold>> fits{};
 };
 
 /// A threshold in one condition. Levels, not their logarithms.
@@ -76,6 +79,7 @@ struct StudyResult {
 struct AnalysisOptions {
     std::uint32_t resamples = 1000;
     std::uint64_t seed = 1;
+    bool fit_subjects = false;  ///< each by itself, too, with a fifth of the resamples
 };
 
 /// Of several subjects' responses, in any order. Training and spoilt trials do not count, nor do

@@ -28,7 +28,10 @@ svg { width: 100%; height: auto; } svg text { font: 11px system-ui, sans-serif; 
 .level { stroke: #b3261e; stroke-dasharray: 5 3; }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
 th, td { padding: .15rem .55rem; text-align: right; border-bottom: 1px solid #e3e6ea; }
-.key span { display: inline-block; width: .8em; height: .8em; margin: 0 .35em 0 1em; }
+th:first-child, td:first-child { text-align: left; }
+.wide { grid-column: 1 / -1; }
+.key span { margin-right: 1em; white-space: nowrap; }
+.key i { display: inline-block; width: .8em; height: .8em; margin-right: .35em; }
 .scroll { overflow-x: auto; }
 </style></head><body>
 )";
@@ -44,7 +47,7 @@ std::string key_of(const StudyResult& result) {
     std::string html = "<p class=\"key\">";
     for (std::size_t condition = 0; condition < result.thresholds.size(); ++condition) {
         html += fmt::format(
-            "<span style=\"background:{}\"></span>{}", plot_colour(condition),
+            "<span><i style=\"background:{}\"></i>{}</span> ", plot_colour(condition),
             html_text(condition_name(*result.plan, result.thresholds[condition].condition)));
     }
     return html + "</p>\n";
@@ -79,10 +82,13 @@ std::string bars(const StudyResult& result) {
                              one.subjects_mean, one.yes.trials));
         if (std::isfinite(one.standard_error)) {
             plot.whisker(from + 0.45 * width, one.subjects_mean - one.standard_error,
-                         one.subjects_mean + one.standard_error);
+                         one.subjects_mean + one.standard_error, 0.9 * width);
         }
     }
-    return plot.figure();
+    // So many bars need the whole page's width to be told apart.
+    constexpr std::size_t kManyBars = 60;
+    return result.cells.size() > kManyBars ? "<div class=\"wide\">" + plot.figure() + "</div>\n"
+                                           : plot.figure();
 }
 
 SvgPlot over_levels(const StudyResult& result, const std::string& title, double greatest,
@@ -164,7 +170,7 @@ std::string histogram(const StudyResult& result) {
         marks.push_back(
             {static_cast<double>(level) + 0.5, fmt::format("{:g}", factor.levels[level])});
     }
-    SvgPlot plot("Subjects' thresholds, by the paper's rule", 0.0,
+    SvgPlot plot("Subjects' thresholds: " + rule_name(result.plan->design), 0.0,
                  static_cast<double>(counts.size()), most, marks, factor.name, "thresholds");
     for (std::size_t level = 0; level < counts.size(); ++level) {
         const auto from = static_cast<double>(level) + 0.1;
@@ -175,9 +181,10 @@ std::string histogram(const StudyResult& result) {
 }
 
 std::string thresholds_table(const StudyResult& result) {
-    std::string html =
+    std::string html = fmt::format(
         "<div class=\"scroll\"><table><thead><tr><th>condition<th>mean<th>sd<th>subjects<th>fitted"
-        "<th>95 % from<th>to<th>spread of ln level, or level<th>people</tr></thead><tbody>\n";
+        "<th>95 % from<th>to<th>spread{0}<th>people{0}</tr></thead><tbody>\n",
+        result.plan->logarithmic ? ", ln" : "");
     for (const ThresholdResult& one : result.thresholds) {
         const std::string name = condition_name(*result.plan, one.condition);
         html += fmt::format(
@@ -230,13 +237,13 @@ std::string analysis_page(const StudyResult& result) {
     return fmt::format(
         "{}<h1>{}</h1>\n<p>Design {}: {} subjects, {} answers that count.{}</p>\n<p>{}</p>\n{}"
         "<div class=\"plots\">\n{}{}{}</div>\n<h2>Thresholds of {}</h2>\n"
-        "<p>Mean and sd over subjects, by the paper's rule; fitted over all answers, where {:g} % "
-        "of them are yes.</p>\n{}{}</body></html>\n",
+        "<p>Mean and sd over subjects, by {}; fitted over all answers, where {:g} % of them are "
+        "yes; people: how much their thresholds differ.</p>\n{}{}</body></html>\n",
         kHead, html_text(plan.name), kDesignNames[static_cast<std::size_t>(plan.design)],
         result.subjects.size(), answers, html_text(left_out), html_text(plan.source),
         key_of(result), bars(result), curves(result), histogram(result),
-        html_text(plan.factors.front().name), 100.0 * plan.criterion, thresholds_table(result),
-        tests_table(result));
+        html_text(plan.factors.front().name), rule_name(plan.design), 100.0 * plan.criterion,
+        thresholds_table(result), tests_table(result));
 }
 
 }  // namespace gazeloop::study

@@ -45,7 +45,8 @@ std::string thresholds_text(const StudyResult& result) {
                         text(threshold.fitted), text(threshold.low), text(threshold.high),
                         threshold.fit && threshold.fit->outside ? "  outside what was shown" : "");
     }
-    return out + "mean, sd, n: over subjects, by the paper's rule; fitted: over all answers\n";
+    return out + fmt::format("mean, sd, n: over subjects, {}; fitted: over all answers\n",
+                             rule_name(plan.design));
 }
 
 std::string tests_text(const StudyResult& result) {
@@ -76,12 +77,25 @@ std::string tests_text(const StudyResult& result) {
     return out;
 }
 
+/// Of one subject.
+Json fit_json(const Plan& plan, const statistics::FittedThreshold& fit) {
+    return {{"fitted", number(plan.level_at(fit.x))},  {"low", number(plan.level_at(fit.low))},
+            {"high", number(plan.level_at(fit.high))}, {"spread_x", fit.people.function.spread},
+            {"lowest", fit.people.function.lowest},    {"highest", fit.people.function.highest},
+            {"bend", fit.people.function.bend},        {"outside", fit.outside}};
+}
+
 Json subjects_json(const StudyResult& result) {
+    const Plan& plan = *result.plan;
     Json list = Json::array();
     for (const SubjectResult& subject : result.subjects) {
         Json thresholds = Json::array();
         for (const std::optional<double>& one : subject.thresholds) {
             thresholds.push_back(one ? Json(*one) : Json(nullptr));
+        }
+        Json fits = Json::array();
+        for (const std::optional<statistics::FittedThreshold>& one : subject.fits) {
+            fits.push_back(one ? fit_json(plan, *one) : Json(nullptr));
         }
         list.push_back({{"subject", subject.subject},
                         {"answers", subject.answers},
@@ -89,7 +103,8 @@ Json subjects_json(const StudyResult& result) {
                         {"validations", subject.validations},
                         {"failed", subject.failed},
                         {"excluded", subject.excluded},
-                        {"thresholds", thresholds}});
+                        {"thresholds", thresholds},
+                        {"fits", fits}});
     }
     return list;
 }
@@ -133,10 +148,28 @@ std::string yes_name(const Plan& plan) {
     return "P(yes)";
 }
 
+std::string rule_name(Design design) {
+    switch (design) {
+        case Design::SameDifferent:
+        case Design::Quest:
+            return "the level furthest from the reference that was mostly called the same";
+        case Design::Pair:
+            return "the lowest level called as good or better";
+        case Design::Ramp:
+            return "the lowest level whose ramp was not seen, or the wrong way";
+        case Design::Slider:
+            return "the first stop";
+    }
+    return {};
+}
+
 std::string condition_name(const Plan& plan, std::span<const double> levels) {
     std::string name;
     for (std::size_t at = 0; at < levels.size(); ++at) {
-        name += fmt::format("{}{} {:g}", at > 0 ? ", " : "", plan.factors[at + 1].name, levels[at]);
+        const Factor& factor = plan.factors[at + 1];
+        name += fmt::format(
+            "{}{} {}", at > 0 ? ", " : "", factor.name,
+            factor.values.empty() ? fmt::format("{:g}", levels[at]) : factor.value_of(levels[at]));
     }
     return name;
 }
@@ -183,7 +216,10 @@ Json analysis_json(const StudyResult& result) {
     const Plan& plan = *result.plan;
     Json factors = Json::array();
     for (const Factor& factor : plan.factors) {
-        factors.push_back({{"name", factor.name}, {"key", factor.key}, {"levels", factor.levels}});
+        factors.push_back({{"name", factor.name},
+                           {"key", factor.key},
+                           {"levels", factor.levels},
+                           {"values", factor.values}});
     }
     Json cells = Json::array();
     for (const CellResult& cell : result.cells) {
@@ -212,6 +248,7 @@ Json analysis_json(const StudyResult& result) {
                                {"spread_x", people.function.spread},
                                {"lowest", people.function.lowest},
                                {"highest", people.function.highest},
+                               {"bend", people.function.bend},
                                {"people_x", people.people},
                                {"outside", threshold.fit->outside}};
         }

@@ -10,7 +10,9 @@ namespace gazeloop::study {
 
 /// What yes means in a plan's cells: "P(same)".
 [[nodiscard]] std::string yes_name(const Plan& plan);
-/// "alpha 4" or "alpha 4, motion 2"; empty without a second factor.
+/// By what a subject's threshold is taken (subject_thresholds.h), in words.
+[[nodiscard]] std::string rule_name(Design design);
+/// "alpha 4" or "alpha 4, motion pan"; empty without a second factor.
 [[nodiscard]] std::string condition_name(const Plan& plan, std::span<const double> levels);
 
 /// For a terminal.

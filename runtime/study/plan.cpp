@@ -43,6 +43,12 @@ Expected<void> check_factor(const Plan& plan, std::size_t at) {
         return bad(fmt::format("{}: {} values for {} levels", where, factor.values.size(),
                                factor.levels.size()));
     }
+    if (factor.by_session && at == 0) {
+        return bad(
+            fmt::format("{}: the first factor is judged within a session: by_session cannot "
+                        "be true",
+                        where));
+    }
     if (!std::isfinite(factor.quotient) ||
         (factor.quotient != 0.0 && factor.levels.front() <= 0.0)) {
         return bad(fmt::format("{}: a quotient needs levels above 0", where));
@@ -83,6 +89,10 @@ Expected<void> check_ranges(const Plan& plan) {
 
 }  // namespace
 
+bool is_of_all_methods(std::string_view key) {
+    return key == "render.scene" || key == "render.camera";
+}
+
 std::string Factor::value_of(double level) const {
     if (!values.empty()) {
         return values[index_of(level)];
@@ -103,6 +113,29 @@ std::size_t Plan::cells() const {
         cells *= factor.levels.size();
     }
     return cells;
+}
+
+std::size_t Plan::cells_of_session() const {
+    std::size_t cells = 1;
+    for (const Factor& factor : factors) {
+        cells *= factor.by_session ? 1 : factor.levels.size();
+    }
+    return cells;
+}
+
+unsigned Plan::least_sessions() const {
+    std::size_t least = 1;
+    for (const Factor& factor : factors) {
+        if (factor.by_session) {
+            least = std::max(least, factor.levels.size());
+        }
+    }
+    return static_cast<unsigned>(least);
+}
+
+bool Plan::reference_varies() const {
+    return std::ranges::any_of(factors.begin() + 1, factors.end(),
+                               [](const Factor& factor) { return is_of_all_methods(factor.key); });
 }
 
 std::size_t Plan::conditions() const { return cells() / factors.front().levels.size(); }
@@ -154,7 +187,15 @@ Expected<void> check(const Plan& plan) {
     if (auto ranges = check_ranges(plan); !ranges) {
         return ranges;
     }
-    const double trials = cells * plan.sessions * plan.repeats * 2.0 / (1.0 - plan.validation);
+    if (plan.sessions < plan.least_sessions()) {
+        return bad(
+            fmt::format("sessions is {}, and {} are needed to show each level of a factor "
+                        "that has one in a session (scenes, by_session): sessions = {}, or a "
+                        "[[factor]] without by_session, whose levels are all shown in each",
+                        plan.sessions, plan.least_sessions(), plan.least_sessions()));
+    }
+    const double trials = static_cast<double>(plan.cells_of_session()) * plan.sessions *
+                          plan.repeats * 2.0 / (1.0 - plan.validation);
     if (cells > static_cast<double>(kMostCells) || trials > static_cast<double>(kMostTrials)) {
         return bad(
             fmt::format("{:.0f} cells and up to {:.0f} trials per subject are more than {} "

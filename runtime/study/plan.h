@@ -32,10 +32,16 @@ struct Factor {
     /// level itself.
     std::vector<std::string> values{};
     double quotient = 0.0;
+    /// One level in a whole session, in turns that are balanced over subjects; else all in each.
+    bool by_session = false;
 
     [[nodiscard]] std::string value_of(double level) const;
     [[nodiscard]] std::size_t index_of(double level) const;  ///< of the nearest level
 };
+
+/// Whether a setting is no method's, but decides pictures by any: of scene and camera. A reference
+/// then has it too.
+[[nodiscard]] bool is_of_all_methods(std::string_view key);
 
 /// When the eyes spoil a trial.
 struct GazeRules {
@@ -60,22 +66,28 @@ struct Plan {
     bool logarithmic = true;        ///< thresholds are fitted over ln level
     double criterion = 0.5;         ///< share of yes (decisions.h) at the threshold
     std::vector<std::pair<std::string, std::string>> settings{};  ///< of all pictures
-    std::vector<std::string> scenes{};  ///< one per session, in turns; empty: the run's
-    unsigned subjects = 1;              ///< how many the study is meant for
-    unsigned sessions = 1;              ///< each with all cells; rest in between
-    unsigned repeats = 1;               ///< of each cell in a session; Quest: trials of a staircase
-    unsigned training = 0;              ///< trials before the first session
-    double validation = 0.0;            ///< share of trials whose pictures are equal, in [0, 0.9]
-    double most_failed = 0.25;          ///< subjects who fail a larger share are left out
-    double shown_s = 2.5;               ///< each picture
-    double black_s = 0.75;              ///< before and between pictures
-    double answer_s = 1.5;  ///< how long an answer is expected to take: for plans' length
-    double rest_s = 30.0;   ///< at least, after a session or a failed validation
-    unsigned steps = 5;     ///< of a ramp, >= 2
+    unsigned subjects = 1;    ///< how many the study is meant for
+    unsigned sessions = 1;    ///< each with all cells, of factors by session those of a level; rest
+                              ///< in between
+    unsigned repeats = 1;     ///< of each cell in a session; Quest: trials of a staircase
+    unsigned training = 0;    ///< trials before the first session
+    double validation = 0.0;  ///< share of trials whose pictures are equal, in [0, 0.9]
+    double most_failed = 0.25;  ///< subjects who fail a larger share are left out
+    double shown_s = 2.5;       ///< each picture
+    double black_s = 0.75;      ///< before and between pictures
+    double answer_s = 1.5;      ///< how long an answer is expected to take: for plans' length
+    double rest_s = 30.0;       ///< at least, after a session or a failed validation
+    unsigned steps = 5;         ///< of a ramp, >= 2
     GazeRules gaze{};
     std::uint64_t seed = 1;
 
     [[nodiscard]] std::size_t cells() const;  ///< combinations of levels
+    /// Those of one session.
+    [[nodiscard]] std::size_t cells_of_session() const;
+    /// So many that each level of factors by session is shown.
+    [[nodiscard]] unsigned least_sessions() const;
+    /// Whether the reference of a trial depends on its levels.
+    [[nodiscard]] bool reference_varies() const;
     /// Of all factors but the first.
     [[nodiscard]] std::size_t conditions() const;
     /// A level of each factor. Precondition: cell < cells().

@@ -189,7 +189,19 @@ Factor factor_of(const toml::table& table) {
     keys.read("levels", factor.levels);
     keys.read("values", factor.values);
     keys.read("quotient", factor.quotient);
+    keys.read("by_session", factor.by_session);
     keys.end();
+    return factor;
+}
+
+/// What `scenes = [...]` is short for.
+Factor scene_factor(std::vector<std::string> scenes) {
+    Factor factor{.name = "scene", .key = "render.scene", .levels = {}, .values = {}};
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        factor.levels.push_back(static_cast<double>(i + 1));
+    }
+    factor.values = std::move(scenes);
+    factor.by_session = true;
     return factor;
 }
 
@@ -222,7 +234,8 @@ Plan plan_of_table(const toml::table& table) {
     keys.read("higher_is_better", plan.higher_is_better);
     keys.read("logarithmic", plan.logarithmic);
     keys.read("criterion", plan.criterion);
-    keys.read("scenes", plan.scenes);
+    std::vector<std::string> scenes;
+    keys.read("scenes", scenes);
     keys.read("subjects", plan.subjects);
     keys.read("sessions", plan.sessions);
     keys.read("repeats", plan.repeats);
@@ -258,6 +271,9 @@ Plan plan_of_table(const toml::table& table) {
         }
     }
     keys.end();
+    if (!scenes.empty()) {
+        plan.factors.push_back(scene_factor(std::move(scenes)));
+    }
     return plan;
 }
 
@@ -268,15 +284,15 @@ std::string plan_text(const Plan& plan) {
         "# A study: gazeloop study run runs it for one subject, study power says what it finds.\n"
         "format = \"{}\"\nversion = {}\nname = {}\nsource = {}\ndesign = \"{}\"\nmethod = {}\n"
         "reference_method = {}\nhigher_is_better = {}\nlogarithmic = {}\ncriterion = {}\n"
-        "scenes = {}\nsubjects = {}\nsessions = {}\nrepeats = {}\ntraining = {}\nvalidation = {}\n"
+        "subjects = {}\nsessions = {}\nrepeats = {}\ntraining = {}\nvalidation = {}\n"
         "most_failed = {}\nshown_s = {}\nblack_s = {}\nanswer_s = {}\nrest_s = {}\nsteps = {}\n"
         "seed = {}\n",
         kFormat, kVersion, toml_text(plan.name), toml_text(plan.source),
         kDesignNames[static_cast<std::size_t>(plan.design)], toml_text(plan.method),
         toml_text(plan.reference_method), plan.higher_is_better, plan.logarithmic,
-        real(plan.criterion), texts(plan.scenes), plan.subjects, plan.sessions, plan.repeats,
-        plan.training, real(plan.validation), real(plan.most_failed), real(plan.shown_s),
-        real(plan.black_s), real(plan.answer_s), real(plan.rest_s), plan.steps, plan.seed);
+        real(plan.criterion), plan.subjects, plan.sessions, plan.repeats, plan.training,
+        real(plan.validation), real(plan.most_failed), real(plan.shown_s), real(plan.black_s),
+        real(plan.answer_s), real(plan.rest_s), plan.steps, plan.seed);
     text += fmt::format(
         "\n[gaze]\nfollow = {}\ntarget_deg = {}\nmost_off_s = {}\nmost_lost_s = {}\n"
         "most_attempts = {}\n",
@@ -291,6 +307,9 @@ std::string plan_text(const Plan& plan) {
                             toml_text(factor.name), toml_text(factor.key), reals(factor.levels));
         if (!factor.values.empty()) {
             text += fmt::format("values = {}\n", texts(factor.values));
+        }
+        if (factor.by_session) {
+            text += "by_session = true\n";
         }
         if (factor.quotient != 0.0) {
             text += fmt::format("quotient = {}\n", real(factor.quotient));

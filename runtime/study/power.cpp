@@ -98,7 +98,7 @@ std::vector<unsigned> power_steps(const Plan& plan) {
 
 Plan as_long_as(const Plan& plan, const SimulatedPeople& people, double minutes) {
     Plan longer = plan;
-    longer.sessions = 1;
+    longer.sessions = plan.least_sessions();
     longer.repeats = 1;
     const double once = simulate_subject(longer, people, 1).hours * 60.0;
     longer.repeats = 2;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "runtime/study/people_report.h"
+
 namespace gazeloop::study {
 namespace {
 
@@ -28,12 +30,11 @@ std::string half_width(const PowerOfPlan& plan, double width) {
 }  // namespace
 
 std::string power_text(const SimulatedPeople& people, std::span<const PowerOfPlan> plans) {
-    const sim::ObserverTerms& terms = people.terms;
     std::string out = fmt::format(
-        "Simulated people: noise {:g}, bias {:g}, lapse {:g}, fatigue {:g}/h, people {:g}\n"
+        "{}\n"
         "{:<14}{:>9}{:>7}{:>9}{:>9}{:>9}{:>9}{:>9}{:>8}{:>9}\n",
-        terms.noise, terms.bias, terms.lapse, terms.fatigue, terms.people, "plan", "subjects",
-        "min", "answers", "true", "half", "holds", "bias", "Q<.05", "by rule");
+        people_text(people.terms), "plan", "subjects", "min", "answers", "true", "half", "holds",
+        "bias", "Q<.05", "by rule");
     for (const PowerOfPlan& plan : plans) {
         for (const PowerRow& row : plan.rows) {
             out += fmt::format("{:<14}{:>9}{:>7.1f}{:>9.0f}{:>9.3g}{:>9}{:>9}{:>9}{:>8}{:>9.3g}\n",
@@ -50,7 +51,6 @@ std::string power_text(const SimulatedPeople& people, std::span<const PowerOfPla
 }
 
 Json power_json(const SimulatedPeople& people, std::span<const PowerOfPlan> plans) {
-    const sim::ObserverTerms& terms = people.terms;
     Json list = Json::array();
     for (const PowerOfPlan& plan : plans) {
         Json rows = Json::array();
@@ -72,13 +72,7 @@ Json power_json(const SimulatedPeople& people, std::span<const PowerOfPlan> plan
                         {"logarithmic", plan.logarithmic},
                         {"rows", rows}});
     }
-    return {{"people",
-             {{"noise", terms.noise},
-              {"bias", terms.bias},
-              {"lapse", terms.lapse},
-              {"fatigue_per_hour", terms.fatigue},
-              {"people", terms.people}}},
-            {"plans", list}};
+    return {{"people", people_json(people.terms)}, {"plans", list}};
 }
 
 }  // namespace gazeloop::study

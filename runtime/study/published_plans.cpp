@@ -66,7 +66,7 @@ Plan f3d(std::string name, Design design, std::vector<double> indices) {
             .method = "layers",
             .factors = {quality_index(std::move(indices))},
             .higher_is_better = true,
-            .settings = {{"layers.s2_fixed", "true"}},
+            .settings = {{"layers.s2_fixed", "true"}, {"render.camera", "fly-4"}},
             .subjects = 15,
             .black_s = 0.5,
             .gaze = {.follow = true}};
@@ -76,7 +76,7 @@ Plan f3d_pair() {
     Plan plan = f3d("f3d-pair", Design::Pair, levels(8, 1, 15));
     plan.source =
         "Guenter et al. 2012, 5. Chosen here: j = 0.33 / slope, which gives both published slopes; "
-        "time for an answer";
+        "how the camera moves; time for an answer";
     plan.shown_s = 8.0;
     return plan;
 }
@@ -85,7 +85,7 @@ Plan f3d_ramp() {
     Plan plan = f3d("f3d-ramp", Design::Ramp, {4, 5, 7, 10, 12, 15, 17, 22});
     plan.source =
         "Guenter et al. 2012, 5: from j0 = 22 and back. Chosen here: j = 0.33 / slope; steps are "
-        "even in j; time for an answer";
+        "even in j; how the camera moves; time for an answer";
     plan.reference_method = "layers";
     plan.shown_s = 5.0;
     return plan;
@@ -95,9 +95,15 @@ Plan f3d_slider() {
     Plan plan = f3d("f3d-slider", Design::Slider, levels(4, 1, 19));
     plan.source =
         "Guenter et al. 2012, 5: six speeds of the camera, one that stands and pans, one that "
-        "stands. Which speeds is not stated: the condition sets nothing. Chosen here: levels up to "
-        "22, j = 0.33 / slope";
-    plan.factors.push_back({.name = "motion", .key = "", .levels = {1, 2, 3, 4, 5, 6, 7, 8}});
+        "stands. Not stated there, chosen here: which speeds (each twice the last, 0.025 to 0.8 "
+        "m/s); "
+        "levels up to 22; j = 0.33 / slope";
+    plan.settings.pop_back();
+    plan.factors.push_back(
+        {.name = "motion",
+         .key = "render.camera",
+         .levels = {1, 2, 3, 4, 5, 6, 7, 8},
+         .values = {"still", "pan", "fly-1", "fly-2", "fly-3", "fly-4", "fly-5", "fly-6"}});
     plan.repeats = 2;
     plan.shown_s = 8.0;
     return plan;

@@ -33,8 +33,10 @@ Expected<std::unique_ptr<ReplayedStudy>> ReplayedStudy::create(
 std::vector<Stimulus> ReplayedStudy::samples() const {
     std::vector<Stimulus> samples;
     for (const Shown& shown : shown_) {
-        if (!shown.stimulus.method.empty() &&
-            std::ranges::find(samples, shown.stimulus.method, &Stimulus::method) == samples.end()) {
+        const auto alike = [&shown](const Stimulus& one) {
+            return one.method == shown.stimulus.method && one.scene() == shown.stimulus.scene();
+        };
+        if (!shown.stimulus.method.empty() && std::ranges::none_of(samples, alike)) {
             samples.push_back(shown.stimulus);
         }
     }

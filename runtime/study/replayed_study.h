@@ -16,7 +16,7 @@ class ReplayedStudy final : public render::FrameChooser {
     static Expected<std::unique_ptr<ReplayedStudy>> create(
         const std::vector<session::TrialRow>& rows);
 
-    /// One of each method, for Stimuli, which must be set before the first frame.
+    /// One of each method in each scene, for Stimuli, which must be set before the first frame.
     [[nodiscard]] std::vector<Stimulus> samples() const;
     void set_stimuli(std::unique_ptr<Stimuli> stimuli) { stimuli_ = std::move(stimuli); }
 

@@ -148,7 +148,7 @@ Expected<void> check_response(const Plan& plan, const Response& response) {
                                kDesignNames[static_cast<std::size_t>(plan.design)],
                                kAnswerNames[static_cast<std::size_t>(response.answer)]));
     }
-    if (response.trial.kind == TrialKind::Validation) {
+    if (response.trial.kind == TrialKind::Validation && !plan.reference_varies()) {
         return response.trial.levels.empty() ? Expected<void>{}
                                              : bad("a validation trial has no levels");
     }

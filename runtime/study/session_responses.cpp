@@ -61,6 +61,12 @@ Expected<std::vector<session::ResponseRow>> rows_of(const std::filesystem::path&
     if (!session) {
         return std::unexpected(session.error());
     }
+    if (!session->info().missing_log.empty()) {
+        // The last answers are there.
+        return std::unexpected(
+            Error{ErrorKind::BadInput,
+                  fmt::format("{}: {}", file.string(), session->info().missing_log)});
+    }
     return session::read_responses(*session);
 }
 

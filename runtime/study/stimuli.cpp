@@ -29,6 +29,12 @@ std::string Stimulus::settings_text() const {
     return text;
 }
 
+std::string_view Stimulus::scene() const {
+    const auto found =
+        std::ranges::find(settings, "render.scene", [](const auto& one) { return one.first; });
+    return found == settings.end() ? std::string_view() : std::string_view(found->second);
+}
+
 Stimuli::Stimuli(MakeStimulus make, const std::vector<Stimulus>& samples) : make_(std::move(make)) {
     for (const Stimulus& sample : samples) {
         std::unique_ptr<render::FrameRenderer> renderer = make_(sample);

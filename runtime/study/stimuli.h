@@ -4,6 +4,7 @@
 #include <list>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Stimulus {
 
     /// KEY=VALUE, with blanks between.
     [[nodiscard]] std::string settings_text() const;
+    /// The scene that it draws, if it is another than the run's; else empty.
+    [[nodiscard]] std::string_view scene() const;
     friend bool operator==(const Stimulus&, const Stimulus&) = default;
 };
 
@@ -31,8 +34,8 @@ using MakeStimulus = std::function<std::unique_ptr<render::FrameRenderer>(const 
 /// while the display is black; the least recently used ones go, because their pictures fill memory.
 class Stimuli {
   public:
-    /// `samples`: one of each method; their passes and grids are the run's. Throws what `make`
-    /// throws, and SetupError (Usage) if they are more than a session has columns for.
+    /// `samples`: one of each method in each scene; their passes and grids are the run's. Throws
+    /// what `make` throws, and SetupError (Usage) if they are more than a session has columns for.
     Stimuli(MakeStimulus make, const std::vector<Stimulus>& samples);
 
     /// Stays until kMost others have been asked for. Throws what `make` throws, and SetupError

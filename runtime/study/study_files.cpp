@@ -37,7 +37,9 @@ Expected<std::string> forget_rows(unsigned subject, const std::filesystem::path&
         return bad(file, fmt::format("cannot be read ({})", in.error()));
     }
     const std::string text((std::istreambuf_iterator<char>(*in)), std::istreambuf_iterator<char>());
-    if (!text.starts_with("subject,")) {
+    // What study analyse writes for R has a comment first.
+    const std::size_t head = text.starts_with('#') ? text.find('\n') + 1 : 0;
+    if (!std::string_view(text).substr(head).starts_with("subject,")) {
         return bad(file, "holds no answers of a study");
     }
     std::string kept;
@@ -107,7 +109,14 @@ Expected<std::vector<Response>> gather(const Plan& plan,
     return all;
 }
 
-Expected<void> write_private(const std::filesystem::path& file, std::string_view text) {
+Expected<void> write_private(const std::filesystem::path& named, std::string_view text) {
+    // What a link leads to, which would else stay as it was.
+    std::error_code unknown;
+    const std::filesystem::path target = std::filesystem::canonical(named, unknown);
+    const std::filesystem::path& file = unknown ? named : target;
+    if (!unknown && !std::filesystem::is_regular_file(file)) {
+        return bad(named, "is no file: answers of persons go into files alone");
+    }
     const std::string partial = file.string() + ".partial";
     const auto failed = [&](int descriptor) {
         const int error = errno;

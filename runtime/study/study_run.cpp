@@ -2,8 +2,11 @@
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 
 #include "runtime/study/drawn_gaze.h"
 
@@ -13,10 +16,11 @@ namespace {
 constexpr std::array<std::string_view, 6> kScreenNames{"black", "picture", "question",
                                                        "rest",  "away",    "over"};
 
-void add_conditions(const Plan& plan, const Trial& trial, Stimulus& stimulus) {
+void add_conditions(const Plan& plan, const Trial& trial, bool of_method, Stimulus& stimulus) {
     stimulus.settings = plan.settings;
     for (std::size_t at = 1; at < trial.levels.size(); ++at) {
-        if (!plan.factors[at].key.empty()) {
+        const std::string& key = plan.factors[at].key;
+        if (!key.empty() && (of_method || is_of_all_methods(key))) {
             stimulus.settings.emplace_back(plan.factors[at].key,
                                            plan.factors[at].value_of(trial.levels[at]));
         }
@@ -31,13 +35,13 @@ Stimulus reference_stimulus(const Plan& plan, const Trial& trial) {
         const std::vector<double>& levels = plan.factors.front().levels;
         return test_stimulus(plan, trial, plan.higher_is_better ? levels.back() : levels.front());
     }
-    stimulus.settings = plan.settings;
+    add_conditions(plan, trial, false, stimulus);
     return stimulus;
 }
 
 Stimulus test_stimulus(const Plan& plan, const Trial& trial, double level) {
     Stimulus stimulus{.method = plan.method};
-    add_conditions(plan, trial, stimulus);
+    add_conditions(plan, trial, true, stimulus);
     stimulus.settings.emplace_back(plan.factors.front().key, plan.factors.front().value_of(level));
     return stimulus;
 }
@@ -52,9 +56,21 @@ StudyRun::StudyRun(const Plan& plan, TrialQueue& queue, unsigned subject, Subjec
       clock_(plan, queue, subject) {}
 
 std::vector<Stimulus> StudyRun::samples() const {
-    const Trial trial{.levels = plan_.levels_of(0)};
-    return {reference_stimulus(plan_, trial),
-            test_stimulus(plan_, trial, plan_.factors.front().levels.front())};
+    std::vector<Stimulus> samples;
+    const auto add = [&samples](Stimulus stimulus) {
+        const bool known = std::ranges::any_of(samples, [&](const Stimulus& one) {
+            return one.method == stimulus.method && one.scene() == stimulus.scene();
+        });
+        if (!known) {
+            samples.push_back(std::move(stimulus));
+        }
+    };
+    for (std::size_t condition = 0; condition < plan_.conditions(); ++condition) {
+        const Trial trial{.levels = plan_.levels_of(condition)};
+        add(reference_stimulus(plan_, trial));
+        add(test_stimulus(plan_, trial, trial.levels.front()));
+    }
+    return samples;
 }
 
 Stimulus StudyRun::stimulus_of(const Shown& shown) const {
@@ -64,6 +80,7 @@ Stimulus StudyRun::stimulus_of(const Shown& shown) const {
 }
 
 render::FrameRenderer* StudyRun::choose(const render::FrameToChoose& frame) {
+    cannot_keep_ = cannot_keep_ || (recorder_ != nullptr && recorder_->in_trouble());
     clock_.wear(frame.shown_ns, frame.should_render);
     (void)clock_.at(frame.shown_ns);
     take_presses(frame.shown_ns);
@@ -73,6 +90,7 @@ render::FrameRenderer* StudyRun::choose(const render::FrameToChoose& frame) {
     const Stimulus stimulus = picture ? stimulus_of(shown) : Stimulus{};
     const std::optional<unsigned> trial =
         queue_.next() != nullptr ? std::optional(queue_.next()->number) : std::nullopt;
+    begin_picture(shown, trial, frame.shown_ns);
     if (shown != last_ || trial != last_trial_ || stimulus != last_stimulus_) {
         record_shown(frame.index, shown, stimulus);
         if (shown.screen == Screen::Black && trial != last_trial_) {
@@ -85,10 +103,21 @@ render::FrameRenderer* StudyRun::choose(const render::FrameToChoose& frame) {
     return picture && frame.should_render ? &stimuli_->of(stimulus) : nullptr;
 }
 
+/// A slider's pictures are one, whose quality changes.
+void StudyRun::begin_picture(const Shown& shown, std::optional<unsigned> trial,
+                             std::int64_t now_ns) {
+    if (!last_ || shown.screen != last_->screen || shown.part != last_->part ||
+        trial != last_trial_ || clock_.all_restarts() != last_restarts_) {
+        picture_since_ns_ = now_ns;
+        last_restarts_ = clock_.all_restarts();
+    }
+    picture_s_ = static_cast<double>(now_ns - picture_since_ns_) * 1e-9;
+}
+
 void StudyRun::make_ready() {
     const Trial& trial = *queue_.next();
     (void)stimuli_->of(reference_stimulus(plan_, trial));
-    if (!trial.levels.empty() && trial.levels.front() == trial.levels.front()) {
+    if (trial.kind != TrialKind::Validation && !std::isnan(trial.levels.front())) {
         (void)stimuli_->of(test_stimulus(plan_, trial, trial.levels.front()));
     }
 }
@@ -106,35 +135,58 @@ void StudyRun::take_presses(std::int64_t now_ns) {
 
 void StudyRun::take_responses(std::uint64_t frame) {
     for (const Response& response : clock_.take_responses()) {
+        if (!keep(response, frame)) {
+            lost_ = cannot_keep_ = true;
+            say_(
+                fmt::format("the answer to trial {} could not be written: the next study run asks "
+                            "for it again",
+                            response.trial.number));
+            return;
+        }
         ++answers_;
-        const Trial& trial = response.trial;
-        if (recorder_ != nullptr) {
-            using Text = FixedText<120>;
-            recorder_->add(session::ResponseRecord{
-                .frame = frame,
-                .subject = response.subject,
-                .trial = trial.number,
-                .attempt = response.attempt,
-                .session = trial.session,
-                .kind = Text(kTrialKindNames[static_cast<std::size_t>(trial.kind)]),
-                .reference_first = trial.reference_first,
-                .levels = Text(fmt::format("{}", fmt::join(trial.levels, ","))),
-                .answer = Text(kAnswerNames[static_cast<std::size_t>(response.answer)]),
-                .after_s = response.after_s,
-                .settled = response.settled,
-                .fault = Text(kTrialFaultNames[static_cast<std::size_t>(response.fault)])});
-        }
-        if (!response.valid()) {
-            say_(fmt::format("trial {} does not count ({}): it is shown again later", trial.number,
-                             kTrialFaultNames[static_cast<std::size_t>(response.fault)]));
-        }
-        if (clock_.rest() != Rest::None) {
-            say_(fmt::format("{}: rest for {:g} s, then 'go on'; {} trials are left",
-                             clock_.rest() == Rest::SessionOver
-                                 ? "a session is over"
-                                 : "two equal pictures looked different",
-                             plan_.rest_s, queue_.left()));
-        }
+        tell(response);
+    }
+}
+
+/// Waits for the disk, while the display is black: what has been answered survives the program.
+bool StudyRun::keep(const Response& response, std::uint64_t frame) {
+    constexpr std::chrono::seconds kPatience(10);
+    if (recorder_ == nullptr) {
+        return true;
+    }
+    using Text = FixedText<120>;
+    const Trial& trial = response.trial;
+    recorder_->add(session::ResponseRecord{
+        .frame = frame,
+        .subject = response.subject,
+        .trial = trial.number,
+        .attempt = response.attempt,
+        .session = trial.session,
+        .kind = Text(kTrialKindNames[static_cast<std::size_t>(trial.kind)]),
+        .reference_first = trial.reference_first,
+        .levels = Text(fmt::format("{}", fmt::join(trial.levels, ","))),
+        .answer = Text(kAnswerNames[static_cast<std::size_t>(response.answer)]),
+        .after_s = response.after_s,
+        .settled = response.settled,
+        .fault = Text(kTrialFaultNames[static_cast<std::size_t>(response.fault)])});
+    return recorder_->wait_until_written(kPatience);
+}
+
+void StudyRun::tell(const Response& response) const {
+    spdlog::info("trial {}: {}, {} left", response.trial.number,
+                 kAnswerNames[static_cast<std::size_t>(response.answer)], queue_.left());
+    if (!response.valid()) {
+        say_(fmt::format("trial {} does not count ({}): {}", response.trial.number,
+                         kTrialFaultNames[static_cast<std::size_t>(response.fault)],
+                         response.attempt + 1 < plan_.gaze.most_attempts
+                             ? "it is shown again later"
+                             : "it was shown as often as the plan has it, and is given up"));
+    }
+    if (clock_.rest() != Rest::None) {
+        say_(fmt::format("{}: rest for {:g} s, then 'go on'; {} trials are left",
+                         clock_.rest() == Rest::SessionOver ? "a session is over"
+                                                            : "two equal pictures looked different",
+                         plan_.rest_s, queue_.left()));
     }
 }
 

@@ -1,29 +1,21 @@
 #include "runtime/study/subject_input.h"
 
-#include <fmt/core.h>
 #include <poll.h>
 #include <termios.h>
 #include <unistd.h>
 
-#include <array>
 #include <cmath>
 #include <optional>
 
+#include "runtime/study/controls.h"
 #include "runtime/study/simulated_person.h"
 
 namespace gazeloop::study {
 namespace {
 
-char key_of(Press press) {
-    constexpr std::array<char, kPressNames.size()> kKeys{'s', 'd', '1', '2', 'u', 'd',
-                                                         '+', '-', 'r', 'e', 'x', 'g'};
-    return kKeys[static_cast<std::size_t>(press)];
-}
-
-class Keyboard final : public SubjectInput {
+class Person final : public PersonInput {
   public:
-    explicit Keyboard(Design design) : presses_(TrialClock::presses(design)) {
-        presses_.push_back(Press::GoOn);
+    explicit Person(Design design) : design_(design) {
         if (isatty(STDIN_FILENO) == 1 && tcgetattr(STDIN_FILENO, &before_.emplace()) == 0) {
             termios raw = *before_;
             raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
@@ -32,32 +24,53 @@ class Keyboard final : public SubjectInput {
             before_.reset();
         }
     }
-    ~Keyboard() override {
+    ~Person() override {
         if (before_) {
             tcsetattr(STDIN_FILENO, TCSANOW, &*before_);
         }
     }
 
-    std::vector<Press> presses(std::int64_t, const Shown&, const Trial*, unsigned) override {
-        std::vector<Press> pressed;
+    void listen_to(std::vector<present::ButtonSource*> sources) override {
+        sources_ = std::move(sources);
+    }
+
+    std::vector<Press> presses(std::int64_t, const Shown& shown, const Trial*, unsigned) override {
+        pressed_.clear();
+        read_keys();
+        for (present::ButtonSource* const source : sources_) {
+            source->take(pressed_);
+        }
+        std::vector<Press> presses;
+        for (const present::Pressed& one : pressed_) {
+            const char* const key = std::get_if<char>(&one);
+            const auto press =
+                key != nullptr ? press_of(design_, *key)
+                               : press_of(design_, std::get<present::Button>(one), shown.screen);
+            if (press) {
+                presses.push_back(*press);
+            }
+        }
+        return presses;
+    }
+
+    [[nodiscard]] bool ended() const override { return !open_ && sources_.empty(); }
+
+  private:
+    void read_keys() {
         pollfd waiting{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
         while (open_ && poll(&waiting, 1, 0) > 0) {
             char key = 0;
             if (read(STDIN_FILENO, &key, 1) != 1) {
-                open_ = false;  // nobody will press anything any more
+                open_ = false;  // nobody will press a key any more
                 break;
             }
-            for (const Press press : presses_) {
-                if (key_of(press) == key) {
-                    pressed.push_back(press);
-                }
-            }
+            pressed_.emplace_back(key);
         }
-        return pressed;
     }
 
-  private:
-    std::vector<Press> presses_;
+    Design design_;
+    std::vector<present::ButtonSource*> sources_;
+    std::vector<present::Pressed> pressed_;
     std::optional<termios> before_;
     bool open_ = true;
 };
@@ -106,17 +119,8 @@ class Simulated final : public SubjectInput {
 
 }  // namespace
 
-std::unique_ptr<SubjectInput> keyboard_input(Design design) {
-    return std::make_unique<Keyboard>(design);
-}
-
-std::string keys_text(Design design) {
-    std::string text;
-    for (const Press press : TrialClock::presses(design)) {
-        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key_of(press),
-                            kPressNames[static_cast<std::size_t>(press)]);
-    }
-    return text + fmt::format(", {}: go on after a rest", key_of(Press::GoOn));
+std::unique_ptr<PersonInput> person_input(Design design) {
+    return std::make_unique<Person>(design);
 }
 
 std::unique_ptr<SubjectInput> simulated_input(const Plan& plan, const SimulatedPeople& people,

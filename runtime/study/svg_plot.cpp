@@ -76,11 +76,12 @@ void SvgPlot::bar(double from, double to, double y, std::string_view colour,
         x_px(from), y_px(y), x_px(to) - x_px(from), kBottom - y_px(y), colour, html_text(said));
 }
 
-void SvgPlot::whisker(double x, double from, double to) {
+void SvgPlot::whisker(double x, double from, double to, double width) {
+    const double end_px = std::min(6.0, x_px(x + width) - x_px(x));
     marks_ += fmt::format(
-        "<path d=\"M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {1:.1f}h6M{3:.1f} {2:.1f}h6\" "
+        "<path d=\"M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {1:.1f}h{4:.1f}M{3:.1f} {2:.1f}h{4:.1f}\" "
         "class=\"whisker\"/>\n",
-        x_px(x), y_px(from), y_px(to), x_px(x) - 3);
+        x_px(x), y_px(from), y_px(to), x_px(x) - 0.5 * end_px, end_px);
 }
 
 void SvgPlot::dot(double x, double y, double radius, std::string_view colour,

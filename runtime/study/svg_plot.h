@@ -21,8 +21,8 @@ class SvgPlot {
             std::string x_label, std::string y_label);
 
     void bar(double from, double to, double y, std::string_view colour, std::string_view said);
-    /// Whiskers; ends outside the plot are cut.
-    void whisker(double x, double from, double to);
+    /// Whiskers, whose ends are no wider than `width`, on the axis; ends outside the plot are cut.
+    void whisker(double x, double from, double to, double width);
     void dot(double x, double y, double radius, std::string_view colour, std::string_view said);
     void line(const std::vector<std::pair<double, double>>& points, std::string_view colour);
     /// A dashed horizontal line.

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "runtime/report/output_file.h"
 #include "runtime/report/summary_json.h"
@@ -27,7 +29,7 @@ void tell_analysis(const AnalysisRequest& request) {
     }
     value_or_throw(report::check_apart(outputs, inputs));
     const std::vector<Response> responses = value_or_throw(gather(plan, files));
-    const StudyResult result = analyse(plan, responses);
+    const StudyResult result = analyse(plan, responses, {.fit_subjects = true});
     const auto write = [](const std::string& file, const auto& text) {
         if (!file.empty()) {
             value_or_throw(report::write_text(file, text()));
@@ -36,9 +38,20 @@ void tell_analysis(const AnalysisRequest& request) {
     if (request.json != "-" && request.csv != "-" && request.r_csv != "-") {
         fmt::print("{}", analysis_text(result));
     }
-    write(request.json, [&] { return report::json_text(analysis_json(result)); });
+    // What has lines of single persons is theirs.
+    const auto write_theirs = [](const std::string& file, const auto& text) {
+        std::error_code unknown;
+        const bool stream = file == "-" || (std::filesystem::exists(file, unknown) &&
+                                            !std::filesystem::is_regular_file(file, unknown));
+        if (stream) {
+            value_or_throw(report::write_text(file, text()));
+        } else if (!file.empty()) {
+            value_or_throw(write_private(file, text()));
+        }
+    };
+    write_theirs(request.json, [&] { return report::json_text(analysis_json(result)); });
     write(request.csv, [&] { return cells_csv(result); });
-    write(request.r_csv, [&] { return decisions_csv(result, responses); });
+    write_theirs(request.r_csv, [&] { return decisions_csv(result, responses); });
     write(request.html, [&] { return analysis_page(result); });
 }
 

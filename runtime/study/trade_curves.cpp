@@ -22,8 +22,8 @@ bool is_cell(const Json& point, const Plan& plan, const std::vector<double>& lev
     const Json& settings = point.at("settings");
     for (std::size_t at = 0; at < plan.factors.size(); ++at) {
         const Factor& factor = plan.factors[at];
-        if (factor.key.empty()) {
-            continue;
+        if (factor.key.empty() || is_of_all_methods(factor.key)) {
+            continue;  // no method's: the trade was made with its own
         }
         const std::string asked = factor.value_of(levels[at]);
         const std::string drawn = settings.value(factor.key, "");

@@ -20,7 +20,8 @@ struct Trial {
     unsigned number = 0;   ///< within the subject's study, from 0; a repeated trial keeps its own
     unsigned session = 0;  ///< from 0; training belongs to the first
     TrialKind kind = TrialKind::Test;
-    /// A level of each factor; empty for a validation trial. The first one of a Slider or of Quest
+    /// A level of each factor. Of a validation trial: empty, but where the reference itself varies
+    /// with scene or camera; the first one then says nothing. The first one of a Slider or of Quest
     /// is not planned: NaN.
     std::vector<double> levels{};
     /// The reference comes first; of a ramp: it begins there. A Slider always begins so.

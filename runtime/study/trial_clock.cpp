@@ -67,7 +67,7 @@ void TrialClock::add_picture(bool reference, double level) {
 
 void TrialClock::begin_trial(std::int64_t now_ns) {
     const Trial& trial = *queue_->next();
-    const bool validation = trial.levels.empty();
+    const bool validation = trial.kind == TrialKind::Validation;
     const double level = validation ? 0.0 : trial.levels.front();
     parts_.clear();
     part_ = 0;
@@ -280,7 +280,7 @@ void TrialClock::answer(Answer answer) {
                       .after_s = seconds(now_ns_ - part_since_ns_),
                       .fault = fault()};
     if (plan_->design == Design::Slider) {
-        if (!response.trial.levels.empty()) {
+        if (response.trial.kind != TrialKind::Validation) {
             response.trial.levels.front() = first_stop_.value_or(slider_level());
         }
         response.settled = slider_level();

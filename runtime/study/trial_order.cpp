@@ -26,7 +26,14 @@ void shuffle(std::vector<T>& list, Random& random) {
     }
 }
 
-/// What is shown once in a session.
+/// Of a factor that has one level in a session: rows of the square over subjects, and each row's
+/// levels in turns over sessions.
+double level_of_session(const Factor& factor, unsigned subject, unsigned session) {
+    const std::size_t count = factor.levels.size();
+    return factor.levels[williams_row(count, subject - 1)[session % count]];
+}
+
+/// What is shown once in a session; levels of factors by session are the first ones.
 struct Item {
     std::vector<double> levels;
     bool reference_first = true;
@@ -37,9 +44,21 @@ std::vector<Item> items_of(const Plan& plan) {
     const bool both_orders = plan.design == Design::Pair || plan.design == Design::Ramp;
     const bool own_level = adaptive(plan.design);
     const std::size_t count = own_level ? plan.conditions() : plan.cells();
+    const auto of_other_session = [&plan](const std::vector<double>& levels) {
+        for (std::size_t at = 0; at < levels.size(); ++at) {
+            const Factor& factor = plan.factors[at];
+            if (factor.by_session && levels[at] != factor.levels.front()) {
+                return true;
+            }
+        }
+        return false;
+    };
     for (unsigned repeat = 0; repeat < plan.repeats; ++repeat) {
         for (std::size_t cell = 0; cell < count; ++cell) {
             Item item{.levels = plan.levels_of(cell)};
+            if (of_other_session(item.levels)) {
+                continue;
+            }
             if (own_level) {
                 item.levels.front() = std::numeric_limits<double>::quiet_NaN();
             }
@@ -80,6 +99,11 @@ std::vector<Trial> trials_of(const Plan& plan, unsigned subject) {
     const bool random_order = plan.design == Design::SameDifferent || plan.design == Design::Quest;
     std::vector<Trial> trials;
     const auto add = [&](Trial trial) {
+        for (std::size_t at = 0; at < trial.levels.size(); ++at) {
+            if (plan.factors[at].by_session) {
+                trial.levels[at] = level_of_session(plan.factors[at], subject, trial.session);
+            }
+        }
         trial.number = static_cast<unsigned>(trials.size());
         trials.push_back(std::move(trial));
     };
@@ -116,7 +140,11 @@ std::vector<Trial> trials_of(const Plan& plan, unsigned subject) {
         auto next = list.begin();
         for (const bool is_validation : validation) {
             if (is_validation) {
-                add({.session = session, .kind = TrialKind::Validation});
+                // A scene that only validation trials have would give them away.
+                add({.session = session,
+                     .kind = TrialKind::Validation,
+                     .levels = plan.reference_varies() ? plan.levels_of(below(random, plan.cells()))
+                                                       : std::vector<double>{}});
             } else {
                 add(std::move(*next++));
             }

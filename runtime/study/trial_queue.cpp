@@ -20,7 +20,8 @@ std::unexpected<Error> other_plan(const Response& response, std::string_view why
 
 /// Whether what was shown is what the plan has for this trial; a slider's level is the answer.
 bool same_trial(const Plan& plan, Trial planned, Trial shown) {
-    if (plan.design == Design::Slider && !planned.levels.empty() && !shown.levels.empty()) {
+    if (plan.design == Design::Slider && planned.kind != TrialKind::Validation &&
+        planned.levels.size() == shown.levels.size()) {
         planned.levels.front() = shown.levels.front() = 0.0;
     }
     return planned == shown;
@@ -60,7 +61,7 @@ void TrialQueue::decide() {
         return;
     }
     now_ = trials_.front();
-    if (plan_->design == Design::Quest && !now_.levels.empty()) {
+    if (plan_->design == Design::Quest && now_.kind != TrialKind::Validation) {
         // Of the plan's levels the nearest: the axis is only near to them.
         const Factor& factor = plan_->factors.front();
         const double level = plan_->level_at(staircase(now_).next());

@@ -161,6 +161,7 @@ class CaseSweep {
         }
         render::RendererConfig config;
         config.samples = question_.reference_samples;
+        config.camera = render::camera_of(values_.render);
         const auto full = renderer(scene({.light_field = values_.light_field}), *passes, config);
         for (std::size_t frame = 0; frame < frames(); ++frame) {
             if (auto stopped = stop_if_interrupted(); !stopped) {
@@ -236,6 +237,7 @@ class CaseSweep {
         }
         render::RendererConfig config;
         config.samples = question_.samples;
+        config.camera = render::camera_of(values_.render);
         config.lp_gaussian = render::lp_gaussian_of(values_.render);
         config.antialiasing = render::antialiasing_of(values_.render);
         contender.renderer = renderer(

@@ -6,6 +6,8 @@
 #include <array>
 #include <string_view>
 
+#include "runtime/methods/registry.h"
+
 namespace gazeloop::trade {
 namespace {
 
@@ -19,9 +21,21 @@ constexpr std::array<std::string_view, 7> kFilters{
     "render.post_filter", "render.specular_filter", "render.taa",
     "render.taa_reset"};
 
-bool is_of(const std::string& key, const std::string& method) {
-    return key.starts_with(method + '.') ||
-           std::ranges::find(kFilters, std::string_view(key)) != kFilters.end();
+bool is_of_group(const std::string& key, const std::string& method) {
+    return key.starts_with(method + '.');
+}
+
+/// Whether points of a method differ by a key: it is of the method's own group, or, where that is
+/// the group of no method that is swept, one that the method uses too (layers that follow
+/// acuity.mar), or a filter.
+bool is_of(const std::string& key, const std::string& method,
+           const std::vector<std::string>& methods) {
+    if (std::ranges::find(kFilters, std::string_view(key)) != kFilters.end()) {
+        return true;
+    }
+    const bool of_one = std::ranges::any_of(
+        methods, [&key](const std::string& one) { return is_of_group(key, one); });
+    return of_one ? is_of_group(key, method) : methods::is_setting_of(key, method);
 }
 
 }  // namespace
@@ -63,7 +77,8 @@ Expected<std::vector<SweepPoint>> sweep_points(const std::vector<std::string>& m
         if (std::ranges::find(one + 1, varied.end(), one->key, &Varied::key) != varied.end()) {
             return refuse(fmt::format("{} is varied twice: give all its values at once", one->key));
         }
-        if (std::ranges::none_of(methods, [&](const auto& m) { return is_of(one->key, m); })) {
+        if (std::ranges::none_of(methods,
+                                 [&](const auto& m) { return is_of(one->key, m, methods); })) {
             return refuse(
                 fmt::format("{} is a setting of none of the methods that are swept; what "
                             "all of them share is set with --set",
@@ -74,7 +89,7 @@ Expected<std::vector<SweepPoint>> sweep_points(const std::vector<std::string>& m
     for (const std::string& method : methods) {
         std::vector<SweepPoint> of_method{{.method = method}};
         for (const Varied& one : varied) {
-            if (!is_of(one.key, method)) {
+            if (!is_of(one.key, method, methods)) {
                 continue;
             }
             if (of_method.size() * one.values.size() > kMostSweepPoints) {

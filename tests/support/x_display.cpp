@@ -58,6 +58,8 @@ SeenWindow::SeenWindow(const XServer& server) : display_(XOpenDisplay(server.nam
     if (display_ == nullptr) {
         throw std::runtime_error("no connection to the X server");
     }
+    // The window may go while it is looked at.
+    XSetErrorHandler([](Display*, XErrorEvent*) { return 0; });
 }
 
 SeenWindow::~SeenWindow() { XCloseDisplay(display_); }

@@ -77,7 +77,7 @@ class SessionTarget final : public OpenXrTarget {
     }
 
     [[nodiscard]] const openxr::Instance& instance() const override { return instance_; }
-    [[nodiscard]] const openxr::Session& session() const override { return *session_; }
+    [[nodiscard]] openxr::Session& session() override { return *session_; }
 
     [[nodiscard]] gaze::PerEye<vk::Extent2D> extents() const override { return extents_; }
     [[nodiscard]] vk::Format format() const override { return pictures_->format(); }

@@ -27,8 +27,8 @@ struct OpenXrOptions {
 class OpenXrTarget : public FrameTarget {
   public:
     [[nodiscard]] virtual const openxr::Instance& instance() const = 0;
-    /// For a gaze source that shares it. Precondition: start() was called.
-    [[nodiscard]] virtual const openxr::Session& session() const = 0;
+    /// For a gaze source or answers that share it. Precondition: start() was called.
+    [[nodiscard]] virtual openxr::Session& session() = 0;
 };
 
 /// Throws SetupError (NoDevice) with the remedy when there is no runtime, or it lacks what we need.

@@ -39,7 +39,7 @@ namespace {
 
 XRAPI_ATTR XrResult XRAPI_CALL get_instance_proc_addr(XrInstance instance, const char* name,
                                                       PFN_xrVoidFunction* function) {
-    for (const auto& hook : {&eye_gaze_hook, &mask_hook, &space_hook, &frame_hook}) {
+    for (const auto& hook : {&eye_gaze_hook, &button_hook, &mask_hook, &space_hook, &frame_hook}) {
         if (const PFN_xrVoidFunction own = hook(name)) {
             *function = own;
             return XR_SUCCESS;

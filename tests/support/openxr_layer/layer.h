@@ -73,6 +73,8 @@ PFN_xrVoidFunction frame_hook(std::string_view name);
 PFN_xrVoidFunction space_hook(std::string_view name);
 /// mask_faults.cpp: what the headset hides.
 PFN_xrVoidFunction mask_hook(std::string_view name);
+/// buttons.cpp: controllers.
+PFN_xrVoidFunction button_hook(std::string_view name);
 /// eye_gaze.cpp: XR_EXT_eye_gaze_interaction, from a file.
 PFN_xrVoidFunction eye_gaze_hook(std::string_view name);
 

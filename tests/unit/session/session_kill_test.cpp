@@ -13,8 +13,10 @@
 #include <thread>
 #include <vector>
 
+#include "runtime/session/open_session.h"
 #include "runtime/session/session_file.h"
 #include "runtime/session/session_recorder.h"
+#include "runtime/session/study_rows.h"
 #include "runtime/time/clock.h"
 #include "tests/support/nobody.h"
 #include "tests/support/temporary_folder.h"
@@ -105,6 +107,49 @@ TEST(KilledSession, LacksAtMostTheLastTenthOfASecond) {
                 << killed.handed_over.size() - session.frames.size() << " frames are missing";
         }
         EXPECT_GE(session.samples.size(), session.frames.size());
+    }
+}
+
+// Beside frames that come without a pause, as in a study.
+TEST(KilledSession, HasEveryAnswerThatWasWaitedFor) {
+    std::mt19937 random(11);
+    std::uniform_int_distribution<std::uint32_t> answers(1, 60);
+    for (int round = 0; round < 12; ++round) {
+        const tests::TemporaryFolder folder;
+        const std::filesystem::path file = folder / "run.session";
+        std::array<int, 2> pipe_ends{};
+        ASSERT_EQ(pipe2(pipe_ends.data(), O_CLOEXEC), 0);
+        const auto [from, to] = pipe_ends;
+        const pid_t child = start_child([&file, report = to] {
+            const auto recorder = value_or_throw(SessionRecorder::create(file, {.study = true}));
+            for (std::uint32_t trial = 0;; ++trial) {
+                recorder->add(latency::example_frame(trial));
+                recorder->add(ResponseRecord{.frame = trial, .subject = 1, .trial = trial});
+                if (!recorder->wait_until_written(std::chrono::seconds(20)) ||
+                    write(report, &trial, sizeof trial) != sizeof trial) {
+                    return 1;
+                }
+            }
+        });
+        close(to);
+        std::uint32_t told = 0;
+        const std::uint32_t last = answers(random);
+        while (told < last && read(from, &told, sizeof told) == sizeof told) {
+        }
+        kill(child, SIGKILL);
+        while (read(from, &told, sizeof told) == sizeof told) {
+        }
+        waitpid(child, nullptr, 0);
+        close(from);
+        const auto session = OpenSession::open(file);
+        ASSERT_TRUE(session) << session.error().message;
+        const auto kept = read_responses(*session);
+        ASSERT_TRUE(kept) << kept.error().message;
+        EXPECT_GE(told, last);
+        EXPECT_GE(kept->size(), told + 1U);
+        for (std::uint32_t trial = 0; trial < kept->size(); ++trial) {
+            EXPECT_EQ(kept->at(trial).trial, trial);
+        }
     }
 }
 

@@ -18,7 +18,9 @@
 #include <string>
 #include <thread>
 
+#include "runtime/session/open_session.h"
 #include "runtime/session/session_file.h"
+#include "runtime/session/study_rows.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/nobody.h"
 #include "tests/support/temporary_folder.h"
@@ -370,6 +372,37 @@ TEST_F(Recording, AFullDiskEndsTheWritingOnly) {
     for (std::uint64_t i = 0; i < session.frames.size(); ++i) {
         EXPECT_EQ(session.frames[i].frame.index, i);
     }
+}
+
+TEST_F(Recording, SaysWhenWhatWasWaitedForCannotBeWritten) {
+    const int result = run_in_child([this] {
+        const auto recorder = value_or_throw(SessionRecorder::create(file, {.study = true}));
+        const auto answered = [&](std::uint32_t trial) {
+            recorder->add(ResponseRecord{.subject = 1, .trial = trial});
+            return recorder->wait_until_written(std::chrono::seconds(20));
+        };
+        if (!answered(0) || !answered(1)) {
+            return 2;
+        }
+        const rlimit limit{1, 1};
+        if (setrlimit(RLIMIT_FSIZE, &limit) != 0) {
+            return 3;
+        }
+        signal(SIGXFSZ, SIG_IGN);
+        const auto start = std::chrono::steady_clock::now();
+        if (answered(2) || answered(3)) {
+            return 4;
+        }
+        // At once, and not after all its patience.
+        return std::chrono::steady_clock::now() - start < std::chrono::seconds(10) &&
+                       recorder->in_trouble()
+                   ? 0
+                   : 5;
+    });
+    EXPECT_EQ(result, 0);
+    const auto session = OpenSession::open(file);
+    ASSERT_TRUE(session) << session.error().message;
+    EXPECT_EQ(value_or_throw(read_responses(*session)).size(), 2U);
 }
 
 TEST_F(Recording, ReportsAFileThatWasRemoved) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "runtime/study/plan_file.h"
 #include "runtime/study/published_plans.h"
@@ -44,7 +45,12 @@ TEST(PlanFile, ReadsBackWhatItWrote) {
     for (Plan plan : published_plans()) {
         plan.source = "quotes \" and \\ and \x01";
         plan.settings.emplace_back("render.spp", "4");
-        plan.scenes = {"raymarch", "gallery"};
+        plan.factors.push_back({.name = "scene",
+                                .key = "render.scene",
+                                .levels = {1.0, 2.0},
+                                .values = {"raymarch", "gallery"},
+                                .by_session = true});
+        plan.sessions = 2;
         plan.seed = 77;
         const std::string text = plan_text(plan);
         const auto again = plan_of(text, "plan.toml");
@@ -73,11 +79,82 @@ TEST(PlanFile, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(message("version = 1", "version = 2"), HasSubstr("is no study"));
     EXPECT_THAT(message("name = \"alpha\"", "name = \"sigma\""), HasSubstr("two factors"));
     EXPECT_THAT(message("key = \"kfr.sigma\"", "key = \"\""), HasSubstr("key is missing"));
+    EXPECT_THAT(message("name = \"sigma\"", "by_session = true\nname = \"sigma\""),
+                HasSubstr("judged within a session"));
     EXPECT_THAT(message("[gaze]", "[gaze"), HasSubstr("p.toml:"));
     EXPECT_THAT(message("validation = 0.3", "validation = 1.0"), HasSubstr("validation is 1"));
     EXPECT_FALSE(plan_of("", "p.toml"));
     EXPECT_FALSE(plan_of("format = 3", "p.toml"));
     EXPECT_THAT(read_plan("/nowhere/p.toml").error().message, HasSubstr("No such file"));
+}
+
+TEST(PlanFile, TakesScenesForAFactorThatHasOneInASession) {
+    std::string text = plan_text(*published_plan("kfr-final"));
+    const std::string scenes = "scenes = [\"raymarch\", \"gallery\"]\n";
+    const auto plan = plan_of(scenes + text, "p.toml");
+    ASSERT_TRUE(plan) << plan.error().message;
+    ASSERT_EQ(plan->factors.size(), 3U);
+    EXPECT_EQ(plan->factors[2].value_of(2.0), "gallery");
+    EXPECT_TRUE(plan->reference_varies());
+    EXPECT_EQ(plan->cells_of_session(), 28U);
+    const auto again = plan_of(plan_text(*plan), "p.toml");
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(trials_of(*again, 4), trials_of(*plan, 4));
+    // One session shows one of two.
+    text.replace(text.find("sessions = 3"), 12, "sessions = 1");
+    const auto few = plan_of(scenes + text, "p.toml");
+    ASSERT_FALSE(few);
+    EXPECT_THAT(few.error().message, AllOf(HasSubstr("sessions is 1, and 2 are needed"),
+                                           HasSubstr("without by_session")));
+}
+
+TEST(TrialOrder, BalancesScenesOverSessionsAndSubjects) {
+    Plan plan = *published_plan("kfr-final");
+    plan.factors.push_back({.name = "scene",
+                            .key = "render.scene",
+                            .levels = {1.0, 2.0, 3.0},
+                            .values = {"raymarch", "gallery", "other.gltf"},
+                            .by_session = true});
+    ASSERT_TRUE(check(plan));
+    // Each scene at each place, and after each other, as often over six subjects.
+    std::map<std::pair<unsigned, double>, unsigned> at_place;
+    std::map<std::pair<double, double>, unsigned> after;
+    for (unsigned subject = 1; subject <= 6; ++subject) {
+        std::vector<double> of_session(3, 0.0);
+        std::map<double, unsigned> shown;
+        for (const Trial& trial : trials_of(plan, subject)) {
+            ASSERT_EQ(trial.levels.size(), 3U);  // validation trials have a scene, too
+            double& scene = of_session[trial.session];
+            EXPECT_TRUE(scene == 0.0 || scene == trial.levels[2]);
+            scene = trial.levels[2];
+            shown[scene] += trial.kind == TrialKind::Test ? 1 : 0;
+        }
+        for (unsigned session = 0; session < 3; ++session) {
+            ++at_place[{session, of_session[session]}];
+            if (session > 0) {
+                ++after[{of_session[session - 1], of_session[session]}];
+            }
+        }
+        EXPECT_EQ(shown, (std::map<double, unsigned>{{1.0, 28}, {2.0, 28}, {3.0, 28}}));
+    }
+    EXPECT_EQ(at_place.size(), 9U);
+    EXPECT_EQ(after.size(), 6U);
+    for (const auto& [place, count] : at_place) {
+        EXPECT_EQ(count, 2U);
+    }
+    for (const auto& [pair, count] : after) {
+        EXPECT_EQ(count, 2U);
+    }
+    // Within a session all scenes, where none has one of its own.
+    plan.factors[2].by_session = false;
+    plan.sessions = 1;
+    std::map<double, unsigned> validations;
+    for (const Trial& trial : trials_of(plan, 1)) {
+        if (trial.kind == TrialKind::Validation) {
+            ++validations[trial.levels[2]];
+        }
+    }
+    EXPECT_EQ(validations.size(), 3U);
 }
 
 TEST(WilliamsSquare, HasEachItemAtEachPlaceAndAfterEachOtherOnce) {

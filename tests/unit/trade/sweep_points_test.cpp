@@ -44,6 +44,11 @@ TEST(SweepPoints, RefuseWhatMakesNoSweep) {
     const auto foreign = sweep_points({"kfr"}, {{"acuity.mar", {"1"}}});
     ASSERT_FALSE(foreign);
     EXPECT_THAT(foreign.error().message, HasSubstr("acuity.mar"));
+    // Of the group of none that is swept, but used by one.
+    const auto layers = sweep_points({"layers", "kfr"}, {{"acuity.mar", {"0.02", "0.03"}}});
+    ASSERT_TRUE(layers);
+    EXPECT_EQ(layers->size(), 3U);
+    EXPECT_EQ(sweep_points({"layers", "acuity"}, {{"acuity.mar", {"0.02", "0.03"}}})->size(), 3U);
     EXPECT_FALSE(sweep_points({"kfr"}, {{"kfrx.sigma", {"1"}}}));
     const std::vector<std::string> many(40, "1");
     EXPECT_FALSE(sweep_points({"kfr"}, {{"kfr.sigma", many}, {"kfr.alpha", many}}));

@@ -1,0 +1,95 @@
+// A study whose subject answers in the preview's window: by its keys, and by a game controller.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/preload.h"
+#include "tests/support/run_program.h"
+#include "tests/support/x_display.h"
+
+namespace gazeloop::tests {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two cells and a validation trial.
+constexpr const char* kPlan = R"(format = "gazeloop-study"
+version = 1
+name = "window"
+design = "2afc"
+method = "kfr"
+validation = 0.34
+shown_s = 0.15
+black_s = 0.02
+rest_s = 0.0
+[[factor]]
+name = "sigma"
+key = "kfr.sigma"
+levels = [1.2, 3.2]
+)";
+
+class StudyWindow : public testing::Test {
+  protected:
+    void SetUp() override {
+        ASSERT_FALSE(server_.name().empty()) << "no Xvfb: ./dev test installs it";
+    }
+
+    [[nodiscard]] ProgramResult sit(Environment environment,
+                                    const std::function<void()>& meanwhile) const {
+        environment.emplace_back("DISPLAY", server_.name());
+        return run_gazeloop(
+            {"study", "run", plan_, "--subject", "1", "--folder", folder_.file("answers"), "--gaze",
+             "fixed:0,0", "--target", "headless", "--preview", "--set", "render.scale=0.05",
+             "--log-level", "debug", "--seconds", "60"},
+            {.environment = environment,
+             .timeout = std::chrono::seconds(100),
+             .trigger = "gaze: left eye: tracking",
+             .on_trigger = [&](int /*pid*/) { meanwhile(); }});
+    }
+    [[nodiscard]] nlohmann::json analysed() const {
+        const ProgramResult result = run_gazeloop({"study", "analyse", plan_, sitting(), "--json"});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return nlohmann::json::parse(result.out)["subjects"][0];
+    }
+
+    [[nodiscard]] std::string sitting() const {
+        return folder_.file("answers/window.001.001.gaze");
+    }
+
+    XServer server_;
+    ScratchFolder folder_;
+    std::string plan_ = folder_.write("plan.toml", kPlan);
+};
+
+TEST_F(StudyWindow, TakesItsKeys) {
+    const ProgramResult result = sit({}, [&] {
+        SeenWindow window(server_);
+        ASSERT_NE(window.wait_for_title("frame"), "");
+        // Those that come too early are refused; keys that choose what is shown have no such
+        // meaning now, nor does q end the run.
+        for (int i = 0; i < 300 && std::filesystem::exists(sitting() + "-wal"); ++i) {
+            window.press(i == 3 ? 'q' : 'd');
+            poll(nullptr, 0, 100);
+        }
+    });
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(" 0 trials left"));
+    EXPECT_EQ(analysed()["answers"], 2);
+    EXPECT_EQ(analysed()["failed"], 1);
+}
+
+TEST_F(StudyWindow, TakesTheButtonsOfAGamepad) {
+    Environment environment = preloaded(GAZELOOP_GAMEPAD);
+    environment.emplace_back("GAZELOOP_TEST_GAMEPAD", "1");  // B: the second choice, "different"
+    const ProgramResult result = sit(environment, [] {});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(" 0 trials left"));
+    EXPECT_EQ(analysed()["answers"], 2);
+    EXPECT_EQ(analysed()["failed"], 1);
+}
+
+}  // namespace
+}  // namespace gazeloop::tests
