@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -33,6 +34,13 @@ foveation::CellTurns turns(const std::string& every) {
     foveation::CellTurns turns;
     std::from_chars(every.data(), every.data() + every.size(), turns.every);
     return turns;
+}
+
+/// Precondition: one of the choices.
+render::InterleavedConfig::Sharp sharp_of(const std::string& name) {
+    const auto& names = render::InterleavedConfig::kSharpNames;
+    return static_cast<render::InterleavedConfig::Sharp>(std::ranges::find(names, name) -
+                                                         names.begin());
 }
 
 Expected<PlannedMethod> plan(const PlanSubject& subject) {
@@ -73,7 +81,9 @@ Expected<render::MakePasses> passes(const MethodSettings& values,
                                            .visits = static_cast<std::uint32_t>(set.visits),
                                            .jitter = set.jitter,
                                            .follow = set.follow,
-                                           .hold = set.hold};
+                                           .hold = set.hold,
+                                           .sharp = sharp_of(set.sharp),
+                                           .refill = set.refill};
     auto kfr = parameters(tall.kfr, settings);
     if (!kfr) {
         return std::unexpected(kfr.error());

@@ -12,6 +12,7 @@ std::vector<settings::SettingRow> rows_of(InterleavedSettings& interleaved) {
     using settings::Choice;
     using settings::Concerns;
     using settings::Whole;
+    using Config = render::InterleavedConfig;
     const settings::OnlyWhile only = only_under({"interleaved"});
     std::vector<std::string> turns;
     turns.reserve(foveation::CellTurns::kEvery.size());
@@ -30,9 +31,14 @@ std::vector<settings::SettingRow> rows_of(InterleavedSettings& interleaved) {
          &interleaved.hold, Concerns::Picture, only},
         {"interleaved.jitter", "move the samples of a texel from visit to visit",
          &interleaved.jitter, Concerns::Picture, only},
+        {"interleaved.refill", "shade all at once where nothing of use is kept",
+         &interleaved.refill, Concerns::Picture, only},
+        {"interleaved.sharp", "what of the kept is resampled by a spline, not bilinearly",
+         Choice{.value = &interleaved.sharp,
+                .names = {Config::kSharpNames.begin(), Config::kSharpNames.end()}},
+         Concerns::Picture, only},
         {"interleaved.visits", "most visits that a texel's radiance is the mean of",
-         Whole{&interleaved.visits, 1, render::InterleavedConfig::kMostVisits}, Concerns::Picture,
-         only},
+         Whole{&interleaved.visits, 1, Config::kMostVisits}, Concerns::Picture, only},
     };
 }
 

@@ -16,6 +16,8 @@ struct InterleavedSettings {
     bool jitter = true;
     bool follow = true;
     bool hold = true;
+    bool refill = true;
+    std::string sharp = "disc";
 };
 
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(InterleavedSettings& interleaved);

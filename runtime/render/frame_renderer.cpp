@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "runtime/error.h"
+#include "runtime/render/cut.h"
 #include "runtime/render/frame_uniforms.h"
 #include "runtime/render/passes/antialiased_passes.h"
 #include "runtime/vulkan/pipelines.h"
@@ -222,6 +223,22 @@ FrameRecording FrameRenderer::recording(Slot& slot, const FrameView& view,
     return frame;
 }
 
+/// What the last frame showed, where any of it can be of use. Precondition: the last views are
+/// those before this one.
+gaze::PerEye<std::optional<foveation::EyeBefore>> FrameRenderer::before(
+    const FrameView& view) const {
+    gaze::PerEye<std::optional<foveation::EyeBefore>> before;
+    for (const gaze::Eye eye : gaze::kEyes) {
+        const std::size_t e = gaze::index(eye);
+        const gaze::EyeView* const last = last_views_.of(eye);
+        if (last != nullptr &&
+            !is_cut({last->pose, last_scene_time_s_}, {view.views[e].pose, view.scene_time_s})) {
+            before[e] = {*last, last_foveae_[e]};
+        }
+    }
+    return before;
+}
+
 void FrameRenderer::begin(const FrameView& view) {
     prepare(view.views);
     given_ = &view;
@@ -234,7 +251,8 @@ void FrameRenderer::begin(const FrameView& view) {
     Slot& slot = *slots_[submitted_ % slots_.size()];
     slot.recorder.reset();
     slot.frame_index = view.index;
-    in_run_ = {view.index, last_views_.begin(view.index, view_->views)};
+    in_run_ = {view.index, last_views_.begin(view.index, view_->views), before(*view_)};
+    last_scene_time_s_ = view.scene_time_s;
     const glm::dvec2 aside_px = next_offset();
     // Several samples fill their cell already.
     const glm::dvec2 aside = aside_px / std::sqrt(static_cast<double>(config_.samples));
@@ -273,6 +291,7 @@ frame::SampleCounts FrameRenderer::finish(const gaze::FrameFovea& fovea) {
         const gaze::EyeView& view = view_->views[e];
         const foveation::HiddenArea* const hidden = view_->hidden[e].get();
         method_->plan().plan(eye, view, fovea.eyes[e], hidden, in_run_, plans_[e]);
+        last_foveae_[e] = method_->plan().followed(view, fovea.eyes[e]).position;
         for (std::size_t grid = 0; grid < counts.grid_count; ++grid) {
             counts.grids[grid] += plans_[e].grids[grid].counts;
         }

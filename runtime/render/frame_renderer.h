@@ -104,6 +104,8 @@ class FrameRenderer {
     [[nodiscard]] FrameRecording recording(Slot& slot, const FrameView& view,
                                            const gaze::FrameFovea* fovea);
     [[nodiscard]] glm::dvec2 next_offset();
+    [[nodiscard]] gaze::PerEye<std::optional<foveation::EyeBefore>> before(
+        const FrameView& view) const;
     void record_copies(Slot& slot, const FrameRecording& frame, const gaze::FrameFovea& fovea);
     [[nodiscard]] frame::FrameGpuRecord collect(Slot& slot);
     void wait_for(vk::Semaphore timeline, std::uint64_t value) const;
@@ -129,6 +131,8 @@ class FrameRenderer {
     foveation::FrameInRun in_run_;  ///< of the frame that was begun last
     gaze::PerEye<foveation::EyePlan> plans_;
     LastViews last_views_;
+    double last_scene_time_s_ = 0.0;                   ///< of the frame that was begun last
+    gaze::PerEye<gaze::PixelPosition> last_foveae_{};  ///< that the last frame was planned for
     Jitter jitter_;
     gaze::SeenDepth seen_depth_;
     std::vector<std::unique_ptr<Slot>> slots_;

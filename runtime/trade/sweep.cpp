@@ -267,6 +267,10 @@ class CaseSweep {
                 if (!quality) {
                     return std::unexpected(quality.error());
                 }
+                if (hooks_.compared) {
+                    hooks_.compared(
+                        {at_case_, contender.point, frame, rendered.counts.shaded(), *quality});
+                }
                 if (frame >= question_.first_judged) {
                     totals.add(*quality);
                 }

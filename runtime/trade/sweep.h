@@ -12,6 +12,15 @@
 
 namespace gazeloop::trade {
 
+/// A frame of a point, as it was compared.
+struct ComparedFrame {
+    std::size_t of_case = 0;
+    std::size_t point = 0;
+    std::size_t frame = 0;
+    std::uint64_t cells = 0;  ///< shaded, both eyes
+    const quality::FrameQuality& quality;
+};
+
 /// Told of what was measured before anything else is measured.
 struct SweepHooks {
     std::function<void(const std::string& said)> progress;
@@ -19,6 +28,8 @@ struct SweepHooks {
     /// Errors end the sweep: what cannot be kept is not worth measuring.
     std::function<Expected<void>(const JudgedPoint&)> judged;
     std::function<Expected<void>(const TimedTurn&)> timed;
+    /// Of each frame that is compared; may be empty.
+    std::function<void(const ComparedFrame&)> compared{};
 };
 
 /// Measures what `record` lacks of this shard and adds it. Case by case: quality first, each point

@@ -3,11 +3,15 @@
 // lib/frame.glsl, log_polar.glsl and bands.glsl. The C++ side is
 // InterleavedUniforms in runtime/render/passes/interleaved_passes.cpp.
 layout(std140, set = 2, binding = 5) uniform InterleavedUniforms {
-    vec4 turn;         // place in a block whose turn it is: of texels x, y; of pixels x, y
     vec4 cells;        // of the LP-buffer: columns, rows; of the picture
     vec4 first_bands;  // of the picture's cells, of texels, of pixels; of the last frame's texels
+    vec4 refill_bands; // of the LP-buffer's blocks that are shaded whole, of the picture's; unused
     vec4 before;       // 1, or 0 where nothing is kept; first band of its pixels; most visits; unused
     vec4 map_before;   // the last frame's map: fovea, px; 1 / (farthest radius)^2; .5 / its log2
+    // Places in a block by layer: of texels x, y; of pixels x, y. Layer 0 is that whose turn it is;
+    // the others are shaded only where a block is shaded whole.
+    vec4 turns[16];
+    vec4 layers[16];   // by place in a block, row by row: its layer, of texels, of pixels; unused
     vec4 texel_offsets[16];  // samples in their texel: x, y; cosine and sine of y rows
     vec4 pixel_offsets[16];  // samples in their pixel: x, y; unused
 } woven;
@@ -44,18 +48,43 @@ ivec2 block_size(bool pixels) {
                   : ivec2(kTexelBlockWidth, kTexelBlockHeight);
 }
 ivec2 grid_size(bool pixels) { return ivec2(pixels ? image_size() : lp_size()); }
-ivec2 turn_of(bool pixels) { return ivec2(pixels ? woven.turn.zw : woven.turn.xy); }
-
-// Where in its block the place lies whose turn it is.
-int turn_column(bool pixels, int cell_row) {
-    ivec2 size = block_size(pixels);
-    int shift = size.x != size.y ? (cell_row & 1) * (size.x / 2) : 0;
-    return (turn_of(pixels).x + shift) % size.x;
+ivec2 turn_of(bool pixels, int layer) {
+    return ivec2(pixels ? woven.turns[layer].zw : woven.turns[layer].xy);
 }
-ivec2 place_of_cell(bool pixels, ivec2 cell) {
+
+// By how much the places of a row of blocks are shifted.
+int shift_of(bool pixels, int cell_row) {
     ivec2 size = block_size(pixels);
-    ivec2 place = cell * size + ivec2(turn_column(pixels, cell.y), turn_of(pixels).y);
+    return size.x != size.y ? (cell_row & 1) * (size.x / 2) : 0;
+}
+// Where in its block a layer's place lies.
+int turn_column(bool pixels, int cell_row, int layer) {
+    return (turn_of(pixels, layer).x + shift_of(pixels, cell_row)) & (block_size(pixels).x - 1);
+}
+ivec2 place_of_cell(bool pixels, ivec2 cell, int layer) {
+    ivec2 size = block_size(pixels);
+    ivec2 place =
+        cell * size + ivec2(turn_column(pixels, cell.y, layer), turn_of(pixels, layer).y);
     return min(place, grid_size(pixels) - 1);
+}
+// The layer of a place in a cell's block.
+int layer_of_place(bool pixels, ivec2 cell, ivec2 place) {
+    ivec2 size = block_size(pixels);
+    ivec2 within = place - cell * size;
+    within.x = (within.x - shift_of(pixels, cell.y)) & (size.x - 1);
+    vec4 layers = woven.layers[within.y * size.x + within.x];
+    return int(pixels ? layers.y : layers.x);
+}
+// Where a layer begins in the image of cells.
+ivec2 corner_of_layer(bool pixels, int layer) {
+    int across = block_size(pixels).x;
+    return ivec2(layer % across, layer / across) *
+           ivec2(pixels ? woven.cells.zw : woven.cells.xy);
+}
+// Band 0 of a layer's cells.
+uint first_band_of_layer(bool pixels, int layer) {
+    return layer == 0 ? uint(pixels ? woven.first_bands.x : 0.0)
+                      : uint(pixels ? woven.refill_bands.y : woven.refill_bands.x);
 }
 
 // The position in the picture of a texel's centre, px.
@@ -93,8 +122,16 @@ struct Kept {
     float seen;    // as seen_of()
 };
 
+// Weights of Catmull and Rom's spline, by the share between the inner two of four.
+vec4 spline_weights(float t) {
+    return vec4(t * (-0.5 + t * (1.0 - 0.5 * t)), 1.0 + t * t * (-2.5 + 1.5 * t),
+                t * (0.5 + t * (2.0 - 1.5 * t)), t * t * (-0.5 + 0.5 * t));
+}
+
 // What the last frame left of what is seen at a place, at this position and about so far away.
-Kept kept_of(bool pixels, ivec2 place, vec2 position_px, float nearness) {
+// `sharp`: between kept cells by a spline, which blurs far less than lines where it is done again
+// with every frame; within what the four around hold, so that it does not overshoot.
+Kept kept_of(bool pixels, ivec2 place, vec2 position_px, float nearness, bool sharp) {
     vec2 was = kFollows ? position_before(position_px, nearness) : position_px;
     vec2 at = pixels ? was : lp_share_before(was) * lp_size();
     at = kFollows ? at : vec2(place) + 0.5;
@@ -109,6 +146,8 @@ Kept kept_of(bool pixels, ivec2 place, vec2 position_px, float nearness) {
     float shares = 0.0;
     float most = 0.0;
     float main_channel = 0.0;
+    vec3 darkest = vec3(kGreatestRadiance);
+    vec3 brightest = vec3(0.0);
     for (int tap = 0; tap < 4; ++tap) {
         ivec2 step_to = ivec2(tap & 1, tap >> 1);
         ivec2 cell = ivec2(corner) + step_to;
@@ -122,12 +161,33 @@ Kept kept_of(bool pixels, ivec2 place, vec2 position_px, float nearness) {
         bool seen = within && is_needed(uvec2(cell), first_band) && seen_of(held.a) > 0.0;
         float weight = seen ? part.x * part.y : 0.0;
         sum += weight > 0.0 ? weight * held : vec4(0.0);
+        darkest = seen ? min(darkest, held.rgb) : darkest;
+        brightest = seen ? max(brightest, held.rgb) : brightest;
         shares += weight;
         main_channel = weight > most ? held.a : main_channel;
         most = max(most, weight);
     }
     Kept kept;
     kept.radiance = sum.rgb / max(shares, 1e-6);
+    if (sharp && resampled) {
+        vec4 across = spline_weights(share.x);
+        vec4 down = spline_weights(share.y);
+        vec3 splined = vec3(0.0);
+        bool whole_patch = true;
+        for (int tap = 0; tap < 16; ++tap) {
+            ivec2 cell = ivec2(corner) + ivec2((tap & 3) - 1, (tap >> 2) - 1);
+            int wrapped = cell.y < 0 ? cell.y + size.y : cell.y >= size.y ? cell.y - size.y : cell.y;
+            cell.y = pixels ? cell.y : wrapped;
+            bool within = all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, size));
+            cell = clamp(cell, ivec2(0), size - 1);
+            vec4 held =
+                pixels ? texelFetch(pixels_before, cell, 0) : texelFetch(texels_before, cell, 0);
+            bool seen = within && is_needed(uvec2(cell), first_band) && seen_of(held.a) > 0.0;
+            whole_patch = whole_patch && seen;
+            splined += seen ? across[tap & 3] * down[tap >> 2] * held.rgb : vec3(0.0);
+        }
+        kept.radiance = whole_patch ? clamp(splined, darkest, brightest) : kept.radiance;
+    }
     kept.nearness = resampled ? sum.a / max(shares, 1e-6) : main_channel;
     kept.seen = resampled ? 1.0 : seen_of(main_channel);
     // From the fovea, by which texels grow, px.

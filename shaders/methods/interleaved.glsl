@@ -13,10 +13,11 @@ const float kMeanDiffers = 0.5;   // means of visits, over the range of one's sa
 const vec2 kAgrees = vec2(0.15, 0.4);  // strangeness up to which visits count in full, and not at all
 
 void main() {
-    bool pixels = direct != 0;
-    ivec2 cell = ivec2(gl_FragCoord.xy);
-    bool needed = is_needed(uvec2(cell), pixels ? uint(woven.first_bands.x) : 0u);
-    ivec2 place = place_of_cell(pixels, cell);
+    bool pixels = (direct & 1) != 0;
+    int layer = direct >> 1;
+    ivec2 cell = ivec2(gl_FragCoord.xy) - corner_of_layer(pixels, layer);
+    bool needed = is_needed(uvec2(cell), first_band_of_layer(pixels, layer));
+    ivec2 place = place_of_cell(pixels, cell, layer);
     ivec2 texel = min(place, ivec2(lp_size()) - 1);
     vec2 row = row_table[texel.y];
     vec3 radii = column_radii(texel.x);
@@ -44,7 +45,7 @@ void main() {
         most = max(most, seen.radiance);
     }
     vec4 fresh = min(sum / float(kSamples), kGreatestRadiance);
-    Kept kept = kept_of(pixels, place, position_of_place(pixels, place), fresh.a);
+    Kept kept = kept_of(pixels, place, position_of_place(pixels, place), fresh.a, false);
     // Where samples of one visit differ, as along an edge, so do visits.
     vec3 expected = kMeanDiffers * max(most - least, 0.0);
     float apart = kept.any ? strangeness(fresh.rgb, kept.radiance, expected) : 0.0;

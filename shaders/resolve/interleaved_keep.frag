@@ -16,6 +16,8 @@ layout(location = 0) out vec4 color;
 layout(constant_id = 9) const bool kPixels = false;
 layout(constant_id = 11) const bool kHeld = true;  // to the cells around
 
+layout(constant_id = 12) const bool kSharp = true;  // what is kept is resampled by a spline
+
 const vec2 kStrange = vec2(0.2, 0.5);  // from which a place is held a little, and in full
 
 // The four shaded places around a place.
@@ -30,7 +32,7 @@ struct Around {
 Around cells_around(ivec2 place) {
     ivec2 size = block_size(kPixels);
     ivec2 cells = ivec2(kPixels ? woven.cells.zw : woven.cells.xy);
-    vec2 down = vec2(place.y - turn_of(kPixels).y, size.y);
+    vec2 down = vec2(place.y - turn_of(kPixels, 0).y, size.y);
     int top = int(floor(down.x / down.y));
     float share_y = down.x / down.y - float(top);
     Around around = Around(vec4(0.0), vec3(1e30), vec3(0.0), 0.0, 0.0);
@@ -38,7 +40,7 @@ Around cells_around(ivec2 place) {
     float greatest = 0.0;
     for (int j = 0; j < 2; ++j) {
         int y = top + j;
-        float across = float(place.x - turn_column(kPixels, y)) / float(size.x);
+        float across = float(place.x - turn_column(kPixels, y, 0)) / float(size.x);
         int left = int(floor(across));
         float share_x = across - float(left);
         // Rows of the LP-buffer wrap.
@@ -71,9 +73,14 @@ void main() {
     ivec2 place = ivec2(gl_FragCoord.xy);
     bool needed = is_needed(uvec2(place), uint(kPixels ? woven.first_bands.z : woven.first_bands.y));
     ivec2 cell = place / block_size(kPixels);
-    vec4 own = kPixels ? texelFetch(pixel_cells, cell, 0) : texelFetch(texel_cells, cell, 0);
+    bool its_turn = place == place_of_cell(kPixels, cell, 0);
+    int layer = its_turn ? 0 : layer_of_place(kPixels, cell, place);
+    bool shaded = its_turn || is_needed(uvec2(cell), first_band_of_layer(kPixels, layer));
+    ivec2 own_at = cell + corner_of_layer(kPixels, layer);
+    vec4 own = kPixels ? texelFetch(pixel_cells, own_at, 0) : texelFetch(texel_cells, own_at, 0);
     Around around = cells_around(place);
-    Kept kept = kept_of(kPixels, place, position_of_place(kPixels, place), around.nearest);
+    Kept kept =
+        kept_of(kPixels, place, position_of_place(kPixels, place), around.nearest, kSharp);
     float held = kHeld ? smoothstep(kStrange.x, kStrange.y, around.strangeness) : 0.0;
     vec3 in_range = clamp(kept.radiance, around.least, around.most);
     vec4 stays = vec4(mix(kept.radiance, in_range, held),
@@ -82,5 +89,5 @@ void main() {
     if (!needed) {
         discard;
     }
-    color = place == place_of_cell(kPixels, cell) ? own : kept.any ? stays : guessed;
+    color = shaded ? own : kept.any ? stays : guessed;
 }

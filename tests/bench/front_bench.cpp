@@ -4,7 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "runtime/profiles/profiles.h"
@@ -89,7 +91,9 @@ std::vector<Ingredient> ingredients() {
             {"mean", interleaved("1.8", "4", {{"interleaved.visits", "1"}})},
             {"jitter", interleaved("1.8", "4", {{"interleaved.jitter", "false"}})},
             {"follow", interleaved("1.8", "4", {{"interleaved.follow", "false"}})},
-            {"hold", interleaved("1.8", "4", {{"interleaved.hold", "false"}})}};
+            {"hold", interleaved("1.8", "4", {{"interleaved.hold", "false"}})},
+            {"refill", interleaved("1.8", "4", {{"interleaved.refill", "false"}})},
+            {"spline", interleaved("1.8", "4", {{"interleaved.sharp", "nothing"}})}};
 }
 
 trade::SweepQuestion question(const display::DisplayProfile& display, const Options& options,
@@ -149,6 +153,26 @@ void tell(const std::vector<trade::SweepRow>& rows) {
     }
 }
 
+/// How far each point is from the reference, frame by frame: which frames of a case cost it.
+class LossByFrame {
+  public:
+    void add(const trade::ComparedFrame& frame) {
+        lines_[{frame.of_case, frame.point}] +=
+            fmt::format(" {:.3f}", frame.quality.contrast->value);
+    }
+    void tell(const std::vector<trade::SweepSheet>& sheets) const {
+        for (const auto& [at, line] : lines_) {
+            const auto& [of_case, point] = at;
+            const trade::SweepSheet& sheet = sheets[of_case];
+            fmt::print(stderr, "{}, {}, by frame:{}\n", sheet.of.scene,
+                       trade::point_text(sheet.rows[point].point), line);
+        }
+    }
+
+  private:
+    std::map<std::pair<std::size_t, std::size_t>, std::string> lines_;  ///< by case and point
+};
+
 }  // namespace
 
 std::vector<Figure> front(const Options& options) {
@@ -162,9 +186,12 @@ std::vector<Figure> front(const Options& options) {
         }
         // From better than the published point to much fewer samples.
         const std::vector<trade::SweepPoint> points{
-            published_kfr(),         interleaved("1", "4"),   interleaved("1.2", "4"),
-            interleaved("1.4", "4"), interleaved("1.8", "4"), interleaved("1.4", "8")};
-        const auto sheets = swept(context, question(display, options, gaze), points);
+            published_kfr(),         interleaved("1.2", "4"), interleaved("1.8", "4"),
+            interleaved("2.4", "4"), interleaved("1.4", "8"), interleaved("2", "8")};
+        LossByFrame by_frame;
+        const auto sheets = swept(context, question(display, options, gaze), points,
+                                  [&](const trade::ComparedFrame& frame) { by_frame.add(frame); });
+        by_frame.tell(sheets);
         for (const trade::SweepSheet& sheet : sheets) {
             fmt::print(stderr, "{}:\n", sheet.of.scene);
             tell(sheet.rows);

@@ -38,9 +38,10 @@ trade::CaseQuestion still(std::string_view scene, std::size_t frames) {
                 frames, {glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0, 0.0, -1.0)})};
 }
 
-std::vector<trade::SweepSheet> swept(const vulkan::Context& context,
-                                     const trade::SweepQuestion& question,
-                                     const std::vector<trade::SweepPoint>& points) {
+std::vector<trade::SweepSheet> swept(
+    const vulkan::Context& context, const trade::SweepQuestion& question,
+    const std::vector<trade::SweepPoint>& points,
+    const std::function<void(const trade::ComparedFrame&)>& compared) {
     run::ProgramSettings settings;
     const run::ProgramValues& values = settings.values();
     const auto say = [](const std::string& said) { fmt::print(stderr, "{}\n", said); };
@@ -48,7 +49,11 @@ std::vector<trade::SweepSheet> swept(const vulkan::Context& context,
         context, question, points,
         {.methods = values.methods, .render = values.render, .light_field = values.light_field},
         settings, {},
-        {.progress = say, .interrupted = [] { return false; }, .judged = {}, .timed = {}})));
+        {.progress = say,
+         .interrupted = [] { return false; },
+         .judged = {},
+         .timed = {},
+         .compared = compared})));
 }
 
 const trade::SweepRow& row_of(const std::vector<trade::SweepRow>& rows,

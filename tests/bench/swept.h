@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <string_view>
 #include <vector>
 
 #include "runtime/display/display_profile.h"
+#include "runtime/trade/sweep.h"
 #include "runtime/trade/sweep_question.h"
 #include "runtime/trade/sweep_rows.h"
 #include "runtime/vulkan/context.h"
@@ -22,10 +24,12 @@ trade::SweepQuestion question_of(const display::DisplayProfile& display, vk::Ext
 /// So many frames of a scene with the gaze ahead.
 trade::CaseQuestion still(std::string_view scene, std::size_t frames);
 
-/// Measures it, with progress on stderr. @throws SetupError for what cannot be measured
-std::vector<trade::SweepSheet> swept(const vulkan::Context& context,
-                                     const trade::SweepQuestion& question,
-                                     const std::vector<trade::SweepPoint>& points);
+/// Measures it, with progress on stderr; `compared` is told of each frame. @throws SetupError for
+/// what cannot be measured
+std::vector<trade::SweepSheet> swept(
+    const vulkan::Context& context, const trade::SweepQuestion& question,
+    const std::vector<trade::SweepPoint>& points,
+    const std::function<void(const trade::ComparedFrame&)>& compared = {});
 
 /// @throws SetupError (Usage) for a point that has no figures
 const trade::SweepRow& row_of(const std::vector<trade::SweepRow>& rows,

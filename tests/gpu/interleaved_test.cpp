@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
+#include "runtime/render/cut.h"
 #include "runtime/render/passes/interleaved_passes.h"
 #include "runtime/render/passes/log_polar_passes.h"
 #include "tests/support/frame_renderer_fixture.h"
@@ -56,8 +57,12 @@ class Interleaved : public FrameRendererTest {
 
         std::optional<std::uint64_t> next(FrameRequest request) {
             request.index = index++;
-            return off_screen_.render(request.frame_view(), request.fovea()).gpu.pixel_hash;
+            const auto rendered = off_screen_.render(request.frame_view(), request.fovea());
+            shaded_ = rendered.counts.shaded();
+            return rendered.gpu.pixel_hash;
         }
+        /// Cells of the last frame.
+        [[nodiscard]] std::uint64_t shaded() const { return shaded_; }
         Picture after(const FrameRequest& request, int frames) {
             for (int frame = 0; frame < frames; ++frame) {
                 next(request);
@@ -68,6 +73,7 @@ class Interleaved : public FrameRendererTest {
 
       private:
         OffScreen off_screen_;
+        std::uint64_t shaded_ = 0;
     };
 
     /// Root of the mean square, codes.
@@ -87,7 +93,8 @@ TEST_F(Interleaved, HasEveryTexelAfterAsManyFramesAsThereAreTurns) {
     const FrameRequest at = looking_at({90, 50});
     const Picture expected = Run(whole()).after(at, 1);
     for (const std::uint32_t every : foveation::CellTurns::kEvery) {
-        Run run(interleaved({.texels = {every}, .pixels = {every}, .visits = 1, .jitter = false}));
+        Run run(interleaved(
+            {.texels = {every}, .pixels = {every}, .visits = 1, .jitter = false, .refill = false}));
         const int turns = static_cast<int>(every);
         if (turns > 1) {
             EXPECT_GT(difference(run.after(at, turns - 1), expected), 0.5) << every;
@@ -102,13 +109,60 @@ TEST_F(Interleaved, HasEveryTexelAfterAsManyFramesAsThereAreTurns) {
 TEST_F(Interleaved, ShadesOnePartOfTheTexels) {
     const FrameRequest at = looking_at({80, 60});
     const auto shaded = [&](std::uint32_t every) {
-        OffScreen off_screen(context(), scene(),
-                             interleaved({.texels = {every}, .pixels = {every}}), pictures());
-        return static_cast<double>(off_screen.render(at.frame_view(), at.fovea()).counts.shaded());
+        Run run(interleaved({.texels = {every}, .pixels = {every}}));
+        run.next(at);
+        run.next(at);
+        return static_cast<double>(run.shaded());
     };
     for (const std::uint32_t every : {2U, 4U, 8U}) {
         EXPECT_NEAR(shaded(1) / shaded(every), every, 0.15 * every) << every;
     }
+}
+
+// Where nothing is kept, the frame is that of the whole method.
+TEST_F(Interleaved, ShadesEveryTexelWhereNothingIsKept) {
+    const FrameRequest at = looking_at({90, 50});
+    Run all(whole());
+    const Picture expected = all.after(at, 1);
+    for (const std::uint32_t every : foveation::CellTurns::kEvery) {
+        Run run(interleaved({.texels = {every}, .pixels = {every}, .jitter = false}));
+        run.index = 5;
+        // Halves in the one, not in the other, may round the other way.
+        EXPECT_LE(largest_difference(run.after(at, 1), expected), 1) << every;
+        EXPECT_LE(largest_difference(run.after(at, 1), expected), 1) << every << ", then its turn";
+        EXPECT_LT(run.shaded() * every, 1.3 * static_cast<double>(all.shaded())) << every;
+    }
+}
+
+// After a saccade the disc is as good as that of a first frame, by the samples of what lay outside.
+TEST_F(Interleaved, ShadesWhatTheGazeLandsOn) {
+    const FrameRequest before = looking_at({50, 60});
+    const FrameRequest after = looking_at({110, 60});
+    const auto landed = [&](bool refill) {
+        Run run(interleaved({.texels = {8}, .pixels = {8}, .refill = refill}), 4);
+        run.after(before, 16);
+        return std::pair{run.after(after, 1), run.shaded()};
+    };
+    const Picture more_rays = Run(whole(), 16).after(after, 1);
+    const auto [refilled, samples] = landed(true);
+    const auto [kept, fewest] = landed(false);
+    EXPECT_LT(difference(refilled, more_rays), 0.85 * difference(kept, more_rays));
+    EXPECT_GT(samples, fewest);
+    Run all(whole(), 4);
+    all.next(after);
+    EXPECT_LT(samples, all.shaded());
+}
+
+// Gaze that only drifts asks for no more samples.
+TEST_F(Interleaved, ShadesNoMoreWhereTheGazeDrifts) {
+    Run run(interleaved());
+    run.next(looking_at({80.0, 60.0}));
+    run.next(looking_at({80.5, 60.0}));
+    const std::uint64_t drifting = run.shaded();
+    Run still(interleaved());
+    still.next(looking_at({80.5, 60.0}));
+    still.next(looking_at({80.5, 60.0}));
+    EXPECT_EQ(drifting, still.shaded());
 }
 
 TEST_F(Interleaved, ConvergesToThePictureOfMoreRays) {
@@ -137,7 +191,24 @@ TEST_F(Interleaved, KeepsWhatItShowsWhereItIs) {
     const double followed = difference(last_of({}), now);
     EXPECT_LT(followed, 0.9 * difference(last_of({.follow = false}), now));
     // Better than what this frame alone shows.
-    EXPECT_LT(followed, difference(Run(interleaved(), 4).after(at_frame(11), 1), now));
+    EXPECT_LT(followed,
+              difference(Run(interleaved({.refill = false}), 4).after(at_frame(11), 1), now));
+}
+
+// Where the picture moves over the pixels, what is kept of the disc is not washed out.
+TEST_F(Interleaved, KeepsTheDiscSharpAsTheEyeTurns) {
+    const auto at_frame = [](int frame) { return turned(looking_at({80, 60}), 0.25 * frame); };
+    const auto last_of = [&](InterleavedConfig::Sharp sharp) {
+        // The gaze stays in the picture, so that what it shows moves through the disc.
+        Run run(interleaved({.texels = {8}, .pixels = {8}, .sharp = sharp}), 4);
+        for (int frame = 0; frame < 9; ++frame) {
+            run.next(at_frame(frame));
+        }
+        return run.after(at_frame(9), 1);
+    };
+    const Picture now = Run(whole(), 16).after(at_frame(9), 1);
+    const double sharp = difference(last_of(InterleavedConfig::Sharp::Disc), now);
+    EXPECT_LT(sharp, difference(last_of(InterleavedConfig::Sharp::Nothing), now));
 }
 
 // What moves by itself leaves nothing behind that the next visit of every texel does not take.

@@ -10,6 +10,7 @@ namespace gazeloop::foveation {
 /// width, so that what one frame shades lies evenly.
 struct CellTurns {
     static constexpr std::array<std::uint32_t, 5> kEvery{1, 2, 4, 8, 16};
+    static constexpr std::size_t kMost = 16;  ///< of kEvery
 
     std::uint32_t every = 1;  ///< one of kEvery
 

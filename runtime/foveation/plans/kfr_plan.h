@@ -30,6 +30,14 @@ class KfrPlan final : public LogPolarMethodPlan {
     void plan(gaze::Eye eye, const gaze::EyeView& view, const gaze::FoveaPoint& fovea,
               const HiddenArea* hidden, const FrameInRun& frame, EyePlan& plan) const override;
 
+    /// The column, as a share of the width, of what lies so far from the fovea. Precondition:
+    /// prepare().
+    [[nodiscard]] double column_share(gaze::Eye eye, const gaze::FoveaPoint& fovea,
+                                      double radius_px) const {
+        return LogPolarMap(parameters_.kernel, images_[gaze::index(eye)], fovea.position)
+            .u(radius_px);
+    }
+
     [[nodiscard]] bool in_gaze_frame() const override { return false; }
     [[nodiscard]] LpSize lp(gaze::Eye eye) const override { return lp_[gaze::index(eye)]; }
     [[nodiscard]] MapTables tables(gaze::Eye eye) const override {

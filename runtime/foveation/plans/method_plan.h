@@ -2,6 +2,7 @@
 
 #include <array>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <vector>
 
 #include "runtime/error.h"
@@ -25,12 +26,20 @@ struct ShadedGrid {
     void start(std::uint32_t height);
 };
 
+/// What the frame before showed one eye.
+struct EyeBefore {
+    gaze::EyeView view{};
+    gaze::PixelPosition fovea{};  ///< that it was planned for
+};
+
 /// Which frame of a run is planned, for methods that do not shade everything in every frame.
 struct FrameInRun {
     std::uint64_t index = 0;
     /// Whether the frame before was rendered too, by views of these fields and sizes: what it left
     /// can be used.
     bool follows = false;
+    /// None where the frame follows no other one, and at a cut (render::is_cut()).
+    gaze::PerEye<std::optional<EyeBefore>> before{};
 };
 
 /// One eye's picture at one gaze.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
 
@@ -58,6 +57,7 @@ enum InterleavedConstant : std::uint32_t {
     kFollows,
     kPixels,
     kHeld = kPixels + 2,  // kJittered lies between
+    kSharp,
 };
 
 /// The grids of a plan.
@@ -66,15 +66,18 @@ constexpr std::array kEveryGrid{kOfTexels, kOfPixels};
 
 /// std140, shaders/lib/interleaved.glsl.
 struct InterleavedUniforms {
-    glm::vec4 turn{0.0F};
     glm::vec4 cells{0.0F};
     glm::vec4 first_bands{0.0F};
+    glm::vec4 refill_bands{0.0F};
     glm::vec4 before{0.0F};
     glm::vec4 map_before{0.0F};
+    std::array<glm::vec4, foveation::CellTurns::kMost> turns{};
+    std::array<glm::vec4, foveation::CellTurns::kMost> layers{};
     std::array<glm::vec4, kMaxSamples> texel_offsets{};
     std::array<glm::vec4, kMaxSamples> pixel_offsets{};
 };
-static_assert(sizeof(InterleavedUniforms) == 16 * std::size_t{5 + 2 * kMaxSamples});
+static_assert(sizeof(InterleavedUniforms) ==
+              16 * std::size_t{5 + 2 * foveation::CellTurns::kMost + 2 * kMaxSamples});
 
 constexpr std::size_t kMapVectors = sizeof(MapUniforms) / sizeof(glm::vec4);
 
@@ -114,7 +117,7 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         : PlannedPasses(
               frame::PassList{"pass_i", "disc", "keep", "resolve"},
               std::make_unique<InterleavedPlan>(std::make_unique<foveation::KfrPlan>(parameters),
-                                                config.texels, config.pixels)),
+                                                config.texels, config.pixels, config.refill)),
           setup_(setup),
           config_(config) {
         const vk::raii::Device& device = setup.context.device();
@@ -155,7 +158,7 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         };
         const auto shade = [&](const vk::raii::CommandBuffer& commands, std::size_t grid) {
             for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-                shade_grid(commands, frame, e, grid, plans[e].grids[grid].tiles);
+                shade_grid(commands, frame, e, grid, plans[e]);
             }
         };
         if (any(kOfTexels)) {
@@ -177,7 +180,8 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
                 keep(keeping, frame, e, grid, plans[e]);
             }
             eyes_[e].map_before = foveation::map_uniforms_of(plans[e]);
-            eyes_[e].bands_before.assign(plans[e].table.begin(), plans[e].table.end());
+            const InterleavedPlan::Bands bands = bands_of(e, plans[e]);
+            eyes_[e].bands_before.assign(bands.texels.begin(), bands.pixels.end());
         }
         const vk::raii::CommandBuffer& commands = recorder.begin("resolve");
         draw_pictures(commands, frame, setup_, [&](std::size_t e) {
@@ -194,7 +198,6 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         std::array<vulkan::TrackedColorImage, kGrids> cells;
         MapUniforms map_before;
         std::vector<std::uint32_t> bands_before;
-        std::optional<CutPlace> place_before;
         bool any_before = false;  ///< something is kept for the frame at hand
     };
 
@@ -208,6 +211,11 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
 
     [[nodiscard]] const foveation::CellTurns& turns(std::size_t grid) const {
         return grid == kOfPixels ? config_.pixels : config_.texels;
+    }
+
+    [[nodiscard]] InterleavedPlan::Bands bands_of(std::size_t e,
+                                                  const foveation::EyePlan& made) const {
+        return plan().bands_of(made, gaze::kEyes.at(e), setup_.extents[e].height);
     }
 
     /// Texels or pixels of a grid.
@@ -232,10 +240,13 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
             for (const std::size_t grid : kEveryGrid) {
                 using Usage = vk::ImageUsageFlagBits;
                 at.kept.at(grid) = vulkan::History(setup_.context, extent(e, grid), kKeptFormat);
-                at.cells.at(grid) = {setup_.context, cells(e, grid), kKeptFormat,
+                // A layer of them for each turn, side by side as in a block.
+                const vk::Extent2D layers(cells(e, grid).width * turns(grid).block_width(),
+                                          cells(e, grid).height * turns(grid).block_height());
+                at.cells.at(grid) = {setup_.context, layers, kKeptFormat,
                                      Usage::eColorAttachment | Usage::eSampled};
-                bands += InterleavedPlan::bands(cells(e, grid).height) +
-                         2 * InterleavedPlan::bands(extent(e, grid).height);
+                bands += 2 * (InterleavedPlan::bands(cells(e, grid).height) +
+                              InterleavedPlan::bands(extent(e, grid).height));
             }
             for (auto& slot : slots_) {
                 slot[e].bands =
@@ -275,6 +286,10 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
             std::vector<vulkan::ShaderConstant> keeping(weaving.begin(), weaving.end());
             keeping.push_back({kPixels, grid == kOfPixels ? 1U : 0U});
             keeping.push_back({kHeld, config_.hold ? 1U : 0U});
+            const bool sharp =
+                config_.sharp == InterleavedConfig::Sharp::All ||
+                (config_.sharp == InterleavedConfig::Sharp::Disc && grid == kOfPixels);
+            keeping.push_back({kSharp, sharp ? 1U : 0U});
             keep_.at(grid) = vulkan::make_pipeline(device, layout_,
                                                    {.vertex = "full_screen.vert",
                                                     .fragment = "interleaved_keep.frag",
@@ -298,11 +313,7 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
     /// Begins a frame of an eye's histories, and tells the shaders of it.
     void advance(const FrameRecording& frame, std::size_t e, const foveation::EyePlan& plan) {
         Eye& eye = eyes_[e];
-        const CutPlace place{frame.view.views[e].pose, frame.view.scene_time_s};
-        const bool follows = frame.in_run.follows && eye.place_before &&
-                             !is_cut(*eye.place_before, place) &&
-                             eye.bands_before.size() == plan.table.size();
-        eye.place_before = place;
+        const bool follows = frame.in_run.before[e].has_value();
         eye.any_before = follows;
         const EyeSlot& at = slots_[frame.slot][e];
         const vk::raii::Device& device = setup_.context.device();
@@ -325,24 +336,27 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         EyeSlot& at = slots_[frame.slot][e];
         at.map.write(std::span(plan.uniforms).first(kMapVectors));
         InterleavedUniforms told;
-        const auto turn_of = [&](std::size_t grid) {
-            return turns(grid).place(frame.in_run.index);
-        };
         const auto vector = [](auto x, auto y, auto z, auto w) {
             return glm::vec4(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
                              static_cast<float>(w));
         };
-        told.turn = vector(turn_of(kOfTexels).x, turn_of(kOfTexels).y, turn_of(kOfPixels).x,
-                           turn_of(kOfPixels).y);
+        tell_turns(frame.in_run.index, told);
         const vk::Extent2D texel_cells = cells(e, kOfTexels);
         const vk::Extent2D pixel_cells = cells(e, kOfPixels);
         told.cells =
             vector(texel_cells.width, texel_cells.height, pixel_cells.width, pixel_cells.height);
-        // Cells of texels, of pixels; texels and pixels of this frame, of the last one.
+        // Cells of texels, of pixels; blocks of both that are shaded whole; texels and pixels of
+        // this frame, of the last one.
+        const InterleavedPlan::Bands bands = bands_of(e, plan);
+        const std::span<const std::uint32_t> read(bands.texels.begin(), bands.pixels.end());
         const std::size_t of_pixel_cells = InterleavedPlan::bands(texel_cells.height);
-        const std::size_t of_texels = of_pixel_cells + InterleavedPlan::bands(pixel_cells.height);
+        const std::size_t of_texel_refill =
+            of_pixel_cells + InterleavedPlan::bands(pixel_cells.height);
+        const std::size_t of_pixel_refill = of_texel_refill + bands.texel_refill.size() / 2;
+        const std::size_t of_texels = of_pixel_refill + bands.pixel_refill.size() / 2;
         const std::size_t texel_bands = InterleavedPlan::bands(extent(e, kOfTexels).height);
-        const std::size_t of_texels_before = of_texels + plan.table.size() / 2;
+        const std::size_t of_texels_before = of_texels + read.size() / 2;
+        told.refill_bands = vector(of_texel_refill, of_pixel_refill, 0, 0);
         told.first_bands =
             vector(of_pixel_cells, of_texels, of_texels + texel_bands, of_texels_before);
         told.before =
@@ -350,19 +364,21 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         const auto write_bands = [&](std::size_t first, std::span<const std::uint32_t> words) {
             at.bands.write(words, first * sizeof(foveation::Columns));
         };
-        const auto write_cells = [&](std::size_t first, std::size_t bands, std::size_t grid) {
+        const auto write_cells = [&](std::size_t first, std::size_t count, std::size_t grid) {
             static constexpr foveation::Columns kNone{};
             const auto& planned = plan.grids[grid].bands;
-            for (std::size_t band = 0; band < bands; ++band) {
+            for (std::size_t band = 0; band < count; ++band) {
                 at.bands.write(std::span(band < planned.size() ? &planned[band] : &kNone, 1),
                                (first + band) * sizeof(foveation::Columns));
             }
         };
         write_cells(0, of_pixel_cells, kOfTexels);
-        write_cells(of_pixel_cells, of_texels - of_pixel_cells, kOfPixels);
-        write_bands(of_texels, plan.table);
+        write_cells(of_pixel_cells, of_texel_refill - of_pixel_cells, kOfPixels);
+        write_bands(of_texel_refill, bands.texel_refill);
+        write_bands(of_pixel_refill, bands.pixel_refill);
+        write_bands(of_texels, read);
         // Where nothing is kept, this frame's stand in: the shaders compute with them all the same.
-        write_bands(of_texels_before, eye.any_before ? eye.bands_before : plan.table);
+        write_bands(of_texels_before, eye.any_before ? std::span(eye.bands_before) : read);
         const MapUniforms before =
             eye.any_before ? eye.map_before : foveation::map_uniforms_of(plan);
         told.map_before = {before.fovea_and_log2.x, before.fovea_and_log2.y,
@@ -383,9 +399,47 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         at.uniforms.write(told);
     }
 
+    /// The turns of a frame: its own, which is layer 0, and those before it, whose places are
+    /// shaded as well where a block is shaded whole.
+    void tell_turns(std::uint64_t frame, InterleavedUniforms& told) const {
+        for (const std::size_t grid : kEveryGrid) {
+            const foveation::CellTurns& taken = turns(grid);
+            for (std::uint32_t layer = 0; layer < taken.every; ++layer) {
+                const foveation::CellTurns::Place place = taken.place(frame + taken.every - layer);
+                const auto at = static_cast<glm::length_t>(2 * grid);
+                told.turns.at(layer)[at] = static_cast<float>(place.x);
+                told.turns.at(layer)[at + 1] = static_cast<float>(place.y);
+                told.layers.at(place.y * taken.block_width() +
+                               place.x)[static_cast<glm::length_t>(grid)] =
+                    static_cast<float>(layer);
+            }
+        }
+    }
+
+    /// The tiles of blocks that are shaded whole, where a turn's cells lie in the image.
+    std::span<const foveation::Tile> refill_tiles(std::size_t e, std::size_t grid,
+                                                  std::span<const std::uint32_t> words,
+                                                  std::uint32_t layer) {
+        refill_bands_.clear();
+        for (std::size_t word = 0; word < words.size(); word += 2) {
+            refill_bands_.push_back({words[word], words[word + 1]});
+        }
+        refill_tiles_.clear();
+        const vk::Extent2D size = cells(e, grid);
+        append_band_tiles(refill_bands_, size.height, refill_tiles_);
+        const std::uint32_t across = turns(grid).block_width();
+        for (foveation::Tile& tile : refill_tiles_) {
+            tile.x0 += layer % across * size.width;
+            tile.x1 += layer % across * size.width;
+            tile.y0 += layer / across * size.height;
+            tile.y1 += layer / across * size.height;
+        }
+        return refill_tiles_;
+    }
+
     /// Shades cells of a grid and makes them readable.
     void shade_grid(const vk::raii::CommandBuffer& commands, const FrameRecording& frame,
-                    std::size_t e, std::size_t grid, std::span<const foveation::Tile> tiles) {
+                    std::size_t e, std::size_t grid, const foveation::EyePlan& plan) {
         Eye& eye = eyes_[e];
         for (vulkan::History& kept : eye.kept) {
             kept.other().tracked.use(
@@ -394,18 +448,34 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         }
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *shade_);
         bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
-        shade_cells(commands, eye.cells.at(grid), tiles, grid == kOfPixels ? 1 : 0,
-                    setup_.unshaded);
+        vulkan::TrackedColorImage& cells = eye.cells.at(grid);
+        cells.tracked.use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
+        const std::span<const foveation::Tile> tiles = plan.grids[grid].tiles;
+        if (!tiles.empty() || setup_.unshaded) {
+            const InterleavedPlan::Bands bands = bands_of(e, plan);
+            begin_rendering(
+                commands, cells.image.view(), cells.image.extent(),
+                setup_.unshaded ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare,
+                setup_.unshaded.value_or(std::array<float, 4>{}));
+            const std::uint32_t of_grid = grid == kOfPixels ? 1 : 0;
+            draw_tiles(commands, tiles, of_grid);
+            for (std::uint32_t layer = 1; layer < turns(grid).every; ++layer) {
+                draw_tiles(commands,
+                           refill_tiles(e, grid,
+                                        grid == kOfPixels ? bands.pixel_refill : bands.texel_refill,
+                                        layer),
+                           2 * layer + of_grid);
+            }
+            commands.endRendering();
+        }
+        cells.tracked.use(commands, vulkan::Use::Sampled);
     }
 
     /// The rectangle of a grid's texels or pixels that the picture reads.
     [[nodiscard]] foveation::Tile needed(std::size_t e, std::size_t grid,
                                          const foveation::EyePlan& plan) const {
-        const std::size_t texel_words =
-            2 * std::size_t{InterleavedPlan::bands(extent(e, kOfTexels).height)};
-        const std::span<const std::uint32_t> table = plan.table;
-        return bounds(grid == kOfTexels ? table.first(texel_words) : table.subspan(texel_words),
-                      extent(e, grid).height);
+        const InterleavedPlan::Bands bands = bands_of(e, plan);
+        return bounds(grid == kOfTexels ? bands.texels : bands.pixels, extent(e, grid).height);
     }
 
     /// Weaves a grid's cells into what was kept.
@@ -444,17 +514,11 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
     vk::raii::DescriptorPool pool_{nullptr};
     gaze::PerEye<Eye> eyes_;
     std::vector<gaze::PerEye<EyeSlot>> slots_;
+    std::vector<foveation::Columns> refill_bands_;  ///< of the grid at hand
+    std::vector<foveation::Tile> refill_tiles_;
 };
 
 }  // namespace
-
-bool is_cut(const CutPlace& before, const CutPlace& now) {
-    const double half_turn_cosine =
-        std::abs(glm::dot(before.pose.orientation, now.pose.orientation));
-    return !(glm::distance(before.pose.position_m, now.pose.position_m) <= kCutStep_m &&
-             half_turn_cosine >= std::cos(0.5 * kCutTurn_rad) &&
-             std::abs(now.scene_time_s - before.scene_time_s) <= kCutTime_s);
-}
 
 std::unique_ptr<MethodPasses> make_interleaved_passes(const PassSetup& setup,
                                                       const InterleavedConfig& config,

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <string_view>
 
 #include "runtime/foveation/log_polar/log_polar_map.h"
 #include "runtime/foveation/plans/cell_turns.h"
@@ -19,6 +21,11 @@ struct InterleavedConfig {
     bool jitter = true;              ///< another place in their texel for the samples of each visit
     bool follow = true;  ///< what is kept follows view and gaze; else it stays in its texel
     bool hold = true;    ///< what is kept is held to what is shaded around it, where that changes
+    /// What of it is resampled by Catmull and Rom's spline as it follows; the rest is bilinearly.
+    enum class Sharp : std::uint8_t { Nothing, Disc, All };
+    static constexpr std::array<std::string_view, 3> kSharpNames{"nothing", "disc", "all"};
+    Sharp sharp = Sharp::Disc;
+    bool refill = true;  ///< where nothing of use is kept, all places are shaded at once
 };
 
 /// KFR whose texels take turns: pass I and disc shade one cell of every block, keep
@@ -28,16 +35,5 @@ struct InterleavedConfig {
 [[nodiscard]] std::unique_ptr<MethodPasses> make_interleaved_passes(
     const PassSetup& setup, const InterleavedConfig& config,
     const foveation::KfrParameters& parameters);
-
-/// Whether nothing of the last frame can be of use: the eye moved over kCutStep_m or turned over
-/// kCutTurn_rad, or scene time went on or back by over kCutTime_s.
-struct CutPlace {
-    gaze::Pose pose{};
-    double scene_time_s = 0.0;
-};
-inline constexpr double kCutStep_m = 0.5;
-inline constexpr double kCutTurn_rad = 0.7;
-inline constexpr double kCutTime_s = 2.0;
-[[nodiscard]] bool is_cut(const CutPlace& before, const CutPlace& now);
 
 }  // namespace gazeloop::render
