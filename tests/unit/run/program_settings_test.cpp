@@ -84,6 +84,8 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "interleaved.follow",
       "interleaved.hold",
       "interleaved.jitter",
+      "interleaved.refill",
+      "interleaved.sharp",
       "interleaved.visits",
       "kfr3d.growth",
       "kfr3d.inner",
