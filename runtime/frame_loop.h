@@ -30,9 +30,10 @@ struct LoopOptions {
     std::optional<double> seconds;  ///< on the time line, from its start
     bool end_with_source = false;
     bool hidden_area = true;  ///< leave out what no eye sees
-    /// Read the gaze only when the GPU has finished what needs no gaze. The gaze is younger then,
-    /// but frames overlap less.
-    bool wait_before_latch = false;
+    /// Read the gaze only when the GPU has finished what of the frame needs no gaze, if anything is
+    /// drawn before it. The gaze is then younger by that; the GPU idles for as long as it takes to
+    /// plan and record the rest.
+    bool wait_before_latch = true;
     std::optional<std::int64_t> budget_ns{};  ///< of the latency budget's total: for the records
     std::function<std::optional<LoopEnd>()>
         stop;  ///< called once per frame: the reason to end, if any

@@ -63,6 +63,10 @@ GazeAge gaze_age(const gaze::FoveaPoint& fovea, const frame::FrameStamps& stamps
                  std::optional<std::int64_t> row_ns) {
     GazeAge age;
     age.at_latch = time::between(fovea.sampled, stamps.latch);
+    if (const time::Span late = time::between(stamps.begin, stamps.latch);
+        age.at_latch.known() && late.known()) {
+        age.read_at_begin = sum(age.at_latch, late);
+    }
     age.at_display = time::between(fovea.sampled, shown);
     if (fovea.uncertainty_ns && age.at_display.known()) {
         age.uncertainty = {*fovea.uncertainty_ns, time::StampKind::Profile};

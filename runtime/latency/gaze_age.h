@@ -62,6 +62,9 @@ struct ShownFrame {
 /// How old the gaze was in one frame.
 struct GazeAge {
     time::Span at_latch;    ///< sampled -> latch
+    /// at_latch, had the gaze been read as the frame began: as old then, and older by the time from
+    /// there to the latch. What latching late gains is the difference.
+    time::Span read_at_begin;
     time::Span at_display;  ///< sampled -> shown, with the gaze filter's delay, and the display's
                             ///< row and switching times, if known
     /// Uncertainty of both ages, either way: from the tracker's fitted clock and its profile's

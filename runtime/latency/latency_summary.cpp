@@ -115,6 +115,7 @@ void LatencySummary::complete(const FinishedFrame& finished) {
 
 void LatencySummary::add_tracking(const GazeAge& age) {
     gaze_age_at_latch_.add(age.at_latch);
+    gaze_age_read_at_begin_.add(age.read_at_begin);
     gaze_age_uncertainty_.add(age.uncertainty);
     for (std::size_t stage = 0; stage < kStageCount; ++stage) {
         stages_[stage].add(age.stages[stage]);
@@ -157,6 +158,7 @@ SummaryReport LatencySummary::report_of_complete() const {
     }
     const AtDisplay& at_display = profiles_display ? of_profile_ : of_unknown_;
     report.gaze_age_at_latch = gaze_age_at_latch_.row();
+    report.gaze_age_read_at_begin = gaze_age_read_at_begin_.row();
     report.gaze_age_at_display = at_display.gaze_age.row();
     report.gaze_age_uncertainty = gaze_age_uncertainty_.row();
     report.stages = rows(stages_);

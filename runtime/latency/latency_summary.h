@@ -77,6 +77,7 @@ struct SummaryReport {
     Verdict verdict = Verdict::Unknown;
 
     DurationRow gaze_age_at_latch;
+    DurationRow gaze_age_read_at_begin;  ///< at the latch, had it been read as the frame began
     DurationRow gaze_age_at_display;
     DurationRow gaze_age_uncertainty;  ///< of both ages, either way
     std::array<DurationRow, kStageCount> stages;
@@ -165,6 +166,7 @@ class LatencySummary {
     PendingFrames pending_;
     std::optional<Neighbour> before_;
     SpanSeries gaze_age_at_latch_;
+    SpanSeries gaze_age_read_at_begin_;
     SpanSeries gaze_age_uncertainty_;
     std::array<SpanSeries, kStageCount> stages_;  ///< without those of AtDisplay
     // Whose display it is, the commonest period decides in the end.

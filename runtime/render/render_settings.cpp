@@ -90,7 +90,7 @@ std::vector<settings::SettingRow> rows_of(RenderSettings& render,
         {"render.taa_reset", "with render.taa: forget the last frames where a saccade lands",
          &render.forget_at_landings, Concerns::Picture},
         {"render.wait_before_latch",
-         "read the gaze only when the GPU has finished what needs no gaze",
+         "read the gaze only when the GPU has finished what needs no gaze: the G-buffer of meshes",
          &render.wait_before_latch, Concerns::Output},
     };
 }

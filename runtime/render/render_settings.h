@@ -29,7 +29,7 @@ struct RenderSettings {
     bool depth = true;
     bool hidden_area = true;
     std::int64_t frames_in_flight = 2;
-    bool wait_before_latch = false;
+    bool wait_before_latch = true;
 };
 
 /// What they say of antialiasing.

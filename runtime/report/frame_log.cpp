@@ -61,6 +61,7 @@ void FrameLog::AtDisplay::skip() {
 FrameLog::FrameLog(const latency::SummaryConfig& config)
     : config_(config),
       at_latch_(of(kGazeAgeAtLatch)),
+      read_at_begin_(of(kGazeAgeReadAtBegin)),
       uncertainty_(of(kGazeAgeUncertainty)),
       frame_interval_(of(kFrameInterval)),
       loop_time_(of(kLoopTime)),
@@ -175,11 +176,13 @@ void FrameLog::add_rendered(const latency::FinishedFrame& finished) {
 void FrameLog::add_gaze(const latency::FrameAccount& account) {
     if (!account.with_gaze()) {
         at_latch_.skip();
+        read_at_begin_.skip();
         uncertainty_.skip();
         std::ranges::for_each(stages_, &DurationColumn::skip);
         return;
     }
     at_latch_.add(account.age.at_latch);
+    read_at_begin_.add(account.age.read_at_begin);
     uncertainty_.add(account.age.uncertainty);
     for (std::size_t stage = 0; stage < stages_.size(); ++stage) {
         stages_[stage].add(account.age.stages[stage]);
@@ -235,6 +238,7 @@ void FrameLog::gather_columns() {
     AtDisplay& at_display = profiles_display ? of_profile_ : of_unknown_;
     const auto take = [this](DurationColumn& column) { columns_.push_back(std::move(column)); };
     take(at_latch_);
+    take(read_at_begin_);
     take(at_display.gaze_age);
     take(uncertainty_);
     std::ranges::for_each(stages_, take);

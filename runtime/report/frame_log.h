@@ -59,7 +59,7 @@ class FrameLog final : public frame::FrameObserver {
 
     /// In the order in which a report shows them:
     ///
-    ///     gaze_age_at_latch, gaze_age_at_display, gaze_age_uncertainty,
+    ///     gaze_age_at_latch, gaze_age_read_at_begin, gaze_age_at_display, gaze_age_uncertainty,
     ///     stage_tracker ... stage_switching (latency::kStageNames), unaccounted,
     ///     held_gaze_age_at_display, frame_interval, loop_time,
     ///     pass_NAME (by the run's list),                      nanoseconds
@@ -124,6 +124,7 @@ class FrameLog final : public frame::FrameObserver {
     EyeEventSource eye_event_source_ = EyeEventSource::None;
 
     DurationColumn at_latch_;
+    DurationColumn read_at_begin_;
     DurationColumn uncertainty_;
     std::vector<DurationColumn> stages_;
     AtDisplay of_profile_;

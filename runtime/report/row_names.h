@@ -16,6 +16,7 @@ struct RowName {
 };
 
 inline const RowName kGazeAgeAtLatch{"gaze_age_at_latch", "gaze age at latch"};
+inline const RowName kGazeAgeReadAtBegin{"gaze_age_read_at_begin", "  read at frame begin"};
 inline const RowName kGazeAgeAtDisplay{"gaze_age_at_display", "gaze age at display"};
 inline const RowName kGazeAgeUncertainty{"gaze_age_uncertainty", "  uncertain by"};
 inline const RowName kUnaccounted{"unaccounted", "  unaccounted"};

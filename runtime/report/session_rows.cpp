@@ -21,7 +21,8 @@ bool always_shown(std::string_view key) {
             return !latency::shown_only_if_known(stage);
         }
     }
-    return key != kGazeAgeUncertainty.key && key != kHeldGazeAge.key && !key.starts_with("pass_");
+    return key != kGazeAgeReadAtBegin.key && key != kGazeAgeUncertainty.key &&
+           key != kHeldGazeAge.key && !key.starts_with("pass_");
 }
 
 std::optional<double> shown(const std::optional<std::int64_t>& number, Unit unit) {

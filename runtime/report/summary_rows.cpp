@@ -10,6 +10,9 @@ std::vector<NamedRow> rows_of(const latency::SummaryReport& report) {
         rows.push_back({name, &row});
     };
     add(kGazeAgeAtLatch, report.gaze_age_at_latch);
+    if (report.gaze_age_read_at_begin.count > 0) {
+        add(kGazeAgeReadAtBegin, report.gaze_age_read_at_begin);
+    }
     add(kGazeAgeAtDisplay, report.gaze_age_at_display);
     if (report.gaze_age_uncertainty.count > 0) {
         add(kGazeAgeUncertainty, report.gaze_age_uncertainty);

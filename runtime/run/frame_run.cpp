@@ -332,7 +332,9 @@ class FrameRun {
         LoopOptions options = request_.loop;
         options.stop = [this] { return why_stop(); };
         options.hidden_area = values_.render.hidden_area;
-        options.wait_before_latch = values_.render.wait_before_latch;
+        // What draws without the gaze would only wait.
+        options.wait_before_latch = values_.render.wait_before_latch &&
+                                    methods::find_method(values_.render.method)->uses_gaze;
         options.budget_ns = monitor_.budget() ? monitor_.budget()->total_ns : std::nullopt;
         try {
             result_ = run_frame_loop(parts, options);

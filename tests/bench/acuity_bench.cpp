@@ -51,7 +51,7 @@ class Measurement {
                     contender->round(frame);
                 }
             }
-            const CostMap costs(context_, setup_, config_, yaw_deg, full_.median_ms());
+            const CostMap costs(context_, setup_, config_, frame, full_.median_ms());
             acuity_times.keep(full_, acuity_, costs, acuity_map(frame));
             kfr_times.keep(
                 full_, kfr_, costs,

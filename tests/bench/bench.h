@@ -41,7 +41,9 @@ std::vector<Figure> kfr_raycast(const Options& options);
 std::vector<Figure> kfr_mesh(const Options& options);
 
 /// How old the gaze is when the first pass that needs it begins, read before the G-buffer is drawn,
-/// once that is submitted, and once it is finished; and what each costs a frame.
+/// once that is submitted, and once it is finished; and what each costs a frame. The case
+/// `host-signal`: what passes would gain that are submitted before the gaze is read and let go by a
+/// signal of the host.
 std::vector<Figure> latch(const Options& options);
 
 /// The frame loop's own work: from gaze to fovea, CPU time outside Vulkan and OpenXR, allocations,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/foveation/log_polar/log_polar_map.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/plain_blit.h"
 #include "tests/bench/raycast_setup.h"
@@ -37,6 +37,7 @@ const std::array kStages{
     Stage{"defer", {"defer", "glass"}}, Stage{"sky", {"sky"}},
     Stage{"shading", {"full"}},         Stage{"pass I", {"pass_i", "disc", "lp_gaussian"}},
     Stage{"pass II", {"resolve"}}};
+constexpr std::size_t kFirstOfSamples = 4;
 constexpr std::size_t kPassTwo = kStages.size() - 1;
 
 constexpr const char* kFull = "full";
@@ -59,23 +60,30 @@ double total_ms(const Contender& contender) {
     return sum;
 }
 
+/// Of what is drawn before the gaze is read.
+double geometry_ms(const Contender& contender) {
+    double sum = 0.0;
+    for (std::size_t stage = 0; stage < kFirstOfSamples; ++stage) {
+        sum += stage_ms(contender, kStages.at(stage));
+    }
+    return sum;
+}
+
 /// Of full resolution: what fewer samples make faster.
 double shading_ms(const Contender& full) { return full.median_ms("full"); }
 
 struct Entrant {
     std::string name;
     Contender contender;
-    /// Of each round, of all threads: what a driver that renders on the processor takes of a busy
-    /// machine too.
-    std::vector<double> processor_ms;
 
-    void round(const render::FrameRequest& frame, bool keep) {
-        const std::clock_t begin = std::clock();
-        contender.round(frame, keep);
-        if (keep) {
-            processor_ms.push_back(1e3 * static_cast<double>(std::clock() - begin) /
-                                   CLOCKS_PER_SEC);
-        }
+    /// Processor time of all threads: what a driver that renders on the processor takes of a busy
+    /// machine too.
+    [[nodiscard]] double processor_ms() const { return contender.median_processor_ms(); }
+    [[nodiscard]] double before_gaze_processor_ms() const {
+        return contender.median_before_gaze_processor_ms();
+    }
+    [[nodiscard]] double after_gaze_processor_ms() const {
+        return processor_ms() - before_gaze_processor_ms();
     }
 };
 
@@ -84,14 +92,16 @@ class Measurement {
     /// `all_scene` is the same scene with everything drawn as if it were needed.
     Measurement(const vulkan::Context& context, scene::Scene& scene, scene::Scene& all_scene,
                 const Case& at, const Options& options)
-        : case_(at),
+        : context_(context),
+          scene_(scene),
+          case_(at),
           rounds_(std::min(options.rounds, at.most_rounds)),
           setup_(context, at.extent, kHalfWidth_rad) {
         config_ = setup_.config(options);
         config_.samples = options.samples.value_or(1);
         const auto enter = [&](std::string name, const render::MethodConfig& config,
                                scene::Scene& of) {
-            contenders_.push_back({std::move(name), Contender(context, config, of), {}});
+            contenders_.push_back({std::move(name), Contender(context, config, of)});
         };
         enter(kFull, with(render::Method::Full), scene);
         enter(kKfr, with(render::Method::Kfr), scene);
@@ -113,7 +123,7 @@ class Measurement {
             glm::angleAxis(std::numbers::pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));
         for (unsigned round = 0; round <= rounds_; ++round) {
             for (Entrant& entrant : contenders_) {
-                entrant.round(frame, round > 0);
+                entrant.contender.round(frame, round > 0);
             }
             blit_->round(round > 0);
         }
@@ -123,6 +133,7 @@ class Measurement {
             }
             add_stages(entrant, figures);
         }
+        add_processor_share(frame, figures);
         add_left_out(figures);
         add_pass_two(figures);
     }
@@ -164,14 +175,40 @@ class Measurement {
             speedup.target = case_.target;
         }
         add(figures, prefix + "processor speedup",
-            median(this->entrant(kFull).processor_ms) / median(entrant.processor_ms), "x",
-            "higher");
+            this->entrant(kFull).processor_ms() / entrant.processor_ms(), "x", "higher");
         add(figures, prefix + "share of Amdahl", 100.0 * full_ms / ms / predicted, "%", "higher")
             .target = 90.0;
     }
 
+    /// Of KFR, in processor time: what a sample costs is what full resolution pays at its place.
+    void add_processor_share(const render::FrameRequest& frame,
+                             std::vector<Figure>& figures) const {
+        const Entrant& full = entrant(kFull);
+        const Entrant& kfr = entrant(kKfr);
+        const CostMap costs(context_, setup_, config_, frame, full.after_gaze_processor_ms(),
+                            &scene_);
+        const foveation::LogPolarMap map(config_.kfr.kernel,
+                                         {case_.extent.width, case_.extent.height},
+                                         kfr.contender.plan().fovea);
+        const double samples_ms = costs.predicted_ms(kfr.contender.plan(), map);
+        const double mean_ms =
+            full.after_gaze_processor_ms() * kfr.contender.cells() / full.contender.cells();
+        // Passes run one after the other, so that they take of processors what they take of time.
+        const double resolve_ms = kfr.after_gaze_processor_ms() *
+                                  stage_ms(kfr.contender, kStages[kPassTwo]) /
+                                  (total_ms(kfr.contender) - geometry_ms(kfr.contender));
+        const double predicted_ms = full.before_gaze_processor_ms() + samples_ms + resolve_ms;
+        add(figures, "processor share of Amdahl, by place",
+            100.0 * predicted_ms / kfr.processor_ms(), "%", "higher")
+            .target = 90.0;
+        add(figures, "cost of a sample's place over the mean", samples_ms / mean_ms, "x", "lower");
+        add(figures, "cost of a sample over its place's",
+            (kfr.after_gaze_processor_ms() - resolve_ms) / samples_ms, "x", "lower");
+    }
+
     void add_stages(const Entrant& entrant, std::vector<Figure>& figures) const {
-        const auto& [name, contender, processor_ms] = entrant;
+        const std::string& name = entrant.name;
+        const Contender& contender = entrant.contender;
         add(figures, name + " samples", contender.cells(), "", "lower");
         for (const Stage& stage : kStages) {
             if (stage_ms(contender, stage) == 0.0) {
@@ -187,7 +224,9 @@ class Measurement {
             }
         }
         add(figures, name + " total", total_ms(contender), "ms", "lower");
-        add(figures, name + " processor", median(processor_ms), "ms", "lower");
+        add(figures, name + " processor", entrant.processor_ms(), "ms", "lower");
+        add(figures, name + " processor before gaze", entrant.before_gaze_processor_ms(), "ms",
+            "lower");
     }
 
     /// What the scene does not need, as time that it does not take.
@@ -213,6 +252,8 @@ class Measurement {
             .target = 5.0;
     }
 
+    const vulkan::Context& context_;
+    scene::Scene& scene_;
     const Case& case_;
     unsigned rounds_;
     RaycastSetup setup_;

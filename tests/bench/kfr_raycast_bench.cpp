@@ -81,7 +81,7 @@ class Measurement {
                 contender->round(centred);
             }
         }
-        const CostMap costs(context_, setup_, config_, yaw_deg, full_.median_ms());
+        const CostMap costs(context_, setup_, config_, centred, full_.median_ms());
         keep(kfr_, costs, centred_);
         keep(plain_, costs, centred_plain_);
         if (!case_.off_centre) {

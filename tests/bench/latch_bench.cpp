@@ -2,16 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "runtime/latency/nearest_rank.h"
 #include "runtime/render/off_screen.h"
 #include "runtime/scene/scenes.h"
 #include "runtime/time/clock.h"
+#include "runtime/vulkan/clock.h"
+#include "runtime/vulkan/context.h"
 #include "tests/bench/bench.h"
 #include "tests/support/rendered_method.h"
 
@@ -19,6 +25,7 @@ namespace gazeloop::bench {
 namespace {
 
 constexpr const char* kLatchBench = "latch";
+constexpr const char* kHostSignal = "host-signal";
 /// Of a round: with the usual three there are enough for a 99th percentile.
 constexpr unsigned kFramesInRound = 34;
 
@@ -37,6 +44,7 @@ struct Latched {
     std::vector<double> to_end;     ///< from the latch to the picture's end
     std::vector<double> frame;      ///< from the frame's begin to the picture's end
     std::vector<double> geometry;   ///< passes before the gaze
+    std::vector<double> planning;   ///< the host's planning, recording and submitting of the rest
 };
 
 double ranked(std::vector<double> values, double percent) {
@@ -44,6 +52,88 @@ double ranked(std::vector<double> values, double percent) {
     const auto rank = latency::nearest_rank(percent, values.size());
     return rank ? values[*rank - 1] : std::nan("");
 }
+
+/// How soon work begins on an idle GPU: handed over, or handed over before and let go by the host's
+/// signal, as passes could be that are recorded for any gaze.
+class StartMeasurement {
+  public:
+    explicit StartMeasurement(const vulkan::Context& context)
+        : context_(context),
+          clock_(context),
+          pool_(context.device(),
+                vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+                                          context.queue_family())),
+          commands_(std::move(vk::raii::CommandBuffers(
+              context.device(),
+              vk::CommandBufferAllocateInfo(*pool_, vk::CommandBufferLevel::ePrimary, 1))[0])),
+          query_(context.device(), vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 1)),
+          go_(make_timeline_semaphore()),
+          done_(make_timeline_semaphore()) {}
+
+    void round() {
+        for (unsigned i = 0; i < kFramesInRound; ++i) {
+            start(false);
+            start(true);
+        }
+    }
+
+    [[nodiscard]] const std::vector<double>& submitted_ms() const { return submitted_ms_; }
+    [[nodiscard]] const std::vector<double>& signalled_ms() const { return signalled_ms_; }
+
+  private:
+    [[nodiscard]] vk::raii::Semaphore make_timeline_semaphore() const {
+        const vk::SemaphoreTypeCreateInfo timeline(vk::SemaphoreType::eTimeline, 0);
+        return {context_.device(), vk::SemaphoreCreateInfo({}, &timeline)};
+    }
+
+    void submit(bool waits) {
+        using Stage = vk::PipelineStageFlagBits2;
+        const vk::CommandBufferSubmitInfo commands(*commands_);
+        const vk::SemaphoreSubmitInfo go(*go_, value_, Stage::eAllCommands);
+        const vk::SemaphoreSubmitInfo done(*done_, value_, Stage::eAllCommands);
+        context_.queue().submit2(vk::SubmitInfo2({}, waits ? 1U : 0U, &go, 1, &commands, 1, &done));
+    }
+
+    void start(bool by_signal) {
+        constexpr std::chrono::milliseconds kGeometry(2);
+        ++value_;
+        commands_.reset();
+        commands_.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+        commands_.resetQueryPool(*query_, 0, 1);
+        commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eTopOfPipe, *query_, 0);
+        commands_.end();
+        if (by_signal) {
+            submit(true);
+        }
+        std::this_thread::sleep_for(kGeometry);  // the host waits for the G-buffer either way
+        const std::int64_t from_ns = time::monotonic_ns();
+        if (by_signal) {
+            context_.device().signalSemaphore(vk::SemaphoreSignalInfo(*go_, value_));
+        } else {
+            submit(false);
+        }
+        (void)context_.device().waitSemaphores(vk::SemaphoreWaitInfo({}, *done_, value_),
+                                               UINT64_MAX);
+        const auto [result, ticks] = query_.getResult<std::uint64_t>(0, 1, sizeof(std::uint64_t),
+                                                                     vk::QueryResultFlagBits::e64);
+        const time::Stamp began = clock_.host_time(ticks);
+        if (result == vk::Result::eSuccess && began.known()) {
+            (by_signal ? signalled_ms_ : submitted_ms_)
+                .push_back(static_cast<double>(began.ns - from_ns) * 1e-6);
+        }
+    }
+
+    const vulkan::Context& context_;
+    vulkan::GpuClock clock_;
+    vk::raii::CommandPool pool_;
+    vk::raii::CommandBuffer commands_;
+    vk::raii::QueryPool query_;
+    vk::raii::Semaphore go_;
+    vk::raii::Semaphore done_;
+    std::uint64_t value_ = 0;
+    std::vector<double> submitted_ms_;
+    std::vector<double> signalled_ms_;
+};
 
 /// Both eyes of the gallery by KFR, each finished before the next, as the loop does behind a
 /// display that is faster. The same renderer latches in all ways, frame by frame in turns.
@@ -88,7 +178,9 @@ class LatchMeasurement {
         if (when != When::AtBegin) {
             latch_ns = time::monotonic_ns();
         }
+        const std::int64_t plan_ns = time::monotonic_ns();
         renderer_->finish(fovea_);
+        const std::int64_t planned_ns = time::monotonic_ns();
         renderer_->wait_idle();
         const auto gpu = renderer_->next_finished();
         const auto pass_i = renderer_->passes().find("pass_i");
@@ -99,6 +191,7 @@ class LatchMeasurement {
         into.to_pass_i.push_back(ms(gpu->gpu_begin.ns + *gpu->pass_starts[*pass_i] - latch_ns));
         into.to_end.push_back(ms(gpu->gpu_end.ns - latch_ns));
         into.frame.push_back(ms(gpu->gpu_end.ns - begin_ns));
+        into.planning.push_back(ms(planned_ns - plan_ns));
         double geometry_ms = 0.0;
         for (std::size_t pass = 0; pass < *pass_i; ++pass) {
             geometry_ms += ms(gpu->passes[pass].value_or(0));
@@ -150,6 +243,8 @@ std::vector<Figure> latch(const Options& options) {
                 ranked(latched.to_end, 50.0), "ms", "lower");
             add(fmt::format("{}: frame, p50", kWays.at(way).name), ranked(latched.frame, 50.0),
                 "ms", "lower");
+            add(fmt::format("{}: planning, p50", kWays.at(way).name),
+                ranked(latched.planning, 50.0), "ms", "lower");
         }
         const Latched& late = measurement.latched().back();
         const double gained = ranked(at_begin.to_pass_i, 50.0) - ranked(late.to_pass_i, 50.0);
@@ -158,6 +253,24 @@ std::vector<Figure> latch(const Options& options) {
         add("frame over latching at begin", ranked(late.frame, 50.0) / ranked(at_begin.frame, 50.0),
             "x", "lower")
             .target = 1.03;
+    }
+    if (options.wants(kHostSignal)) {
+        // A device of its own: one that was made to wait for signals may submit otherwise.
+        const vulkan::Context own({}, nullptr);
+        StartMeasurement measurement(own);
+        for (unsigned round = 0; round < options.rounds; ++round) {
+            measurement.round();
+        }
+        for (const auto& [how, ms] : {std::pair("submit", &measurement.submitted_ms()),
+                                      std::pair("signal", &measurement.signalled_ms())}) {
+            for (const double percent : {50.0, 99.0}) {
+                if (const double value = ranked(*ms, percent); !std::isnan(value)) {
+                    figures.push_back({kLatchBench, kHostSignal,
+                                       fmt::format("{} to begin on the GPU, p{:.0f}", how, percent),
+                                       value, "ms", "lower"});
+                }
+            }
+        }
     }
     return figures;
 }

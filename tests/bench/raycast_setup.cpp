@@ -80,6 +80,8 @@ void Contender::round(const render::FrameRequest& request, bool keep) {
     const double begin_s = process_seconds();
     renderer_->wait_for_slot();
     renderer_->begin(request);
+    renderer_->wait_for_begun();
+    const double before_gaze_ms = 1e3 * (process_seconds() - begin_s);
     counts_ = renderer_->finish(request.fovea());
     renderer_->wait_idle();
     const double processor_ms = 1e3 * (process_seconds() - begin_s);
@@ -98,11 +100,13 @@ void Contender::round(const render::FrameRequest& request, bool keep) {
     }
     total_ms_.push_back(total);
     processor_ms_.push_back(processor_ms);
+    before_gaze_processor_ms_.push_back(before_gaze_ms);
 }
 
 void Contender::reset() {
     total_ms_.clear();
     processor_ms_.clear();
+    before_gaze_processor_ms_.clear();
     for (auto& pass : pass_ms_) {
         pass.clear();
     }
@@ -112,6 +116,10 @@ double Contender::median_ms() const { return median(total_ms_); }
 
 double Contender::median_processor_ms() const { return median(processor_ms_); }
 
+double Contender::median_before_gaze_processor_ms() const {
+    return median(before_gaze_processor_ms_);
+}
+
 double Contender::median_ms(std::string_view pass) const {
     const auto at = renderer_->passes().find(pass);
     return !at || pass_ms_[*at].empty() ? 0.0 : median(pass_ms_[*at]);
@@ -120,15 +128,17 @@ double Contender::median_ms(std::string_view pass) const {
 double Contender::cells() const { return static_cast<double>(counts_.shaded()); }
 
 CostMap::CostMap(const vulkan::Context& context, const RaycastSetup& setup,
-                 render::MethodConfig config, double yaw_deg, double whole_ms)
+                 render::MethodConfig config, const render::FrameRequest& whole_picture,
+                 double whole_ms, scene::Scene* scene)
     : extent_(setup.extent()) {
     const vk::Extent2D cell(extent_.width / kCells, extent_.height / kCells);
     config.method = render::Method::Full;
     config.extents = {cell, setup.extents()[1]};
     const vulkan::ColorImage image(context, cell, config.format,
                                    vk::ImageUsageFlagBits::eColorAttachment);
-    Contender full(context, config);
-    render::FrameRequest request = setup.frame(yaw_deg, setup.centre());
+    Contender full =
+        scene != nullptr ? Contender(context, config, *scene) : Contender(context, config);
+    render::FrameRequest request = whole_picture;
     const gaze::FieldOfView whole = request.views[0].fov;
     request.views[0].width_px = cell.width;
     request.views[0].height_px = cell.height;
@@ -147,8 +157,9 @@ CostMap::CostMap(const vulkan::Context& context, const RaycastSetup& setup,
                                     between(whole.up_rad, whole.down_rad, (row + 1) * step)};
             full.reset();
             full.round(request);
-            ms_per_pixel_[std::size_t{row} * kCells + column] = full.median_ms();
-            sum_ms += full.median_ms();
+            const double ms = full.median_processor_ms() - full.median_before_gaze_processor_ms();
+            ms_per_pixel_[std::size_t{row} * kCells + column] = ms;
+            sum_ms += ms;
         }
     }
     const double scale =

@@ -59,6 +59,8 @@ class Contender {
     [[nodiscard]] double median_ms() const;
     /// Likewise, in processor time of this process (process_seconds()).
     [[nodiscard]] double median_processor_ms() const;
+    /// Of that, the part before the gaze is read: what a scene draws for itself.
+    [[nodiscard]] double median_before_gaze_processor_ms() const;
     /// 0 for a pass that the method does not have.
     [[nodiscard]] double median_ms(std::string_view pass) const;
     [[nodiscard]] const frame::PassList& passes() const { return renderer_->passes(); }
@@ -74,6 +76,7 @@ class Contender {
     foveation::LogPolarPlan plan_;
     std::vector<double> total_ms_;
     std::vector<double> processor_ms_;
+    std::vector<double> before_gaze_processor_ms_;
     std::array<std::vector<double>, frame::kMostPasses> pass_ms_;
     frame::SampleCounts counts_;
 };
@@ -85,10 +88,11 @@ class CostMap {
   public:
     static constexpr std::uint32_t kCells = 6;  ///< a side
 
-    /// Renders every cell for itself at the picture's scale, so that their sum is one full frame;
-    /// then scales them to sum up to `whole_ms`.
+    /// Renders every cell of `whole` for itself at the picture's scale, so that their sum is one
+    /// full frame; then scales them to sum up to `whole_ms`. Taken in processor time after the gaze
+    /// is read, which a busy machine leaves alone. `scene` null: the ray-marched one.
     CostMap(const vulkan::Context& context, const RaycastSetup& setup, render::MethodConfig config,
-            double yaw_deg, double whole_ms);
+            const render::FrameRequest& whole, double whole_ms, scene::Scene* scene = nullptr);
 
     /// What the plan's cells would take if each cost what a pixel at its place costs.
     [[nodiscard]] double predicted_ms(const foveation::LogPolarPlan& plan,

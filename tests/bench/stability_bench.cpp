@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "runtime/render/off_screen.h"
 #include "runtime/render/srgb.h"
@@ -58,8 +59,8 @@ std::vector<Ingredient> ingredients() {
         {.name = "kfr, all", .lp_gaussian = On, .antialiasing = all, .scene = {.footprint = true}}};
 }
 
-/// How much pictures change from frame to frame, and how far they are from others; channels, codes
-/// of 255.
+/// How much pictures change from frame to frame, how much of that is not the truth's own change (it
+/// moves too), and how far they are from the truth; channels, codes of 255.
 class Changes {
   public:
     void add(const render::Picture& now, const render::Picture& truth) {
@@ -68,12 +69,15 @@ class Changes {
                 error_ += std::abs(now.pixels[i][c] - truth.pixels[i][c]);
                 errors_ += 1.0;
                 if (!before_.pixels.empty()) {
-                    ++changes_.at(static_cast<std::size_t>(
-                        std::abs(now.pixels[i][c] - before_.pixels[i][c])));
+                    const int change = now.pixels[i][c] - before_.pixels[i][c];
+                    const int true_change = truth.pixels[i][c] - truth_before_.pixels[i][c];
+                    ++changes_.at(static_cast<std::size_t>(std::abs(change)));
+                    flicker_ += std::abs(change - true_change);
                 }
             }
         }
         before_ = now;
+        truth_before_ = truth;
     }
     [[nodiscard]] double mean() const {
         double sum = 0.0;
@@ -96,6 +100,7 @@ class Changes {
         return 255.0;
     }
     [[nodiscard]] double error() const { return error_ / errors_; }
+    [[nodiscard]] double flicker() const { return flicker_ / static_cast<double>(count()); }
 
   private:
     [[nodiscard]] std::uint64_t count() const {
@@ -107,9 +112,11 @@ class Changes {
     }
 
     render::Picture before_;
+    render::Picture truth_before_;
     std::array<std::uint64_t, 256> changes_{};
     double error_ = 0.0;
     double errors_ = 0.0;
+    double flicker_ = 0.0;
 };
 
 class FlyThrough {
@@ -207,6 +214,24 @@ std::vector<Figure> stability(const Options& options) {
                     [&](std::uint64_t frame, const render::OffScreen& shown) {
                         truth.at(frame) = coarser(shown.linear_picture(gaze::Eye::Left), kFiner);
                     });
+        const auto add = [&](const std::string& of, const Changes& changes) {
+            for (const auto& [what, value] :
+                 {std::pair("mean change", changes.mean()), std::pair("P95 change", changes.p95()),
+                  std::pair("flicker", changes.flicker()), std::pair("error", changes.error())}) {
+                figures.push_back({.bench = "stability",
+                                   .name = std::string(scene),
+                                   .metric = fmt::format("{}: {}", of, what),
+                                   .value = value,
+                                   .unit = "code",
+                                   .better = "lower"});
+            }
+        };
+        // The least that any picture of this flight changes by.
+        Changes of_truth;
+        for (const render::Picture& picture : truth) {
+            of_truth.add(picture, picture);
+        }
+        add("truth", of_truth);
         const FlyThrough flight(context, scene);
         for (const Ingredient& by : ingredients()) {
             Changes changes;
@@ -214,17 +239,7 @@ std::vector<Figure> stability(const Options& options) {
                           [&](std::uint64_t frame, const render::OffScreen& shown) {
                               changes.add(shown.picture(gaze::Eye::Left), truth.at(frame));
                           });
-            const auto add = [&](std::string_view what, double value) {
-                figures.push_back({.bench = "stability",
-                                   .name = std::string(scene),
-                                   .metric = fmt::format("{}: {}", by.name, what),
-                                   .value = value,
-                                   .unit = "code",
-                                   .better = "lower"});
-            };
-            add("mean change", changes.mean());
-            add("P95 change", changes.p95());
-            add("error", changes.error());
+            add(by.name, changes);
         }
     }
     return figures;

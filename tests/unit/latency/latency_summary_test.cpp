@@ -59,6 +59,8 @@ TEST(LatencySummary, KnowsTheAgesOfALoopThatKeepsUp) {
     EXPECT_EQ(report.gaze_age_at_latch.min_ms, 5.0);
     EXPECT_EQ(report.gaze_age_at_latch.max_ms, 5.0);
     EXPECT_EQ(report.gaze_age_at_latch.p99_ms, 5.0);
+    EXPECT_EQ(report.gaze_age_read_at_begin.p50_ms, 6.0);
+    EXPECT_EQ(report.gaze_age_read_at_begin.p99_ms, 6.0);
     EXPECT_EQ(report.gaze_age_at_display.max_ms, 18.0);
     EXPECT_EQ(row(report, Stage::Tracker).mean_ms, 3.0);
     EXPECT_EQ(row(report, Stage::Queue).mean_ms, 2.0);

@@ -89,6 +89,7 @@ TEST(FrameLog, SaysWhatTheSummarySays) {
             EXPECT_EQ(column.size(), log.rows()) << name.key;
         };
         expect_alike(kGazeAgeAtLatch, report.gaze_age_at_latch);
+        expect_alike(kGazeAgeReadAtBegin, report.gaze_age_read_at_begin);
         expect_alike(kGazeAgeAtDisplay, report.gaze_age_at_display);
         expect_alike(kGazeAgeUncertainty, report.gaze_age_uncertainty);
         for (std::size_t stage = 0; stage < latency::kStageCount; ++stage) {
@@ -186,14 +187,14 @@ TEST(FrameCsv, LeavesUnknownCellsEmptyAndIsExact) {
     std::getline(lines, third);
     EXPECT_TRUE(
         head.starts_with("frame,wake_up_ns,shown_ns,gaze_state,eye_event,"
-                         "gaze_age_at_latch_ms,gaze_age_at_display_ms,gaze_age_uncertainty_ms,"
-                         "stage_tracker_ms,"))
+                         "gaze_age_at_latch_ms,gaze_age_read_at_begin_ms,gaze_age_at_display_ms,"
+                         "gaze_age_uncertainty_ms,stage_tracker_ms,"))
         << head;
     EXPECT_THAT(head, HasSubstr(",gaze_error_at_display_degrees,"));
-    EXPECT_TRUE(first.starts_with("3,30000000,43000000,tracking,,5.000001,18.000001,,3.000001,"))
+    EXPECT_TRUE(first.starts_with("3,30000000,43000000,tracking,,5.000001,6.000001,18.000001,,3.000001,"))
         << first;
-    EXPECT_TRUE(second.starts_with("4,40000000,,,,,,,,")) << second;
-    EXPECT_TRUE(third.starts_with("6,,,tracking,,,,,3.000000,,")) << third;
+    EXPECT_TRUE(second.starts_with("4,40000000,,,,,,,,,")) << second;
+    EXPECT_TRUE(third.starts_with("6,,,tracking,,,,,,3.000000,,")) << third;
     const auto commas = std::ranges::count(head, ',');
     EXPECT_EQ(std::ranges::count(first, ','), commas);
     EXPECT_EQ(std::ranges::count(third, ','), commas);
