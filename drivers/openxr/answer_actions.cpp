@@ -5,9 +5,12 @@
 #include <cstring>
 #include <vector>
 
+#include "runtime/error.h"
+
 namespace gazeloop::drivers {
 namespace {
 
+using openxr::path_of;
 using openxr::typed;
 using openxr::xr_check;
 using openxr::xr_check_session;
@@ -44,12 +47,6 @@ constexpr std::array<ControllerButtons, 6> kControllers{{
       "/user/gamepad/input/y/click", "/user/gamepad/input/shoulder_right/click",
       "/user/gamepad/input/menu/click"}},
 }};
-
-XrPath path_of(XrInstance instance, const char* text) {
-    XrPath path = XR_NULL_PATH;
-    xr_check(xrStringToPath(instance, text, &path), "xrStringToPath");
-    return path;
-}
 
 }  // namespace
 

@@ -2,21 +2,14 @@
 
 #include <cstring>
 
+#include "runtime/openxr/instance.h"
 #include "runtime/time/clock.h"
 
 namespace gazeloop::drivers {
-namespace {
 
+using openxr::path_of;
 using openxr::typed;
 using openxr::xr_check;
-
-XrPath path_of(XrInstance instance, const char* text) {
-    XrPath path = XR_NULL_PATH;
-    xr_check(xrStringToPath(instance, text, &path), "xrStringToPath");
-    return path;
-}
-
-}  // namespace
 
 bool check_instance_gates(XrInstance instance, XrSystemId system, bool listed, GazeGates& gates) {
     const std::int64_t now_ns = time::monotonic_ns();

@@ -121,4 +121,10 @@ bool Instance::has(std::string_view extension) const {
                                [extension](const char* enabled) { return extension == enabled; });
 }
 
+XrPath path_of(XrInstance instance, const char* text) {
+    XrPath path = XR_NULL_PATH;
+    xr_check(xrStringToPath(instance, text, &path), "xrStringToPath");
+    return path;
+}
+
 }  // namespace gazeloop::openxr

@@ -40,4 +40,7 @@ class Instance {
     std::vector<const char*> enabled_;
 };
 
+/// A path of OpenXR by its text. Throws SetupError.
+[[nodiscard]] XrPath path_of(XrInstance instance, const char* text);
+
 }  // namespace gazeloop::openxr

@@ -24,8 +24,8 @@ XRAPI_ATTR XrResult XRAPI_CALL create_action(XrActionSet set, const XrActionCrea
     return result;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL get_state(XrSession session, const XrActionStateGetInfo* info,
-                                         XrActionStateBoolean* state) {
+XRAPI_ATTR XrResult XRAPI_CALL get_button(XrSession session, const XrActionStateGetInfo* info,
+                                          XrActionStateBoolean* state) {
     if (const auto failure = failure_of("xrGetActionStateBoolean")) {
         return *failure;
     }
@@ -50,7 +50,7 @@ PFN_xrVoidFunction button_hook(std::string_view name) {
     if (name == "xrCreateAction") {
         return as_hook(&create_action);
     }
-    return name == "xrGetActionStateBoolean" ? as_hook(&get_state) : nullptr;
+    return name == "xrGetActionStateBoolean" ? as_hook(&get_button) : nullptr;
 }
 
 }  // namespace gazeloop::tests

@@ -135,7 +135,7 @@ std::vector<WatchedFrame> run_watched_loop(const WatchedLoop& options) {
     // In this order, because the context is the last to go but for the runtime's instance.
     std::unique_ptr<vulkan::Context> context;
     std::unique_ptr<present::OpenXrTarget> openxr = make_openxr(options, display);
-    const present::OpenXrTarget* const shared = openxr.get();
+    present::OpenXrTarget* const shared = openxr.get();
     const std::unique_ptr<present::FrameTarget> target =
         openxr != nullptr ? std::move(openxr) : make_headless(options, display);
     context = std::make_unique<vulkan::Context>(vulkan::ContextOptions{}, target->vulkan_factory());
