@@ -100,6 +100,7 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "quad.blend",
       "quad.periphery",
       "quad.section",
+      "render.camera",
       "render.footprint",
       "render.footprint_taps",
       "render.hidden_area",
@@ -180,7 +181,7 @@ TEST(ProgramSettings, OfMethodsAreInUseUnderTheirs) {
             expected.insert(expected.end(), more->second.begin(), more->second.end());
         }
         if (group == "kfr") {
-            expected.emplace_back("kfr3d");  // whose foveal region it is
+            expected.emplace_back("kfr3d");        // whose foveal region it is
             expected.emplace_back("interleaved");  // whose texels these are
         }
         if (group != "fixed") {
