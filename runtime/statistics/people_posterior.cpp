@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kUsualLapse = 0.015;
 constexpr double kPriorSpreads = 1.5;
-constexpr double kPriorBend = 1.0;
 constexpr double kLeastReach = 1e-3;
 constexpr int kMostSteps = 60;
 
@@ -80,6 +79,12 @@ PeoplePosterior::PeoplePosterior(std::span<const std::vector<LevelCount>> subjec
     for (Node& node : nodes_) {
         node.log_weight -= std::log(sum);
     }
+}
+
+PeoplePosterior PeoplePosterior::with_bend_about(double bend) const {
+    PeoplePosterior other = *this;
+    other.priors_[5] = bend;
+    return other;
 }
 
 std::vector<LevelCount> PeoplePosterior::counts(std::size_t subject) const {

@@ -27,6 +27,10 @@ class PeoplePosterior {
     [[nodiscard]] std::vector<LevelCount> counts(std::size_t subject) const;
 
     [[nodiscard]] Parameters start() const { return priors_; }
+    /// The same answers, had the prior of the bend another middle.
+    [[nodiscard]] PeoplePosterior with_bend_about(double bend) const;
+    static constexpr double kPriorBend = 1.0;  ///< deviation of the bend's prior
+
     /// From there uphill. `times`: how often each subject counts.
     [[nodiscard]] Parameters most_probable(Parameters from, std::span<const double> times) const;
     [[nodiscard]] FittedPeople function_of(const Parameters& parameters) const;

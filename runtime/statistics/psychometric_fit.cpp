@@ -28,6 +28,21 @@ double deviation_over(const Resample& resample, const FitOptions& options) {
     return std::sqrt(squares / (resamples - 1.0));
 }
 
+/// How far the threshold is off because nobody knows how the function bends: resamples are all
+/// drawn to the prior's middle, and so do not show it. Over functions as the prior has them.
+double bend_deviation(const PeoplePosterior& posterior, const PeoplePosterior::Parameters& best,
+                      const FitOptions& options) {
+    const auto x_about = [&](double bend) {
+        const PeoplePosterior other = posterior.with_bend_about(bend);
+        const std::vector<double> once(posterior.subjects(), 1.0);
+        return other.function_of(other.most_probable(best, once))
+            .together()
+            .x_where(options.criterion);
+    };
+    constexpr double kDeviation = PeoplePosterior::kPriorBend;
+    return 0.5 * std::abs(x_about(kDeviation) - x_about(-kDeviation));
+}
+
 std::vector<double> once_each(std::size_t count) { return std::vector<double>(count, 1.0); }
 
 }  // namespace
@@ -120,6 +135,7 @@ FittedThreshold fit_threshold(std::span<const std::vector<LevelCount>> subjects,
             options);
         factor = normal_quantile(0.5 * (1.0 + options.level));
     }
+    result.deviation = std::hypot(result.deviation, bend_deviation(posterior, best, options));
     result.low = result.x - factor * result.deviation;
     result.high = result.x + factor * result.deviation;
     return result;

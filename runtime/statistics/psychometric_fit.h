@@ -80,13 +80,14 @@ struct FittedThreshold {
     double x = 0.0;          ///< where all people's answers together meet the criterion
     double low = 0.0;        ///< of the interval
     double high = 0.0;       ///< likewise
-    double deviation = 0.0;  ///< of x, by the bootstrap
+    double deviation = 0.0;  ///< of x, by the bootstrap and by what is not known of the bend
     bool outside = false;    ///< x lies beyond the levels tried: a guess by the priors
 };
 
 /// Fits all subjects' answers and bootstraps. Several subjects: whole subjects are resampled, since
 /// answers of one are not independent, and the interval is x +- t sqrt(n / (n - 1)) deviation with
-/// Student's t of n - 1 degrees of freedom, because so few subjects' resamples vary too little. One
+/// Student's t of n - 1 degrees of freedom, because so few subjects' resamples vary too little; in
+/// the deviation is how much x would change if the bend's prior lay a deviation aside. One
 /// subject: answers are drawn from the fit, and the interval is x +- z deviation. Precondition: as
 /// fit_people().
 [[nodiscard]] FittedThreshold fit_threshold(std::span<const std::vector<LevelCount>> subjects,

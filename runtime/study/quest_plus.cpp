@@ -12,15 +12,17 @@ double p_log_p(double p) { return p > 0.0 ? p * std::log(p) : 0.0; }
 }  // namespace
 
 QuestGrid QuestGrid::over(const std::vector<double>& stimuli, bool rising) {
-    constexpr int kThresholds = 24;
+    constexpr int kThresholds = 32;
+    constexpr double kBeyond = 0.25;
     const auto [least, most] = std::ranges::minmax(stimuli);
     const double reach = most > least ? most - least : 1.0;
     QuestGrid grid{.stimuli = stimuli,
                    .thresholds = {},
-                   .spreads = {reach / 12.0, reach / 6.0, reach / 3.0},
+                   .spreads = {reach / 12.0, reach / 6.0, reach / 3.0, reach / 1.5, reach / 0.75},
                    .rising = rising};
     for (int i = 0; i < kThresholds; ++i) {
-        grid.thresholds.push_back(least + reach * i / (kThresholds - 1));
+        const double share = static_cast<double>(i) / (kThresholds - 1);
+        grid.thresholds.push_back(least + reach * ((1.0 + 2.0 * kBeyond) * share - kBeyond));
     }
     return grid;
 }

@@ -16,8 +16,9 @@ struct QuestGrid {
     bool rising = true;              ///< as in PsychometricFunction
     double lapse = 0.02;             ///< lowest and highest, of every function
 
-    /// For these levels: thresholds 24 from one end to the other, spreads a twelfth, a sixth and a
-    /// third of the reach.
+    /// For these levels: thresholds 32 from a quarter of the reach before one end to as much behind
+    /// the other, since an asked-for share of yes may lie far from where yes and no are even;
+    /// spreads a twelfth, a sixth, a third, two and four thirds of the reach.
     [[nodiscard]] static QuestGrid over(const std::vector<double>& stimuli, bool rising);
 };
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -71,13 +72,19 @@ TEST_P(Recovery, IntervalsOf95PercentHoldTheTruthIn93PercentOfStudies) {
     EXPECT_LT(row.half_width, 0.12);
 }
 
+// Contrast of kernel foveated rendering at alpha 1, by sigma, as gazeloop trade found it:
+// --display fove0 --scene gallery --metric contrast --frames 1 --reference-spp 4.
+constexpr std::array<double, 7> kKfrContrast{0.4114, 0.5043, 0.6053, 0.683, 0.7855, 0.8494, 0.9299};
+
 // What the metric finds is no straight line over the axis of levels: it grows with a power of
-// sigma, and of the slope, from something that even the best levels lack. The fit does not know
-// which.
+// sigma, and of the layers' slope, from something that even the best levels lack. The fit does not
+// know which.
 TEST_P(Recovery, HoldsForPeopleWhoSeeByTheMetricOfATrade) {
-    Plan plan = Recovery::plan();
+    const Plan plan = Recovery::plan();
+    if (plan.name == "kfr-pilot") {
+        GTEST_SKIP() << "as kfr-final, over levels that were not traded";
+    }
     const bool layers = plan.method == "layers";
-    // Between levels, wherever the paper's criterion is.
     nlohmann::json points = nlohmann::json::array();
     for (std::size_t cell = 0; cell < plan.cells(); ++cell) {
         nlohmann::json settings = nlohmann::json::object();
@@ -86,7 +93,8 @@ TEST_P(Recovery, HoldsForPeopleWhoSeeByTheMetricOfATrade) {
         if (plan.factors.size() > 1 && !is_of_all_methods(plan.factors[1].key)) {
             settings[plan.factors[1].key] = plan.factors[1].value_of(1.0);
         }
-        const double contrast = layers ? 0.25 + 9.9 / level : 0.3 * std::pow(level, 1.8);
+        const double contrast =
+            layers ? 0.25 + 9.9 / level : kKfrContrast[plan.factors.front().index_of(level)];
         points.push_back({{"method", plan.method},
                           {"settings", settings},
                           {"figures", {{"contrast", {{"mean", contrast}}}}}});
