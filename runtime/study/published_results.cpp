@@ -58,13 +58,6 @@ std::string question_of(const Plan& plan, const std::string& condition) {
     return {};
 }
 
-/// Where the mean person's difference from the reference is 1.
-double by_metric(const Plan& plan, const SimulatedPeople& people, std::size_t condition) {
-    SimulatedPeople quiet = people;
-    quiet.terms = {};
-    return true_threshold(plan, quiet, condition);
-}
-
 /// The paper's choice: of all cells with enough "same", one with the greatest level of the first
 /// factor, and of these the one that most called the same.
 std::string choice(const Plan& plan, const std::vector<double>& shares) {
@@ -98,7 +91,7 @@ std::vector<PublishedResult> against_published(const Plan& plan, const Simulated
         results.push_back({.plan = plan.name,
                            .question = question_of(plan, name),
                            .published = published_figure(plan.name, name),
-                           .by_metric = by_metric(plan, people, condition),
+                           .truth = true_threshold(plan, people, condition),
                            .fitted = threshold.fitted,
                            .low = threshold.low,
                            .high = threshold.high,
@@ -114,7 +107,7 @@ std::vector<PublishedResult> against_published(const Plan& plan, const Simulated
         results.push_back({.plan = plan.name,
                            .question = "choice: " + choice(plan, shares),
                            .published = plan.name == "kfr-final" ? "sigma 1.8, alpha 4" : "-",
-                           .by_metric = kNone,
+                           .truth = kNone,
                            .fitted = kNone,
                            .low = kNone,
                            .high = kNone,
@@ -128,7 +121,7 @@ std::string published_text(const SimulatedPeople& people,
                            const std::vector<PublishedResult>& results) {
     std::string out =
         fmt::format("{}\n{:<11} {:<44} {:<21}{:>8}{:>9}{:>17}{:>16}\n", people_text(people.terms),
-                    "study", "question", "published", "metric", "fitted", "95 %", "by rule, sd");
+                    "study", "question", "published", "true", "fitted", "95 %", "by rule, sd");
     for (const PublishedResult& one : results) {
         const std::string range = std::isfinite(one.fitted)
                                       ? fmt::format("{} to {}{}", figure(one.low), figure(one.high),
@@ -137,11 +130,11 @@ std::string published_text(const SimulatedPeople& people,
         const std::string rule =
             std::isfinite(one.by_rule) ? figure(one.by_rule) + ", " + figure(one.by_rule_sd) : "-";
         out += fmt::format("{:<11} {:<44} {:<21}{:>8}{:>9}{:>17}{:>16}\n", one.plan, one.question,
-                           one.published, figure(one.by_metric), figure(one.fitted), range, rule);
+                           one.published, figure(one.truth), figure(one.fitted), range, rule);
     }
     return out +
-           "metric: where the mean person's difference is just noticeable, without noise (-: at no "
-           "level shown);\nfitted, by rule: of one simulated study with the paper's people and "
+           "true: where the answers of such people meet the question (-: at no level shown);\n"
+           "fitted, by rule: of one simulated study with the paper's people and "
            "trials; *: beyond the levels shown\n";
 }
 
@@ -151,7 +144,7 @@ Json published_json(const SimulatedPeople& people, const std::vector<PublishedRe
         list.push_back({{"plan", one.plan},
                         {"question", one.question},
                         {"published", one.published},
-                        {"metric", finite(one.by_metric)},
+                        {"true", finite(one.truth)},
                         {"fitted", finite(one.fitted)},
                         {"low", finite(one.low)},
                         {"high", finite(one.high)},

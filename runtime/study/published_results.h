@@ -15,8 +15,9 @@ struct PublishedResult {
     std::string plan;
     std::string question;
     std::string published;  ///< as the paper has it; "-": it does not say
-    /// The level at which the mean person's difference is just noticeable; NaN: at none shown.
-    double by_metric = 0.0;
+    /// Where the answers of such people meet the question (true_threshold()); NaN: at no level
+    /// shown.
+    double truth = 0.0;
     double fitted = 0.0;  ///< over the simulated study's answers; NaN without any
     double low = 0.0;     ///< of its interval of 95 %
     double high = 0.0;

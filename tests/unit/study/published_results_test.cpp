@@ -25,7 +25,7 @@ TEST(PublishedResults, StandBesideWhatTheMetricGives) {
     const Plan& pair = *published_plan("f3d-pair");
     const auto of_pair = against_published(pair, people_who_see_at(pair, 12.5));
     ASSERT_EQ(of_pair.size(), 1U);
-    EXPECT_NEAR(of_pair[0].by_metric, 12.5, 1e-6);
+    EXPECT_NEAR(of_pair[0].truth, 12.5, 1e-6);
     EXPECT_GT(of_pair[0].fitted, of_pair[0].low);
     EXPECT_NEAR(of_pair[0].fitted, 12.5, 0.5);
     EXPECT_THAT(of_pair[0].published, HasSubstr("14.9"));
@@ -45,12 +45,12 @@ TEST(PublishedResults, StandBesideWhatTheMetricGives) {
     // Of such people none would choose anything.
     EXPECT_THAT(against_published(kfr, people_who_see_at(kfr, 0.5)).back().question,
                 HasSubstr("choice: none"));
-    EXPECT_TRUE(std::isnan(against_published(kfr, people_who_see_at(kfr, 0.5))[0].by_metric));
+    EXPECT_TRUE(std::isnan(against_published(kfr, people_who_see_at(kfr, 0.5))[0].truth));
 
     const std::string text = published_text(people_who_see_at(pair, 12.5), of_pair);
     EXPECT_THAT(text, AllOf(HasSubstr("f3d-pair"), HasSubstr("jB 15"), HasSubstr("12.5")));
     const auto json = published_json(people_who_see_at(kfr, 1.95), of_kfr);
-    EXPECT_TRUE(json["results"][4]["metric"].is_null());
+    EXPECT_TRUE(json["results"][4]["true"].is_null());
 }
 
 TEST(PublishedResults, RefuseATradeOfOtherLevels) {
