@@ -12,13 +12,16 @@
 layout(set = 2, binding = 4) uniform sampler2D history;  // w: weight, samples per pixel
 layout(location = 0) out vec4 color;
 
-const float kKept = 0.9;  // of the weight, from frame to frame
+const float kKept = 0.93;  // of the weight, from frame to frame
+// How far beyond what lies around now the past may go, over how far that reaches. At 0 the samples of
+// one frame, which move from frame to frame, would move what is held to them as much.
+const float kSlack = 1.0;
 
 // Colours as displays show them: what is brighter would outweigh all others for long.
 vec4 shown_at(ivec2 pixel) { return clamp(texelFetch(shown, pixel, 0), 0.0, 1.0); }
 
-// The mean of the four pixels around a position, and their weight. What nobody saw has none.
-vec4 history_at(vec2 position) {
+// What nobody saw has no weight: then, the mean of the four pixels around a position that are known.
+vec4 history_between(vec2 position) {
     vec2 corner = floor(position - 0.5);
     vec2 share = position - 0.5 - corner;
     ivec2 last = ivec2(image_size()) - 1;
@@ -31,6 +34,29 @@ vec4 history_at(vec2 position) {
         sum += weight > 0.0 ? vec4(weight * was.rgb, weight) : vec4(0.0);
     }
     return vec4(sum.rgb / max(sum.a, 1e-9), sum.a);
+}
+
+// The past at a position, and its weight: by Catmull-Rom's cubic over 4 x 4 pixels, because a mean of
+// four, taken anew in each frame, would blur what is carried along by a pixel.
+vec4 history_at(vec2 position) {
+    vec2 corner = floor(position - 0.5);
+    vec2 f = position - 0.5 - corner;
+    ivec2 last = ivec2(image_size()) - 1;
+    mat4x2 parts = mat4x2(f * (-0.5 + f * (1.0 - 0.5 * f)), 1.0 + f * f * (1.5 * f - 2.5),
+                          f * (0.5 + f * (2.0 - 1.5 * f)), f * f * (0.5 * f - 0.5));
+    vec3 sum = vec3(0.0);
+    bool known = true;
+    for (int y = 0; y < 4; ++y) {
+        for (int x = 0; x < 4; ++x) {
+            vec4 was = texelFetch(
+                history, clamp(ivec2(corner) + ivec2(x, y) - 1, ivec2(0), last), 0);
+            known = known && was.a > 0.0;
+            sum += parts[x].x * parts[y].y * was.rgb;
+        }
+    }
+    vec4 between = history_between(position);
+    // A cubic may fall below what it lies between.
+    return known ? vec4(max(sum, vec3(0.0)), between.a) : between;
 }
 
 void main() {
@@ -59,8 +85,11 @@ void main() {
                     all(lessThanEqual(was, image_size()));
     vec4 before = in_sight ? history_at(was) : vec4(0.0);
     float fresh = 1.0 / (spacing * spacing);
-    // At most what a long stay leaves.
-    float kept = min(kKept * before.a, fresh * (kKept / (1.0 - kKept)));
+    float most_kept = fresh * (kKept / (1.0 - kKept));  // what a long stay leaves
+    float kept = min(kKept * before.a, most_kept);
     float weight = kept + fresh;
-    color = vec4(mix(here.rgb, clamp(before.rgb, least, most), kept / weight), weight);
+    // A past of few samples, as where the fovea has just arrived, is held to the dense ones.
+    vec3 slack = kSlack * (most - least);
+    vec3 held = clamp(before.rgb, least - slack, most + slack);
+    color = vec4(mix(here.rgb, held, kept / weight), weight);
 }
