@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
+#include "runtime/files/output_file.h"
 #include "runtime/light_field/camera_grid.h"
 #include "runtime/render/off_screen.h"
 #include "runtime/render/passes/full_passes.h"
@@ -110,10 +110,8 @@ Expected<std::filesystem::path> bake_light_field(
         }
     }
     const std::filesystem::path file = folder / fmt::format("views{}", scene::kLightFieldExtension);
-    std::ofstream out(file);
-    out << scene::light_field_text(*grid);
-    if (!out.flush()) {
-        return bad_folder(file, "it cannot be written");
+    if (auto written = files::write_text(file, scene::light_field_text(*grid)); !written) {
+        return std::unexpected(written.error());
     }
     return file;
 }

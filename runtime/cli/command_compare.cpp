@@ -28,6 +28,7 @@ ExitCode compare(const CompareCommand& command) {
     question.metrics = command.quality.metric_choice();
     question.contrast = command.quality.contrast();
     question.line = {.slope = settings.values().methods.acuity.mar};
+    question.reads = report::files_of(settings);
     question.quiet = command.options.log.quiet;
     return compare::compare_pictures(question) ? ExitCode::Ok : ExitCode::GateFailed;
 }

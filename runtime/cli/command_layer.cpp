@@ -79,7 +79,11 @@ void add_layer_command(Command program) {
         Command decided = app.command(name, meaning);
         decided.option("executable", command->executable, "its file").required().type("FILE");
         decided.does([=] {
-            value_or_throw(layer::decide(command->executable, answer));
+            if (!value_or_throw(layer::decide(command->executable, answer))) {
+                fmt::print("{}: {}\n", command->executable,
+                           answer == Answer::Unknown ? "nothing was decided on it"
+                                                     : "that was decided already");
+            }
             return ExitCode::Ok;
         });
     };

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -23,11 +24,9 @@ struct NumericsCommand {
 };
 
 ExitCode measure(const NumericsCommand& command) {
-    for (const std::string& file : {command.json, command.html}) {
-        if (!file.empty()) {
-            value_or_throw(report::check_output(file));
-        }
-    }
+    const std::array<report::NamedFile, 2> outputs{
+        {{"--json", command.json}, {"--html", command.html}}};
+    value_or_throw(report::check_outputs(outputs, {}));
     const vulkan::Context context({.validation = false, .device = command.device}, nullptr);
     const numerics::Envelope envelope = numerics::measure_envelope(context, command.options);
     if (command.json != "-" && command.html != "-" && !command.log.quiet) {

@@ -24,8 +24,8 @@ ExitCode simulate_gaze(const SimulateGazeCommand& command) {
         return ExitCode::Ok;
     }
     const sim::GazeSimulation& simulation = settings.values().sim;
-    const std::size_t samples =
-        simulate::write_gaze_file(simulation, command.seconds, command.file);
+    const std::size_t samples = simulate::write_gaze_file(simulation, command.seconds, command.file,
+                                                          report::files_of(settings));
     if (!command.options.log.quiet) {
         fmt::print("{}: {} samples, {} s at {} Hz, seed {}\n", command.file, samples,
                    command.seconds, simulation.tracker.rate_hz, simulation.seed);

@@ -6,7 +6,6 @@
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/study_commands.h"
-#include "runtime/report/output_file.h"
 #include "runtime/settings/nearest_name.h"
 #include "runtime/study/plan_file.h"
 #include "runtime/study/published_plans.h"
@@ -35,8 +34,8 @@ void add_plan(Command study) {
         });
     app.option("file", options->file, "where to (stdout)").type("PLAN.toml");
     app.does([=] {
-        const std::string text = study::plan_text(*study::published_plan(options->name));
-        value_or_throw(report::write_text(options->file, text));
+        value_or_throw(
+            study::write_published_plan(*study::published_plan(options->name), options->file));
         return ExitCode::Ok;
     });
 }

@@ -1,7 +1,10 @@
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/cli/commands.h"
@@ -25,8 +28,21 @@ ExitCode trade_of(const TradeCommand& command, const std::string& command_line) 
         return ExitCode::Ok;
     }
     value_or_throw(settings.check());
+    for (const RunOptions::Alias& alias : command.options.aliases) {
+        const bool of_scene = std::string_view(alias.flag) == "--scene";
+        if (!alias.text.empty() && of_scene && !command.trade.asked.scenes.empty()) {
+            throw SetupError(ErrorKind::Usage, "--scenes excludes --scene: name all in --scenes");
+        }
+        if (!alias.text.empty() && !command.trade.asked.merge.empty()) {
+            throw SetupError(ErrorKind::Usage,
+                             fmt::format("--merge excludes {}: it measures nothing", alias.flag));
+        }
+    }
     trade::TradeRequest request = command.trade.request();
     for (const std::string& text : command.trade.gazes) {
+        if (std::ranges::count(command.trade.gazes, text) > 1) {
+            throw SetupError(ErrorKind::Usage, fmt::format("--gaze {} is there twice", text));
+        }
         const auto gaze = value_or_throw(recordings::ComparedGaze::parse(text, request.eye));
         request.gazes.push_back(
             {text, [gaze](std::int64_t time_ns) { return gaze.direction_at(time_ns); }});

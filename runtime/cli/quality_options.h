@@ -19,7 +19,7 @@ struct QualityOptions {
 
     /// `gazes` (which must live until the command line is parsed): --gaze may be repeated, and goes
     /// there instead.
-    void add_to(Command command, std::vector<std::string>* gazes = nullptr);
+    std::vector<Option> add_to(Command command, std::vector<std::string>* gazes = nullptr);
 
     /// Throws SetupError (Usage) for a metric that there is not.
     [[nodiscard]] quality::MetricChoice metric_choice() const {

@@ -1,11 +1,12 @@
 #include <memory>
+#include <span>
 #include <string>
 
 #include "runtime/cli/people_options.h"
 #include "runtime/cli/study_commands.h"
+#include "runtime/report/output_file.h"
 #include "runtime/study/plan_file.h"
 #include "runtime/study/responses_file.h"
-#include "runtime/study/study_files.h"
 
 namespace gazeloop::cli {
 
@@ -23,13 +24,16 @@ void add_study_simulate(Command study) {
     app.option("--subjects", options->subjects, "how many (the plan's)").number_between(1, 10'000);
     options->people.add_to(app);
     app.does([=] {
+        const report::NamedFile output{"FILE.csv", options->file};
+        const report::NamedFile input{"the plan", options->plan};
+        value_or_throw(report::check_outputs(std::span{&output, 1}, std::span{&input, 1}));
         const study::Plan plan = value_or_throw(study::read_plan(options->plan));
         const study::SimulatedPeople people = study::people_of(options->people.question, plan);
-        value_or_throw(study::write_private(
-            options->file, study::responses_csv(plan, study::simulate_study(plan, people,
-                                                                            options->subjects > 0
-                                                                                ? options->subjects
-                                                                                : plan.subjects))));
+        const unsigned subjects = options->subjects > 0 ? options->subjects : plan.subjects;
+        value_or_throw(report::write_text(
+            options->file,
+            study::responses_csv(plan, study::simulate_study(plan, people, subjects)),
+            files::kOwnerOnly));
         return ExitCode::Ok;
     });
 }

@@ -3,35 +3,48 @@
 namespace gazeloop::cli {
 
 void TradeOptions::add_to(Command command) {
-    command
-        .option("--scenes", asked.scenes, "several scenes instead of --scene, with commas between")
-        .type("LIST")
-        .not_empty();
-    command.option("--methods", asked.methods, "which, with commas between (kfr,acuity)")
-        .type("LIST")
-        .not_empty();
-    command.option("--sigma", asked.sigmas, "values of kfr.sigma, with commas between")
-        .type("LIST")
-        .not_empty();
-    command.option("--alpha", asked.alphas, "values of kfr.alpha").type("LIST").not_empty();
-    command.option("--mar", asked.slopes, "values of acuity.mar").type("LIST").not_empty();
-    command
-        .option("--vary", asked.varied,
+    std::vector<Option> measured;  // what decides what is measured
+    measured.push_back(command
+                           .option("--scenes", asked.scenes,
+                                   "several scenes instead of --scene, with commas between")
+                           .type("LIST")
+                           .not_empty());
+    measured.push_back(
+        command.option("--methods", asked.methods, "which, with commas between (kfr,acuity)")
+            .type("LIST")
+            .not_empty());
+    measured.push_back(
+        command.option("--sigma", asked.sigmas, "values of kfr.sigma, with commas between")
+            .type("LIST")
+            .not_empty());
+    measured.push_back(
+        command.option("--alpha", asked.alphas, "values of kfr.alpha").type("LIST").not_empty());
+    measured.push_back(
+        command.option("--mar", asked.slopes, "values of acuity.mar").type("LIST").not_empty());
+    measured.push_back(
+        command
+            .option(
+                "--vary", asked.varied,
                 "values of any setting of a method, or filter of render.*; may be repeated: all "
                 "combinations are rendered")
-        .type("KEY=V1,V2,...");
-    command.flag("--published-grid", asked.published,
-                 "also every sigma and alpha of the KFR paper's pilot study (58 points)");
-    command.option("--frames", asked.frames, "frames at the display's rate (4); 1: a still")
-        .number_between(1, 100'000);
-    command
-        .option("--rounds", asked.rounds, "how often each frame is timed, all points in turns (3)")
-        .number_between(1, 1000);
-    command
-        .option("--reference-spp", asked.reference_samples,
-                "samples per pixel of the reference, 1 to 16 (16)")
-        .number_between(1, 16);
-    quality.add_to(command, &gazes);
+            .type("KEY=V1,V2,..."));
+    measured.push_back(
+        command.flag("--published-grid", asked.published,
+                     "also every sigma and alpha of the KFR paper's pilot study (58 points)"));
+    measured.push_back(
+        command.option("--frames", asked.frames, "frames at the display's rate (4); 1: a still")
+            .number_between(1, 100'000));
+    measured.push_back(command
+                           .option("--rounds", asked.rounds,
+                                   "how often each frame is timed, all points in turns (3)")
+                           .number_between(1, 1000));
+    measured.push_back(command
+                           .option("--reference-spp", asked.reference_samples,
+                                   "samples per pixel of the reference, 1 to 16 (16)")
+                           .number_between(1, 16));
+    for (const Option& option : quality.add_to(command, &gazes)) {
+        measured.push_back(option);
+    }
     command
         .option("--budget-ms", asked.budget_ms,
                 "recommend the best point whose frames take no longer")
@@ -43,17 +56,24 @@ void TradeOptions::add_to(Command command) {
         .type("FIGURE=NUMBER");
     command.flag("--fit", asked.fit,
                  "fit how cells, time and quality follow each method's settings");
-    command
-        .option("--resume", asked.journal,
-                "keep all that is measured in this file, and go on where it ends")
-        .type("FILE")
-        .not_empty();
-    command.option("--shard", asked.shard, "measure every N-th point alone, from the I-th on (1/1)")
-        .type("I/N");
-    command
-        .option("--merge", asked.merge,
-                "measure nothing: report what --resume kept of the shards; may be repeated")
-        .type("FILE");
+    measured.push_back(
+        command
+            .option("--resume", asked.journal,
+                    "keep all that is measured in this file, and go on where it ends")
+            .type("FILE")
+            .not_empty());
+    measured.push_back(command
+                           .option("--shard", asked.shard,
+                                   "measure every N-th point alone, from the I-th on (1/1)")
+                           .type("I/N"));
+    Option merge =
+        command
+            .option("--merge", asked.merge,
+                    "measure nothing: report what --resume kept of the shards; may be repeated")
+            .type("FILE");
+    for (const Option& option : measured) {
+        merge.not_with(option);
+    }
     command.option("--csv", asked.outputs.csv, "write a line per case and point")
         .type("FILE")
         .not_empty();

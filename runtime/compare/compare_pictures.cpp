@@ -71,14 +71,14 @@ void warn_of_shape(const render::LinearPicture& picture, const display::DisplayP
 
 bool compare_pictures(const CompareQuestion& question) {
     const std::string& json_file = question.json;
-    if (!json_file.empty()) {
-        value_or_throw(report::check_output(json_file));
-    }
     const std::array<report::NamedFile, 2> outputs{
-        {{"--heat-map", question.heat_map}, {"--json", json_file}}};
-    const std::array<report::NamedFile, 2> inputs{
-        {{"the reference", question.reference}, {"the test", question.test}}};
+        {{"--json", json_file}, {"--heat-map", question.heat_map}}};
+    std::vector<report::NamedFile> inputs = question.reads;
+    inputs.push_back({"the reference", question.reference});
+    inputs.push_back({"the test", question.test});
     value_or_throw(report::check_apart(outputs, inputs));
+    // Heat maps may be a folder.
+    value_or_throw(report::check_outputs(std::span{outputs}.first(1), inputs));
     const std::vector<Limit> limits = parse_limits(question.limits, question.metrics);
 
     const ComparedFiles reference = ComparedFiles::find(question.reference);

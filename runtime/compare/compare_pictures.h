@@ -7,6 +7,7 @@
 #include "runtime/display/display_profile.h"
 #include "runtime/foveation/eye/mar_line.h"
 #include "runtime/quality/comparison.h"
+#include "runtime/report/output_file.h"
 
 namespace gazeloop::compare {
 
@@ -23,9 +24,10 @@ struct CompareQuestion {
     std::vector<std::string> limits{};  ///< see parse_limits
     /// Of a sequence; none: the display's refresh rate.
     std::optional<double> frames_per_second{};
-    std::string heat_map;  ///< a file, of a sequence a folder; empty: none
-    std::string json;      ///< "-": stdout; empty: not asked for
-    bool quiet = false;    ///< no table on stdout
+    std::string heat_map;                    ///< a file, of a sequence a folder; empty: none
+    std::string json;                        ///< "-": stdout; empty: not asked for
+    std::vector<report::NamedFile> reads{};  ///< what else is read: none of it is written over
+    bool quiet = false;                      ///< no table on stdout
 };
 
 /// Compares frame by frame, writes what was asked for, and gives whether every limit was kept.

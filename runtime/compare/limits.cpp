@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "runtime/settings/nearest_name.h"
+#include "runtime/quality/figure_keys.h"
 
 namespace gazeloop::compare {
 namespace {
@@ -26,37 +26,6 @@ Limit parse_limit(const std::string& text) {
     return limit;
 }
 
-/// Refuses limits of figures that this comparison will not have.
-void check_limits(const std::vector<Limit>& limits, const quality::MetricChoice& metrics) {
-    quality::FrameQuality any;
-    const auto asked = [&](quality::Metric metric) {
-        return metrics[static_cast<std::size_t>(metric)];
-    };
-    if (asked(quality::Metric::Contrast)) {
-        any.contrast.emplace();
-    }
-    if (asked(quality::Metric::Flip)) {
-        any.flip.emplace();
-    }
-    if (asked(quality::Metric::Ssim)) {
-        any.ssim.emplace();
-    }
-    if (asked(quality::Metric::Psnr)) {
-        any.psnr_db.emplace();
-    }
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : quality::figures_of(any)) {
-        keys.push_back(key);
-    }
-    for (const Limit& limit : limits) {
-        if (std::ranges::find(keys, limit.key) == keys.end()) {
-            throw SetupError(
-                ErrorKind::Usage,
-                fmt::format("--limit: {}", settings::unknown_name("figure", limit.key, keys)));
-        }
-    }
-}
-
 }  // namespace
 
 std::vector<Limit> parse_limits(const std::vector<std::string>& texts,
@@ -64,8 +33,8 @@ std::vector<Limit> parse_limits(const std::vector<std::string>& texts,
     std::vector<Limit> limits;
     for (const std::string& text : texts) {
         limits.push_back(parse_limit(text));
+        value_or_throw(quality::check_figure(limits.back().key, metrics));
     }
-    check_limits(limits, metrics);
     return limits;
 }
 

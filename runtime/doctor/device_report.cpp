@@ -202,7 +202,7 @@ std::string devices_json(const std::vector<TrackerProbe>& probes, const Findings
                         {"problems", diagnosis(probe)}});
     }
     list.push_back(openxr_gaze_json(openxr));
-    return list.dump(2) + "\n";
+    return list.dump(2, ' ', false, decltype(list)::error_handler_t::replace) + "\n";
 }
 
 bool any_gaze(const std::vector<TrackerProbe>& probes) {

@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "runtime/files/recording_file.h"
+
 namespace gazeloop::files {
 namespace {
 
@@ -76,6 +78,11 @@ Expected<void> check_output(const fs::path& file) {
         return refuse(file, fs::is_socket(real, ignored)
                                 ? "it is a socket, not a file: name a file or a pipe"
                                 : "it is a block device, not a file: name a file in it");
+    }
+    if (belongs_to_recording(real)) {
+        return refuse(file,
+                      "a recording is there, which cannot be had again: name another file, or "
+                      "remove it");
     }
     const bool there = fs::exists(real, ignored);
     const fs::path folder = folder_of(real);

@@ -27,7 +27,8 @@ inline constexpr OutputOptions kOwnerOnly{.mode = 0600, .durable = true};
 /// - an existing file is replaced at the end, by a complete new one, or, in a folder without write
 ///   permission, written in place; links are followed;
 /// - what is no file is never replaced and never removed. A character device or a pipe is written
-///   in place; a folder, a socket or a block device is refused.
+///   in place; a folder, a socket or a block device is refused;
+/// - a recording is never replaced: it cannot be had again (recording_file.h).
 ///
 /// Without close(), what was there before stays, unless it is written in place.
 class OutputFile {

@@ -42,6 +42,7 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
     const settings::OnlyWhile fixation{.key = "gaze.filter",
                                        .values = {std::string(name(GazeFilter::Fixation))}};
     const settings::OnlyWhile by_events{.key = "gaze.widen_by", .values = {std::string(kByEvents)}};
+    const settings::OnlyWhile widening{.key = "gaze.widen", .values = {"true"}};
     const settings::OnlyWhile predicting{.key = "gaze.prediction", .values = {"true"}};
     return {
         {"gaze.after_hold", "lost gaze: after the hold, return to straight ahead, or stay",
@@ -103,22 +104,23 @@ std::vector<settings::SettingRow> rows_of(GazeSettings& gaze) {
          Concerns::Foveae},
         {"gaze.widen_by",
          "gaze.widen: by the age of the gaze alone, or by what the eyes are seen to do",
-         Choice{&gaze.widen_by, {std::string(kByAge), std::string(kByEvents)}}, Concerns::Foveae},
+         Choice{&gaze.widen_by, {std::string(kByAge), std::string(kByEvents)}}, Concerns::Foveae,
+         widening},
         {"gaze.widen_error_deg", "gaze.widen: the tracker's median error, deg",
-         Number{&gaze.widen_error_deg, 0.0, 45.0}, Concerns::Foveae},
+         Number{&gaze.widen_error_deg, 0.0, 45.0}, Concerns::Foveae, widening},
         {"gaze.widen_head_deg_per_s",
          "gaze.widen: speed of the head where its pose is not known, deg/s",
-         Number{&gaze.widen_head_deg_per_s, 0.0, 1000.0}, Concerns::Foveae},
+         Number{&gaze.widen_head_deg_per_s, 0.0, 1000.0}, Concerns::Foveae, widening},
         {"gaze.widen_lost_deg_per_s", "gaze.widen: by how much per second of lost gaze, deg/s",
-         Number{&gaze.widen_lost_deg_per_s, 0.0, 1000.0}, Concerns::Foveae},
+         Number{&gaze.widen_lost_deg_per_s, 0.0, 1000.0}, Concerns::Foveae, widening},
         {"gaze.widen_most_deg", "gaze.widen: by no more than this, deg",
-         Number{&gaze.widen_most_deg, 0.0, 80.0}, Concerns::Foveae},
+         Number{&gaze.widen_most_deg, 0.0, 80.0}, Concerns::Foveae, widening},
         {"gaze.widen_noise_deg",
          "gaze.widen: the tracker's noise (SD) where no sample states a covariance, deg",
-         Number{&gaze.widen_noise_deg, 0.0, 45.0}, Concerns::Foveae},
+         Number{&gaze.widen_noise_deg, 0.0, 45.0}, Concerns::Foveae, widening},
         {"gaze.widen_pursuit_deg_per_s",
          "gaze.widen: speed of an eye that follows something, deg/s",
-         Number{&gaze.widen_pursuit_deg_per_s, 0.0, 1000.0}, Concerns::Foveae},
+         Number{&gaze.widen_pursuit_deg_per_s, 0.0, 1000.0}, Concerns::Foveae, widening},
         {"gaze.widen_suppressed",
          "gaze.widen: not in frames that are shown in the midst of a saccade",
          &gaze.widen_suppressed, Concerns::Foveae, by_events},

@@ -57,7 +57,7 @@ std::string envelope_json(const Envelope& envelope) {
                                       {"seconds", envelope.seconds},
                                       {"tables_2160x2160", tables},
                                       {"rows", rows}};
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, decltype(json)::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gazeloop::numerics

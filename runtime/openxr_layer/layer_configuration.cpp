@@ -131,6 +131,13 @@ run::MakeSource dressed(run::MakeSource make, bool live,
 Expected<run::MakeSource> source_of(const LayerValues& values,
                                     const profiles::TrackerProfile& tracker) {
     const std::string& name = values.layer.gaze;
+    if (name == "openxr") {
+        return std::unexpected(Error{
+            ErrorKind::Usage,
+            "layer.gaze = 'openxr': the layer cannot take its gaze from openxr, which is what "
+            "it gives gaze to: name hid, psvr2, steam-frame, osc:PORT, trace:FILE, "
+            "fixed:AZ,EL or sim"});
+    }
     auto make = run::gaze_source_named(name, tracker, values);
     if (!make) {
         return std::unexpected(Error{

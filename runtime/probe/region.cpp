@@ -32,6 +32,21 @@ Expected<Region> parse_region(std::string_view name, std::string_view text) {
     return region;
 }
 
+Expected<void> check_regions_apart(const Region& lamp, const Region& patch) {
+    const auto apart = [](std::uint64_t a, std::uint64_t a_size, std::uint64_t b,
+                          std::uint64_t b_size) { return a + a_size <= b || b + b_size <= a; };
+    if (apart(lamp.x, lamp.width, patch.x, patch.width) ||
+        apart(lamp.y, lamp.height, patch.y, patch.height)) {
+        return {};
+    }
+    return std::unexpected(
+        Error{ErrorKind::Usage,
+              fmt::format("--lamp {},{},{},{} and --patch {},{},{},{} overlap: what both show "
+                          "would seem to come at once; mark two regions that share no pixel",
+                          lamp.x, lamp.y, lamp.width, lamp.height, patch.x, patch.y, patch.width,
+                          patch.height)});
+}
+
 Expected<void> check_inside(std::string_view name, const Region& region, std::uint32_t width,
                             std::uint32_t height) {
     if (std::uint64_t{region.x} + region.width <= width &&

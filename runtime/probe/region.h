@@ -23,6 +23,9 @@ struct Region {
 /// numbers, or an empty region.
 [[nodiscard]] Expected<Region> parse_region(std::string_view name, std::string_view text);
 
+/// Errors (Usage): lamp and patch share pixels.
+[[nodiscard]] Expected<void> check_regions_apart(const Region& lamp, const Region& patch);
+
 /// Errors (Usage): the region lies outside a picture of this size, or reaches out of it.
 [[nodiscard]] Expected<void> check_inside(std::string_view name, const Region& region,
                                           std::uint32_t width, std::uint32_t height);

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "runtime/report/output_file.h"
 #include "runtime/report/summary_json.h"
@@ -11,9 +12,9 @@
 namespace gazeloop::probe {
 
 bool tell_video(const VideoQuestion& question, const std::string& json, bool quiet) {
-    if (!json.empty()) {
-        value_or_throw(report::check_output(json));
-    }
+    const report::NamedFile output{"--json", json};
+    const report::NamedFile input{"the video", question.frames};
+    value_or_throw(report::check_outputs(std::span{&output, 1}, std::span{&input, 1}));
     const VideoResult result =
         value_or_throw(measure_video(question, [](std::uint64_t read, std::uint64_t all) {
             constexpr std::uint64_t kEvery = 1000;

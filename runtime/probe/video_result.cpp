@@ -10,6 +10,9 @@
 namespace gazeloop::probe {
 namespace {
 
+/// Below it a frame is as long as what is measured: half of what the instructions ask for.
+constexpr double kLeastFps = 120.0;
+
 struct FrameSize {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
@@ -50,6 +53,20 @@ Expected<FrameSize> read_frames(const FrameFiles& files, const VideoQuestion& qu
         }
     }
     return size;
+}
+
+/// Errors (Usage): what no camera and no picture can be.
+Expected<void> check_question(const VideoQuestion& question) {
+    const double frame_ms = 1e3 / question.camera_fps;
+    if (question.readout_ms.value_or(0.0) > frame_ms) {
+        return std::unexpected(Error{
+            ErrorKind::Usage,
+            fmt::format("--readout-ms {:g}: no camera reads a picture out for longer than the "
+                        "{:.3g} ms from one to the next (--camera-fps {:g}): correct either, "
+                        "or leave --readout-ms out",
+                        *question.readout_ms, frame_ms, question.camera_fps)});
+    }
+    return check_regions_apart(question.lamp, question.patch);
 }
 
 /// What makes every delay too long or too short alike, milliseconds; says so.
@@ -103,6 +120,12 @@ Expected<VideoResult> measure_series(const VideoQuestion& question, const LightS
         *changes = *std::move(found);
     }
     result.paired = pair_changes(result.lamp.changes, result.patch.changes);
+    if (question.camera_fps < kLeastFps) {
+        result.warnings.push_back(
+            fmt::format("a camera of {:g} frames per second leaves each delay uncertain by up to "
+                        "{:.3g} ms: film at 240 or more",
+                        question.camera_fps, result.frame_ms()));
+    }
     const double fixed_ms = fixed_error_ms(result);
     result.on = statistics_of(result, true, fixed_ms);
     result.off = statistics_of(result, false, fixed_ms);
@@ -112,6 +135,9 @@ Expected<VideoResult> measure_series(const VideoQuestion& question, const LightS
 Expected<VideoResult> measure_video(
     const VideoQuestion& question,
     const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+    if (auto possible = check_question(question); !possible) {
+        return std::unexpected(possible.error());
+    }
     const auto files = FrameFiles::find(question.frames);
     if (!files) {
         return std::unexpected(files.error());

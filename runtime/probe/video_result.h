@@ -52,8 +52,8 @@ struct VideoResult {
 
 /// Reads the frames and measures. Errors (BadInput): see FrameFiles::find, FramePicture::read,
 /// find_changes, and frames of different sizes (both named). Errors (Usage): a region outside the
-/// frames. Throws SetupError as LightSeries does. `progress` is told the number of frames read and
-/// of all.
+/// frames, regions that overlap, a readout longer than a frame. Throws SetupError as LightSeries
+/// does. `progress` is told the number of frames read and of all.
 [[nodiscard]] Expected<VideoResult> measure_video(
     const VideoQuestion& question,
     const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});

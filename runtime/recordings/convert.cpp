@@ -31,6 +31,22 @@ void check_table_output(const Conversion& conversion) {
     }
 }
 
+/// A table has what describes it beside it, and so may what is read.
+void check_outputs(const Conversion& conversion) {
+    const auto beside = [](const std::string& file) { return file + ".json"; };
+    std::vector<report::NamedFile> outputs{{"the file to write", conversion.out},
+                                           {"--json", conversion.json}};
+    if (conversion.to == "gazeloop") {
+        outputs.push_back({"what describes the file to write", beside(conversion.out)});
+    }
+    const std::array<report::NamedFile, 2> inputs{
+        {{"the recording", conversion.in}, {"what describes it", beside(conversion.in)}}};
+    value_or_throw(report::check_apart(outputs, inputs));
+    // BIDS is a folder.
+    const std::size_t folders = conversion.to == "bids" ? 1 : 0;
+    value_or_throw(report::check_outputs(std::span{outputs}.subspan(folders), inputs));
+}
+
 /// What a table of angles has no columns for.
 std::vector<std::string> beside_angles(const gaze::GazeTrace& trace) {
     bool places = false;
@@ -89,13 +105,7 @@ void convert(const Conversion& conversion) {
         throw SetupError(ErrorKind::Usage,
                          "convert: '-' is no file: name one, or /dev/stdout for the table alone");
     }
-    if (!conversion.json.empty()) {
-        value_or_throw(report::check_output(conversion.json));
-    }
-    const std::array<report::NamedFile, 2> outputs{
-        {{"the file to write", conversion.out}, {"--json", conversion.json}}};
-    const std::array<report::NamedFile, 1> inputs{{{"the recording", conversion.in}}};
-    value_or_throw(report::check_apart(outputs, inputs));
+    check_outputs(conversion);
     const gaze::GazeTrace trace = recorded_gaze(conversion.in, conversion.read);
     const Written written = write(conversion, trace);
     if (conversion.json != "-") {

@@ -33,15 +33,32 @@ GateVerdict verdict_of(const GatePart& part, std::uint64_t with_gaze) {
                                                                   : GateVerdict::Kept;
 }
 
+/// Digits by which what was measured and what is allowed differ, if they differ at all.
+int digits(const GatePart& part) {
+    constexpr int kUsual = 2;
+    constexpr int kMost = 6;  // nanoseconds
+    int digits = kUsual;
+    while (digits < kMost && part.p95_ms && *part.p95_ms != allowed_ms(part) &&
+           fmt::format("{:.{}f}", *part.p95_ms, digits) ==
+               fmt::format("{:.{}f}", allowed_ms(part), digits)) {
+        ++digits;
+    }
+    return digits;
+}
+
 std::string measured(const GatePart& part) {
-    return part.p95_ms ? fmt::format("{:.2f}", *part.p95_ms) : "-";
+    return part.p95_ms ? fmt::format("{:.{}f}", *part.p95_ms, digits(part)) : "-";
+}
+
+std::string allowed(const GatePart& part) {
+    return fmt::format("{:.{}f}", allowed_ms(part), digits(part));
 }
 
 /// Why a part is not kept.
 std::string reason(const GatePart& part, std::uint64_t with_gaze) {
     if (part.verdict == GateVerdict::Broken) {
-        return fmt::format("{}: p95 {:.2f} ms, allowed {:.2f} ms", part.name, *part.p95_ms,
-                           allowed_ms(part));
+        return fmt::format("{}: p95 {} ms, allowed {} ms", part.name, measured(part),
+                           allowed(part));
     }
     return fmt::format("{}: only {} of {} frames with gaze know it", part.name, part.known,
                        with_gaze);
@@ -105,7 +122,7 @@ std::string gate_text(const BudgetGate& gate) {
     for (const GatePart& part : gate.parts) {
         const bool stage = part.key != latency::kMonitorPartKeys[latency::kAgePart];
         fmt::format_to(out, kRow, fmt::format("{}{}", stage ? "  " : "", part.name), measured(part),
-                       fmt::format("{:.2f}", allowed_ms(part)), part.known, gate.with_gaze,
+                       allowed(part), part.known, gate.with_gaze,
                        kVerdictNames[static_cast<std::size_t>(part.verdict)]);
     }
     if (gate.pace == latency::Verdict::VirtualTime) {

@@ -32,6 +32,7 @@ struct LagFacts {
     latency::GazeUseCounts use{};
     gaze::SmoothingFinding smoothing{};
     std::string_view unplaced{};  ///< what gaze needs to have a direction; empty: nothing
+    bool log_missing = false;     ///< of a session: its last part was not copied with it
     std::span<const NamedValue> settings{};  ///< of the run, as far as they are known
     std::span<const NamedValue> device{};    ///< likewise, as a session's table of that name
 

@@ -303,11 +303,16 @@ constexpr std::array kRemedy{
                     "The runtime asked for no picture: put the headset on, and "
                     "close what lies over the program.");
             }},
+    LagRule{
+        "try-its-log",
+        [](const LagFacts& f) { return f.report->frames.rendered == 0 && f.log_missing; },
+        [](const LagFacts&) {
+            return std::string(
+                "The recording's log (-wal) is not beside it: copy it there, and report again.");
+        }},
     LagRule{"try-more-frames", [](const LagFacts& f) { return f.report->frames.rendered == 0; },
             [](const LagFacts&) {
-                return std::string(
-                    "Run longer, or see above why the run ended before its first "
-                    "frame.");
+                return std::string("Run longer, or see why the run ended before its first frame.");
             }},
     LagRule{"try-devices",
             [](const LagFacts& f) {
@@ -315,8 +320,9 @@ constexpr std::array kRemedy{
             },
             [](const LagFacts&) {
                 return std::string(
-                    "No sample came at all: gazeloop devices says why a tracker "
-                    "gives none.");
+                    "No sample came at all: gazeloop devices says why a tracker gives none; where "
+                    "gaze comes as datagrams (OSC), see whether their sender names this machine "
+                    "and port.");
             }},
     LagRule{"try-younger-samples",
             [](const LagFacts& f) {

@@ -13,6 +13,7 @@
 #include "runtime/calibration/calibration_file.h"
 #include "runtime/report/output_file.h"
 #include "runtime/report/summary_json.h"
+#include "runtime/run/run_checks.h"
 
 namespace gazeloop::run {
 
@@ -42,9 +43,7 @@ std::optional<ErrorKind> calibration_run(const CalibrationRun& wanted, FrameRunR
     const bool quiet = wanted.quiet;
     request.json.reset();  // the calibration's own result goes there
     request.quiet = true;
-    if (!json.empty()) {
-        value_or_throw(report::check_output(json));
-    }
+    check_results(request, {{"--out", file}, {"--json", json}});
     std::FILE* const out = json == "-" ? stderr : stdout;
     if (!quiet) {
         fmt::print(out,

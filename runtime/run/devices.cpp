@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <span>
 
 #include "drivers/hid/hid_source.h"
 #include "drivers/psvr2/psvr2_source.h"
@@ -57,9 +58,8 @@ std::optional<ErrorKind> listen_to_devices(const DevicesRequest& wanted,
                    ? std::nullopt
                    : std::optional(ErrorKind::NoDevice);
     }
-    if (!wanted.json.empty()) {
-        value_or_throw(report::check_output(wanted.json));
-    }
+    const report::NamedFile output{"--json", wanted.json};
+    value_or_throw(report::check_outputs(std::span{&output, 1}, report::files_of(settings)));
     const doctor::Findings openxr = listen_to_openxr(settings, wanted.seconds);
     const std::chrono::milliseconds listen(std::llround(wanted.seconds * 1e3));
     const auto stop = [] { return interrupted(); };

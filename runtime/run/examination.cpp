@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/report/output_file.h"
@@ -100,9 +101,8 @@ std::optional<ErrorKind> examine(const Examination& wanted, ProgramSettings& set
     findings.push_back(check_settings(settings));
     const display::DisplayProfile display = display_or_default(settings);
 
-    if (!wanted.json.empty()) {
-        value_or_throw(report::check_output(wanted.json));
-    }
+    const report::NamedFile output{"--json", wanted.json};
+    value_or_throw(report::check_outputs(std::span{&output, 1}, report::files_of(settings)));
     const auto add = [&](doctor::Findings more) {
         std::ranges::move(more, std::back_inserter(findings));
     };

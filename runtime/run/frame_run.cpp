@@ -36,6 +36,7 @@
 #include "runtime/run/govern.h"
 #include "runtime/run/interrupt.h"
 #include "runtime/run/loop_end_text.h"
+#include "runtime/run/no_gaze.h"
 #include "runtime/run/picture_device.h"
 #include "runtime/run/recording_observer.h"
 #include "runtime/run/run_checks.h"
@@ -67,6 +68,7 @@ class FrameRun {
 
     std::optional<ErrorKind> run() {
         check_request(request_);
+        warn_of_no_effect(*request_.settings);
         if (request_.snapshot) {
             value_or_throw(render::make_snapshot_folder(*request_.snapshot));
         }
@@ -487,16 +489,30 @@ class FrameRun {
             recorder_.reset();
         }
         const latency::SummaryReport report = summary.report();
-        if (request_.clock == RunClock::Wall && !result_.fixed_in_head &&
-            report.gaze.received <= report.gaze.invalid + report.gaze.out_of_order &&
-            report.frames.total > 0) {
-            spdlog::warn("no gaze in all {} frames{}", report.frames.total,
-                         request_.from_device
-                             ? ": gazeloop devices says why a tracker gives none"
-                             : ": the run ended before any had arrived, or all of it was lost");
-        }
-        if (!tracker_fault_.why().empty() && report.gaze.received == 0) {
+        const bool live = request_.clock == RunClock::Wall && !result_.fixed_in_head;
+        const bool silent = report.gaze.received == 0 && failure_ != ErrorKind::Interrupted;
+        if (silent && !tracker_fault_.why().empty()) {
             fail(ErrorKind::NoDevice, "no gaze came: " + tracker_fault_.why());
+        } else if (silent && live && request_.from_device && !request_.openxr_gaze) {
+            fail(ErrorKind::NoDevice, fmt::format("no gaze came from --gaze {}: {}", request_.gaze,
+                                                  no_gaze_remedy(request_.gaze)));
+        } else if (live && report.frames.total > 0 &&
+                   report.gaze.received <= report.gaze.invalid + report.gaze.out_of_order) {
+            spdlog::warn("no gaze in all {} frames: {}", report.frames.total,
+                         request_.from_device
+                             ? no_gaze_remedy(request_.gaze)
+                             : "the run ended before any had arrived, or all of it was lost");
+        }
+        if (!failure_ && report.frames.rendered == 0) {
+            fail(
+                ErrorKind::GateFailed,
+                fmt::format("nothing was rendered: {}",
+                            request_.loop.frames == 0 || request_.loop.seconds == 0.0
+                                ? "ask for more --frames or --seconds"
+                            : report.frames.total > 0
+                                ? "the runtime asked for no picture: put the headset on, and close "
+                                  "what lies over the program"
+                                : "the run ended before its first frame"));
         }
         const std::vector<NamedValue> settings = request_.settings->list();
         const std::vector<NamedValue> device = picture_device(*context_);

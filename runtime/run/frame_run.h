@@ -42,6 +42,7 @@ struct FrameRunRequest {
     /// The gaze of the target's own OpenXR session, in place of make_source.
     std::optional<drivers::OpenXrGazeOptions> openxr_gaze;
     bool from_device = false;              ///< the gaze, by either of the two
+    std::string gaze{};                    ///< the source, as --gaze has it; empty: no such option
     bool live_gaze = false;                ///< from a device, or simulated: held against anatomy
     std::optional<Recording> recording{};  ///< set for Recorded only; the run is compared with it
     bool same_gaze = true;                 ///< settings that decide foveae are the recording's

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <string_view>
+#include <utility>
 
 #include "runtime/methods/registry.h"
 #include "runtime/profiles/profiles_in_force.h"
@@ -21,6 +22,21 @@ void warn_of_other_device(std::string_view made_with, std::string_view gaze) {
             "gaze.calibration was made with --gaze {} and corrects --gaze {} now: calibrate "
             "this tracker (gazeloop calibrate --gaze {}), or leave the calibration out",
             made_with, gaze, gaze);
+    }
+}
+
+/// What was set on the command line for a source that is not the run's.
+void warn_of_other_sources(std::string_view gaze, const ProgramSettings& settings) {
+    const std::string_view source = gaze.substr(0, gaze.find(':'));
+    for (const auto& [group, of] : {std::pair{"hid.", "hid"}, std::pair{"trace.", "trace"},
+                                    std::pair{"steam_frame.", "steam-frame"}}) {
+        for (const settings::SettingRow& row : settings.rows()) {
+            if (row.key.starts_with(group) && source != of &&
+                settings.origin(row.key).starts_with("--")) {
+                spdlog::warn("{} has no effect with --gaze {}: it is of --gaze {}",
+                             settings.with_origin(row.key), gaze, of);
+            }
+        }
     }
 }
 
@@ -47,7 +63,9 @@ FrameRunRequest gaze_run(const std::string& gaze, RunClock clock,
     } else {
         request.make_source = value_or_throw(gaze_source_named(gaze, tracker, settings.values()));
     }
+    request.gaze = gaze;
     request.from_device = is_device(gaze);
+    warn_of_other_sources(gaze, settings);
     request.live_gaze = request.from_device || gaze == "sim";
     request.clock = clock;
     constexpr std::string_view kTrace = "trace:";

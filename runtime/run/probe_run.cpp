@@ -10,6 +10,7 @@
 #include "runtime/probe/live_probe.h"
 #include "runtime/report/output_file.h"
 #include "runtime/report/summary_json.h"
+#include "runtime/run/run_checks.h"
 
 namespace gazeloop::run {
 
@@ -23,9 +24,7 @@ std::optional<ErrorKind> probe_run(const ProbeRun& wanted, FrameRunRequest reque
     std::FILE* const out = json == "-" ? stderr : stdout;
     request.json.reset();  // the probe's own result goes there
     request.quiet = quiet || json == "-";
-    if (!json.empty()) {
-        value_or_throw(report::check_output(json));
-    }
+    check_results(request, {{"--json", json}});
     if (!quiet) {
         fmt::print(out, "{}\n", probe::kInstructions);
         std::fflush(out);

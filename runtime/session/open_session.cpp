@@ -1,11 +1,11 @@
 #include "runtime/session/open_session.h"
 
-#include <array>
 #include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "runtime/files/recording_file.h"
 #include "runtime/session/database.h"
 #include "runtime/session/info_reader.h"
 #include "runtime/session/reading_error.h"
@@ -75,11 +75,7 @@ Expected<OpenSession> OpenSession::open(const std::filesystem::path& file) {
 }
 
 bool looks_like_session(const std::filesystem::path& file) {
-    constexpr std::string_view kMagic{"SQLite format 3\0", 16};
-    std::array<char, kMagic.size()> begin{};
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(begin.data(), begin.size());
-    return stream && std::string_view(begin.data(), begin.size()) == kMagic;
+    return files::begins_as_recording(file);
 }
 
 }  // namespace gazeloop::session

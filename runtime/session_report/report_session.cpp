@@ -23,17 +23,15 @@ namespace {
 void check_outputs(const ReportRequest& request) {
     std::vector<report::NamedFile> outputs;
     for (const auto& [option, file] : request.outputs()) {
-        if (!file->empty()) {
-            value_or_throw(report::check_output(*file));
-            outputs.push_back({option, *file});
-        }
+        outputs.push_back({option, *file});
     }
-    const std::array<report::NamedFile, 5> inputs{{{"the session", request.file},
+    const std::array<report::NamedFile, 6> inputs{{{"the session", request.file},
                                                    {"--against", request.against},
                                                    {"--probe", request.probe},
                                                    {"--runtime-metrics", request.runtime.metrics},
-                                                   {"--runtime-csv", request.runtime.csv}}};
-    value_or_throw(report::check_apart(outputs, inputs));
+                                                   {"--runtime-csv", request.runtime.csv},
+                                                   {"--budget", request.budget}}};
+    value_or_throw(report::check_outputs(outputs, inputs));
 }
 
 /// None: nothing decides the exit code.
@@ -104,6 +102,7 @@ void fill(const ReportRequest& request, const session::OpenSession& session, Ses
                                         .use = summary.use,
                                         .smoothing = summary.smoothing,
                                         .unplaced = summary.unplaced.view(),
+                                        .log_missing = !made.info.missing_log.empty(),
                                         .settings = made.info.header.config,
                                         .device = made.info.header.device});
     if (made.budget) {

@@ -18,16 +18,22 @@ namespace gazeloop::session_report {
 
 std::string text_of(const SessionReport& made) {
     const report::SessionSummary& summary = made.summary;
+    std::string recording;
+    for (const std::string& line : report::recording_lines(made.info, summary.end)) {
+        recording += fmt::format("{}\n", line);
+    }
+    // What lacks a part says so before what is made of the rest.
+    const bool first = !made.info.missing_log.empty();
     std::string text =
-        fmt::format("{}{}{}\n{}",
+        fmt::format("{}{}{}{}\n{}", first ? recording + "\n" : "",
                     report::session_text(summary, made.percentiles, report::lag_text(made.reasons)),
                     summary.trace.text(), summary.runtime.text(),
                     report::prediction_text(made.prediction, summary.report));
     if (made.levels) {
         text += made.levels->text();
     }
-    for (const std::string& line : report::recording_lines(made.info, summary.end)) {
-        text += fmt::format("{}\n", line);
+    if (!first) {
+        text += recording;
     }
     if (made.measured) {
         text += probe::comparison_text(*made.measured);

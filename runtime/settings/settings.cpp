@@ -324,7 +324,11 @@ Expected<void> Settings::load_standard_files() {
 
 bool Settings::is_in_use(const SettingRow& row) const {
     const auto& [key, values] = row.only_while;
-    return key.empty() || std::ranges::find(values, text_of(entry(key).row)) != values.end();
+    if (key.empty()) {
+        return true;
+    }
+    const SettingRow& decides = entry(key).row;
+    return std::ranges::find(values, text_of(decides)) != values.end() && is_in_use(decides);
 }
 
 const Settings::Entry& Settings::entry(std::string_view key) const {

@@ -13,6 +13,10 @@ namespace gazeloop::simulate {
 std::uint64_t publish_as_steam_frame(const PlayedGaze& gaze, const SimulatedSteamFrame& service,
                                      const Interrupted& interrupted) {
     using drivers::steam_frame::ClockPair;
+    if (service.version != 4 && service.version != 5) {
+        spdlog::warn("layout {}: only 4 and 5 are known: whoever reads the file refuses it",
+                     service.version);
+    }
     const gaze::GazeTrace trace = gaze.samples();
     auto file = value_or_throw(
         sim::SteamFrameFile::create(service.file, static_cast<std::uint32_t>(service.version)));

@@ -1,18 +1,16 @@
 #include "runtime/study/study_files.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <iterator>
 #include <map>
 #include <tuple>
 
+#include "runtime/files/output_file.h"
 #include "runtime/open_for_reading.h"
 #include "runtime/session/open_session.h"
+#include "runtime/study/plan_file.h"
 #include "runtime/study/responses_file.h"
 #include "runtime/study/session_responses.h"
 
@@ -56,7 +54,7 @@ Expected<std::string> forget_rows(unsigned subject, const std::filesystem::path&
     if (removed == 0) {
         return "";
     }
-    if (auto written = write_private(file, kept); !written) {
+    if (auto written = files::write_text(file, kept, files::kOwnerOnly); !written) {
         return std::unexpected(written.error());
     }
     return fmt::format("{}: {} answers of subject {} removed", file.string(), removed, subject);
@@ -70,12 +68,12 @@ Expected<std::string> forget_session(unsigned subject, const std::filesystem::pa
     if (*of_session != subject) {
         return "";
     }
+    const std::string real = files::followed(file).string();  // a link alone holds nothing
     for (const char* const companion : {"-wal", "-shm", ""}) {
         std::error_code error;
-        std::filesystem::remove(file.string() + companion, error);
+        std::filesystem::remove(real + companion, error);
         if (error) {
-            return bad(file.string() + companion,
-                       fmt::format("cannot be removed ({})", error.message()));
+            return bad(real + companion, fmt::format("cannot be removed ({})", error.message()));
         }
     }
     return fmt::format("{}: the session of subject {} removed, with its gaze and answers",
@@ -94,6 +92,17 @@ Expected<std::vector<Response>> gather(const Plan& plan,
         if (!responses) {
             return std::unexpected(responses.error());
         }
+        if (responses->empty() && session::looks_like_session(file)) {
+            const auto subject = session_subject(file);
+            if (!subject) {
+                return std::unexpected(subject.error());
+            }
+            if (*subject == 0) {
+                return bad(file,
+                           "a session that holds no trials of a study: name those that gazeloop "
+                           "study run recorded");
+            }
+        }
         for (Response& response : *responses) {
             const auto [before, is_new] = seen.emplace(
                 std::tuple{response.subject, response.trial.number, response.attempt}, file);
@@ -106,51 +115,28 @@ Expected<std::vector<Response>> gather(const Plan& plan,
             all.push_back(std::move(response));
         }
     }
+    if (all.empty() && !files.empty()) {
+        return bad(files.front(), files.size() > 1 ? "holds no answers, nor do the other files"
+                                                   : "holds no answers yet");
+    }
     return all;
 }
 
-Expected<void> write_private(const std::filesystem::path& named, std::string_view text) {
-    // What a link leads to, which would else stay as it was.
-    std::error_code unknown;
-    const std::filesystem::path target = std::filesystem::canonical(named, unknown);
-    const std::filesystem::path& file = unknown ? named : target;
-    if (!unknown && !std::filesystem::is_regular_file(file)) {
-        return bad(named, "is no file: answers of persons go into files alone");
-    }
-    const std::string partial = file.string() + ".partial";
-    const auto failed = [&](int descriptor) {
-        const int error = errno;
-        if (descriptor >= 0) {
-            close(descriptor);
-            unlink(partial.c_str());
+Expected<void> write_published_plan(const Plan& plan, const std::filesystem::path& file) {
+    const std::string text = plan_text(plan);
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(file, ignored)) {
+        auto in = open_for_reading(file);
+        const std::string there(in ? std::string(std::istreambuf_iterator<char>(*in), {}) : "");
+        if (!there.empty() && there != text) {
+            return bad(file,
+                       fmt::format("is there already and holds something else than {} as it was "
+                                   "published, which would be lost: name another file, or "
+                                   "remove it",
+                                   plan.name));
         }
-        return bad(file, fmt::format("cannot be written ({})", std::strerror(error)));
-    };
-    unlink(partial.c_str());
-    const int descriptor = open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    if (descriptor < 0) {
-        return failed(-1);
     }
-    while (!text.empty()) {
-        const ssize_t written = write(descriptor, text.data(), text.size());
-        if (written < 0 && errno == EINTR) {
-            continue;
-        }
-        if (written < 0) {
-            return failed(descriptor);
-        }
-        text.remove_prefix(static_cast<std::size_t>(written));
-    }
-    if (fsync(descriptor) != 0) {
-        return failed(descriptor);
-    }
-    close(descriptor);
-    if (rename(partial.c_str(), file.c_str()) != 0) {
-        const auto error = failed(-1);
-        unlink(partial.c_str());
-        return error;
-    }
-    return {};
+    return files::write_text(file, text);
 }
 
 Expected<std::vector<std::string>> forget(unsigned subject,

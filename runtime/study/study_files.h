@@ -16,11 +16,10 @@ namespace gazeloop::study {
 [[nodiscard]] Expected<std::vector<Response>> gather(const Plan& plan,
                                                      std::span<const std::filesystem::path> files);
 
-/// Writes a file of a person: mode 0600, in the place of one of that name, or to which a link of
-/// that name leads, in one step. Errors (BadInput): file and reason are named; what was there
-/// before then still is. A device, a pipe or a folder is none.
-[[nodiscard]] Expected<void> write_private(const std::filesystem::path& file,
-                                           std::string_view text);
+/// Writes a published plan; "-" is stdout. Errors (BadInput): as files::write_text(); a file is
+/// there that holds anything else, which may be a plan that somebody changed.
+[[nodiscard]] Expected<void> write_published_plan(const Plan& plan,
+                                                  const std::filesystem::path& file);
 
 /// Removes a subject's answers from files: sessions, which go as a whole, and lines of answers
 /// (responses_file.h) or of decisions for R (analysis_report.h). Gives a line per file that says

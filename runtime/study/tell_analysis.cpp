@@ -27,7 +27,7 @@ void tell_analysis(const AnalysisRequest& request) {
     for (const std::filesystem::path& file : files) {
         inputs.emplace_back("the answers", file);
     }
-    value_or_throw(report::check_apart(outputs, inputs));
+    value_or_throw(report::check_outputs(outputs, inputs));
     const std::vector<Response> responses = value_or_throw(gather(plan, files));
     const StudyResult result = analyse(plan, responses, {.fit_subjects = true});
     const auto write = [](const std::string& file, const auto& text) {
@@ -35,18 +35,13 @@ void tell_analysis(const AnalysisRequest& request) {
             value_or_throw(report::write_text(file, text()));
         }
     };
-    if (request.json != "-" && request.csv != "-" && request.r_csv != "-") {
+    if (request.json != "-" && request.csv != "-" && request.r_csv != "-" && request.html != "-") {
         fmt::print("{}", analysis_text(result));
     }
     // What has lines of single persons is theirs.
     const auto write_theirs = [](const std::string& file, const auto& text) {
-        std::error_code unknown;
-        const bool stream = file == "-" || (std::filesystem::exists(file, unknown) &&
-                                            !std::filesystem::is_regular_file(file, unknown));
-        if (stream) {
-            value_or_throw(report::write_text(file, text()));
-        } else if (!file.empty()) {
-            value_or_throw(write_private(file, text()));
+        if (!file.empty()) {
+            value_or_throw(report::write_text(file, text(), files::kOwnerOnly));
         }
     };
     write_theirs(request.json, [&] { return report::json_text(analysis_json(result)); });

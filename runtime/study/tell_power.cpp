@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "runtime/report/output_file.h"
 #include "runtime/report/summary_json.h"
@@ -12,6 +13,12 @@
 namespace gazeloop::study {
 
 void tell_power(const PowerRequest& request, const std::function<bool()>& interrupted) {
+    const report::NamedFile output{"--json", request.json};
+    std::vector<report::NamedFile> inputs;
+    for (const std::string& file : request.plans) {
+        inputs.emplace_back("the plan", file);
+    }
+    value_or_throw(report::check_outputs(std::span{&output, 1}, inputs));
     std::vector<PowerOfPlan> found;
     for (const std::string& file : request.plans) {
         Plan plan = value_or_throw(read_plan(file));

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -83,9 +84,9 @@ TrackerWidening widening(const std::string& text, const PlanSubject& subject,
 }  // namespace
 
 void plan(const PlanRequest& request, const PlanSubject& subject) {
-    if (!request.json.empty()) {
-        value_or_throw(report::check_output(request.json));
-    }
+    const std::array<report::NamedFile, 2> outputs{
+        {{"--json", request.json}, {"--png", request.chart}}};
+    value_or_throw(report::check_outputs(outputs, report::files_of(subject.settings)));
     const bool show_text = request.json != "-" && !request.quiet;
     if (!request.figures.empty()) {
         const std::string claims = value_or_throw(write_layer_figures(request.figures));

@@ -152,7 +152,7 @@ std::string plan_report_json(const PlanReport& report) {
         methods.push_back(std::move(entry));
     }
     json["methods"] = std::move(methods);
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, decltype(json)::error_handler_t::replace) + "\n";
 }
 
 report::LineChart density_chart(const PlanReport& report) {

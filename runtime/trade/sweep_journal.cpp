@@ -49,6 +49,16 @@ Expected<SweepRecord> parse_journal(std::string_view text, const std::string& na
             break;
         }
         ++line;
+        const auto refuse_line = [&](std::string_view why) {
+            return refuse(
+                fmt::format("{}:{}", name, line),
+                line == 1
+                    ? fmt::format("is no journal of a sweep ({}): name a file that trade --resume "
+                                  "wrote",
+                                  why)
+                    : fmt::format("is damaged ({}): delete the line to measure again what it held",
+                                  why));
+        };
         try {
             const auto json = nlohmann::json::parse(text.substr(0, end));
             if (line == 1) {
@@ -56,18 +66,17 @@ Expected<SweepRecord> parse_journal(std::string_view text, const std::string& na
             } else {
                 read_entry(json, record);
             }
+        } catch (const nlohmann::json::exception&) {  // whose text is for programmers
+            return refuse_line("it is not as a sweep writes it");
         } catch (const std::exception& error) {
-            return refuse(
-                fmt::format("{}:{}", name, line),
-                line == 1
-                    ? fmt::format("is no journal of a sweep ({})", error.what())
-                    : fmt::format("is damaged ({}): delete the line to measure again what it held",
-                                  error.what()));
+            return refuse_line(error.what());
         }
         text.remove_prefix(end + 1);
     }
     if (line == 0) {
-        return refuse(name, "is no journal of a sweep: it has no complete line");
+        return refuse(name,
+                      "is no journal of a sweep (it has no complete line): name a file that trade "
+                      "--resume wrote");
     }
     record.torn_bytes = text.size();
     return record;

@@ -60,6 +60,10 @@ Expected<Varied> parse_varied(const std::string& text) {
             return refuse(fmt::format("'{}' has an empty value", text));
         }
         varied.values.push_back(text.substr(from, end - from));
+        if (std::ranges::find(varied.values.begin(), varied.values.end() - 1,
+                              varied.values.back()) != varied.values.end() - 1) {
+            return refuse(fmt::format("'{}' has {} twice", text, varied.values.back()));
+        }
         from = end + 1;
     }
     if (varied.values.empty() || text.ends_with(',')) {

@@ -11,6 +11,7 @@
 
 #include "runtime/methods/registry.h"
 #include "runtime/present/scaled_extent.h"
+#include "runtime/quality/figure_keys.h"
 #include "runtime/settings/nearest_name.h"
 #include "runtime/trade/measured_sweep.h"
 #include "runtime/trade/published_grid.h"
@@ -174,7 +175,8 @@ SweepRecord record_of(const TradeRequest& request, const TradeScene& scene,
 
 bool trade_off(const TradeRequest& request, const TradeScene& scene, settings::Settings& settings,
                const SweepHooks& hooks) {
-    std::vector<report::NamedFile> inputs{{"--resume", request.journal}};
+    std::vector<report::NamedFile> inputs = report::files_of(settings);
+    inputs.emplace_back("--resume", request.journal);
     for (const std::string& file : request.merge) {
         inputs.emplace_back("--merge", file);
     }
@@ -182,6 +184,9 @@ bool trade_off(const TradeRequest& request, const TradeScene& scene, settings::S
     ChoiceQuestion question{.budget_ms = request.budget_ms};
     for (const std::string& text : request.limits) {
         question.floors.push_back(value_or_throw(parse_floor(text)));
+        if (request.merge.empty()) {  // else the journals say by what was judged
+            value_or_throw(quality::check_figure(question.floors.back().key, request.metrics));
+        }
     }
     SweepReport report = report_of(record_of(request, scene, settings, hooks));
     report.question = std::move(question);

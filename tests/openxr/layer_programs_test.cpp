@@ -140,7 +140,10 @@ TEST_F(LayerPrograms, RefusesSourcesAndApplicationsThatAreNotThere) {
     const ProgramResult allowed = layer({"allow", "/nowhere/program"});
     EXPECT_EQ(allowed.exit_code, 3);
     EXPECT_THAT(allowed.err, HasSubstr("/nowhere/program"));
-    EXPECT_EQ(layer({"forget", "/nowhere/program"}).exit_code, 0);
+    const ProgramResult forgotten = layer({"forget", "/nowhere/program"});
+    EXPECT_EQ(forgotten.exit_code, 0);
+    EXPECT_NE(forgotten.out.find("/nowhere/program: nothing was decided on it"), std::string::npos)
+        << forgotten.out;
 }
 
 TEST_F(LayerPrograms, IsSwitchedOnAndOffForTheUser) {

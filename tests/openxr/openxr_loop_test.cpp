@@ -116,7 +116,8 @@ TEST_F(OpenXrLoop, EndsCleanlyWhenInterrupted) {
 
 // An exit that is asked for before there is a session to ask.
 TEST_F(OpenXrLoop, EndsBeforeItHasBegun) {
-    EXPECT_EQ(run({"run", "--frames", "0"}, {.timeout = std::chrono::seconds(30)}).exit_code, 0);
+    // Nothing was rendered.
+    EXPECT_EQ(run({"run", "--frames", "0"}, {.timeout = std::chrono::seconds(30)}).exit_code, 1);
     EXPECT_EQ(run({"run"}, {.timeout = std::chrono::seconds(30),
                             .trigger = "Vulkan: ",
                             .on_trigger = [](int pid) { kill(pid, SIGINT); }})

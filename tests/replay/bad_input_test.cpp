@@ -278,6 +278,83 @@ TEST(BadInput, AnOpenXrRuntimeThatIsNotThere) {
     EXPECT_NE(wrong.err.find("/nowhere/runtime.json"), std::string::npos) << wrong.err;
 }
 
+TEST(BadInput, JournalsAndScenesThatAreNone) {
+    const ScratchFolder folder;
+    const std::string csv = folder.write("a.csv", "scene,gaze\nraymarch,0\n");
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"trade", "--merge", csv}, {"trade", "--resume", csv}}) {
+        const ProgramResult result = run_gazeloop(words);
+        EXPECT_EQ(result.exit_code, 3) << result.err;
+        EXPECT_NE(result.err.find(csv + ":1: is no journal of a sweep (it is not as a sweep writes "
+                                        "it): name a file that trade --resume wrote"),
+                  std::string::npos)
+            << result.err;
+    }
+    const std::string scene = folder.write("a.gltf", "{\n  \"asset\": nothing\n}\n");
+    const ProgramResult drawn = run_gazeloop({"run", "--target", "headless", "--frames", "1",
+                                              "--set", "render.scale=0.02", "--scene", scene});
+    EXPECT_EQ(drawn.exit_code, 3) << drawn.err;
+    EXPECT_NE(drawn.err.find("a.gltf: is not JSON: line 2, byte "), std::string::npos) << drawn.err;
+    EXPECT_EQ(drawn.err.find("json.exception"), std::string::npos) << drawn.err;
+}
+
+TEST(BadInput, SettingsWithoutEffectAreSaid) {
+    const std::vector<std::string> run{
+        "run",    "--target",  "headless", "--frames",          "1",
+        "--gaze", "fixed:0,0", "--set",    "render.scale=0.02", "--quiet"};
+    const auto said = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = run;
+        words.insert(words.end(), more.begin(), more.end());
+        const ProgramResult result = run_gazeloop(words);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result.err;
+    };
+    const auto has = [](const std::string& text, const char* part) {
+        return text.find(part) != std::string::npos;
+    };
+    const std::string widened = said({"--set", "gaze.widen_by=events"});
+    EXPECT_TRUE(
+        has(widened, "gaze.widen_by = events (--set) has no effect with gaze.widen = false"))
+        << widened;
+    const std::string both =
+        said({"--set", "gaze.widen_by=events", "--set", "gaze.widen=true", "--sigma", "2"});
+    EXPECT_FALSE(has(both, "has no effect")) << both;
+    const std::string other = said({"--method", "full", "--sigma", "2"});
+    EXPECT_TRUE(has(other, "kfr.sigma = 2 (--sigma) has no effect with render.method = full"))
+        << other;
+    const std::string even = said({"--set", "render.post_filter=8"});
+    EXPECT_TRUE(has(even,
+                    "render.post_filter = 8 (--set): such filters have 3, 5, 7, ... px: taken "
+                    "as 7"))
+        << even;
+    const std::string source = said({"--set", "hid.viewing_distance_m=0.6"});
+    EXPECT_TRUE(has(source, "has no effect with --gaze fixed:0,0: it is of --gaze hid")) << source;
+}
+
+TEST(BadInput, ARunThatRendersNothing) {
+    const ProgramResult result = run_gazeloop({"run", "--target", "headless", "--gaze", "fixed:0,0",
+                                               "--frames", "0", "--set", "render.scale=0.02"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_NE(result.err.find("nothing was rendered: ask for more --frames or --seconds"),
+              std::string::npos)
+        << result.err;
+}
+
+TEST(BadInput, ALiveSourceThatGivesNoSampleAtAll) {
+    for (const auto& [gaze, remedy] : std::vector<std::pair<std::string, std::string>>{
+             {"hid", "plug an eye tracker in"},
+             {"psvr2", "plug the PlayStation VR2 in by USB"},
+             {"osc:47293", "have its sender (VRCFaceTracking, say) send to this machine"},
+             {"steam-frame:/nowhere/gaze", "devices --set steam_frame.file=/nowhere/gaze says"}}) {
+        const ProgramResult result =
+            run_gazeloop({"run", "--target", "headless", "--gaze", gaze, "--seconds", "0.5",
+                          "--set", "render.scale=0.02"});
+        EXPECT_EQ(result.exit_code, 4) << gaze << result.err;
+        EXPECT_NE(result.err.find("no gaze came"), std::string::npos) << gaze << result.err;
+        EXPECT_NE(result.err.find(remedy), std::string::npos) << gaze << result.err;
+    }
+}
+
 TEST(BadInput, RecordingThatExists) {
     const ScratchFolder folder;
     const std::string file = folder.write("session.gaze", "precious");

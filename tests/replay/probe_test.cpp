@@ -278,6 +278,19 @@ TEST(ProbeVideo, WhatIsMissingIsSaid) {
     const ProgramResult none = run_gazeloop({"probe", "--video", folder.file("")});
     EXPECT_EQ(none.exit_code, 2);
     EXPECT_THAT(none.err, HasSubstr("--camera-fps, --lamp and --patch belong to it"));
+    const auto asked = [](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"probe", "--video", "/nowhere"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_gazeloop(words);
+    };
+    const ProgramResult overlap =
+        asked({"--camera-fps", "240", "--lamp", "0,0,8,16", "--patch", "0,0,8,16"});
+    EXPECT_EQ(overlap.exit_code, 2) << overlap.err;
+    EXPECT_THAT(overlap.err, HasSubstr("--lamp 0,0,8,16 and --patch 0,0,8,16 overlap"));
+    const ProgramResult readout = asked({"--camera-fps", "240", "--readout-ms", "100", "--lamp",
+                                         "0,0,8,16", "--patch", "8,0,8,16"});
+    EXPECT_EQ(readout.exit_code, 2) << readout.err;
+    EXPECT_THAT(readout.err, HasSubstr("--readout-ms 100: no camera reads a picture out"));
     const ProgramResult alone = run_gazeloop({"probe", "--camera-fps", "240"});
     EXPECT_EQ(alone.exit_code, 2);
     const ProgramResult help = run_gazeloop({"probe", "--help"});

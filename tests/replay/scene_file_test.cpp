@@ -63,7 +63,7 @@ TEST(SceneFiles, ThatCannotBeUsedEndTheRunWithThree) {
 
     result = run_scene(folder / "nowhere.gltf");
     EXPECT_EQ(result.exit_code, 3);
-    EXPECT_THAT(result.err, HasSubstr("nowhere.gltf cannot be read"));
+    EXPECT_THAT(result.err, HasSubstr("nowhere.gltf: cannot be read (No such file"));
 
     GltfFile draco = one_triangle();
     draco.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};

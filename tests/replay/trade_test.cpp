@@ -246,6 +246,15 @@ TEST(Trade, RefusesWhatItCannotSweep) {
              {{"--scenes", "raymarch,"}, 2, "empty"},
              {{"--scenes", "raymarch,nothing", "--frames", "1"}, 2, "nothing"},
              {{"--limit", "contrast"}, 2, "FIGURE=NUMBER"},
+             {{"--limit", "foo=1"}, 2, "unknown figure 'foo'"},
+             {{"--limit", "flip=1", "--metric", "ssim"}, 2, "unknown figure 'flip'"},
+             {{"--methods", "kfr,kfr"}, 2, "has kfr twice"},
+             {{"--scenes", "raymarch,raymarch"}, 2, "has raymarch twice"},
+             {{"--gaze", "0,0", "--gaze", "0,0"}, 2, "--gaze 0,0 is there twice"},
+             {{"--scene", "raymarch", "--scenes", "gallery"}, 2, "--scenes excludes --scene"},
+             {{"--merge", "j", "--methods", "kfr"}, 2, "--merge excludes --methods"},
+             {{"--merge", "j", "--metric", "flip"}, 2, "--merge excludes --metric"},
+             {{"--merge", "j", "--spp", "2"}, 2, "--merge excludes --spp"},
              {{"--budget-ms", "0"}, 2, "--budget-ms"},
          }) {
         const ProgramResult result = trade(bad.arguments);

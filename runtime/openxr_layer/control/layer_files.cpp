@@ -84,7 +84,14 @@ Expected<void> enable(const std::vector<std::string>& assignments) {
           {"description", "Gives applications eye gaze from gazeloop's sources, and records them"},
           {"instance_extensions", extensions},
           {"disable_environment", "GAZELOOP_LAYER_DISABLE"}}}};
-    return written(*manifest, json.dump(4) + "\n");
+    try {
+        return written(*manifest, json.dump(4) + "\n");
+    } catch (const nlohmann::json::exception&) {
+        return std::unexpected(bad(fmt::format(
+            "{}: a path that is no UTF-8, which the OpenXR loader cannot be told: install gazeloop "
+            "in another folder",
+            library->string())));
+    }
 }
 
 Expected<bool> disable() {
@@ -100,7 +107,7 @@ Expected<bool> disable() {
     return removed;
 }
 
-Expected<void> decide(const std::string& executable, Permissions::Answer answer) {
+Expected<bool> decide(const std::string& executable, Permissions::Answer answer) {
     const auto file = Permissions::file();
     if (!file) {
         return std::unexpected(bad("neither XDG_CONFIG_HOME nor HOME names a folder"));
@@ -116,8 +123,15 @@ Expected<void> decide(const std::string& executable, Permissions::Answer answer)
         return std::unexpected(bad(fmt::format("{}: {}; name the application's executable file",
                                                executable, failure.message())));
     }
-    permissions->set(failure ? executable : whole.string(), answer);
-    return written(*file, permissions->text());
+    const std::string name = failure ? executable : whole.string();
+    if (permissions->of(name) == answer) {
+        return false;
+    }
+    permissions->set(name, answer);
+    if (auto done = written(*file, permissions->text()); !done) {
+        return std::unexpected(done.error());
+    }
+    return true;
 }
 
 }  // namespace gazeloop::openxr_layer

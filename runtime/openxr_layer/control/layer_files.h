@@ -26,8 +26,9 @@ Expected<void> enable(const std::vector<std::string>& assignments);
 /// Removes the user's manifest; settings and decisions stay. Whether it was there.
 Expected<bool> disable();
 
-/// Whether an application may have gaze. Errors (BadInput): there is no such executable, unless
-/// decisions on it are forgotten; as Permissions::read(), or the file cannot be written.
-Expected<void> decide(const std::string& executable, Permissions::Answer answer);
+/// Whether an application may have gaze. Gives whether that changes anything. Errors (BadInput):
+/// there is no such executable, unless decisions on it are forgotten; as Permissions::read(), or
+/// the file cannot be written.
+Expected<bool> decide(const std::string& executable, Permissions::Answer answer);
 
 }  // namespace gazeloop::openxr_layer

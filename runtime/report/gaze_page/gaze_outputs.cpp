@@ -40,13 +40,6 @@ Expected<void> write_where_wanted(const std::string& file, const auto& text_of) 
 Expected<void> check_outputs(const GazeOutputs& outputs, std::span<const std::string> recordings) {
     const std::array<NamedFile, 3> written{
         {{"--json", outputs.json}, {"--html", outputs.html}, {"--events", outputs.events}}};
-    for (const NamedFile& output : written) {
-        if (!output.file.empty()) {
-            if (auto checked = check_output(output.file); !checked) {
-                return checked;
-            }
-        }
-    }
     std::vector<NamedFile> read;
     for (const std::string& recording : recordings) {
         read.push_back({read.empty() ? "the recording" : "the other recording", recording});
@@ -55,7 +48,7 @@ Expected<void> check_outputs(const GazeOutputs& outputs, std::span<const std::st
         return std::unexpected(
             Error{ErrorKind::Usage, "--events is for one recording: leave the other out"});
     }
-    return check_apart(written, read);
+    return check_outputs(written, std::span<const NamedFile>(read));
 }
 
 Expected<void> write_gaze(const page::PageRecording& recording, const GazeOutputs& outputs) {

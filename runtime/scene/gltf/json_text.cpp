@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <set>
 #include <vector>
@@ -96,8 +97,17 @@ nlohmann::json parse_json(std::string_view text, Notes& notes) {
             refuse("", fmt::format("its JSON is {}, must be an object", cited(document)));
         }
         return document;
-    } catch (const json::exception& error) {  // bad syntax, or a number that no double holds
-        refuse("", fmt::format("is not JSON: {:.200}", error.what()));
+    } catch (const json::parse_error& error) {
+        const std::size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
+        const std::string_view before = text.substr(0, at);
+        const auto line = 1 + std::ranges::count(before, '\n');
+        const std::size_t column = at - (before.rfind('\n') + 1) + 1;
+        refuse("", at >= text.size()
+                       ? fmt::format("is not JSON: it ends too early, in line {}", line)
+                       : fmt::format("is not JSON: line {}, byte {}: this cannot stand there", line,
+                                     column));
+    } catch (const json::exception&) {
+        refuse("", "is not JSON that can be used: it has a number that is too large");
     }
 }
 

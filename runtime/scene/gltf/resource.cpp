@@ -122,12 +122,17 @@ ReadFile files_of(const std::filesystem::path& folder) {
         std::error_code ignored;
         if (std::filesystem::exists(file, ignored) &&
             !std::filesystem::is_regular_file(file, ignored)) {
-            refuse(place, fmt::format("{} is no regular file", file.string()));
+            refuse(place, place.empty() ? "is no regular file"
+                                        : fmt::format("{} is no regular file", file.string()));
         }
         auto in = open_for_reading(file);
         if (!in) {
-            refuse(place, fmt::format("{} cannot be read ({}); keep it where the scene expects it",
-                                      file.string(), in.error()));
+            refuse(place,
+                   place.empty()  // the scene itself, which its messages name
+                       ? fmt::format("cannot be read ({}): name a .gltf or .glb file that is there",
+                                     in.error())
+                       : fmt::format("{} cannot be read ({}); keep it where the scene expects it",
+                                     file.string(), in.error()));
         }
         const std::uint64_t there = std::filesystem::file_size(file, ignored);
         Bytes bytes(ignored ? 0 : std::min(there, most_bytes));

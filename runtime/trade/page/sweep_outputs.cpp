@@ -14,18 +14,11 @@ namespace gazeloop::trade {
 
 Expected<void> check_outputs(const SweepOutputs& outputs,
                              std::span<const report::NamedFile> inputs) {
-    for (const std::string& file : {outputs.csv, outputs.json, outputs.html, outputs.front}) {
-        if (!file.empty()) {
-            if (auto checked = report::check_output(file); !checked) {
-                return checked;
-            }
-        }
-    }
     const std::array<report::NamedFile, 4> files{{{"--csv", outputs.csv},
                                                   {"--json", outputs.json},
                                                   {"--html", outputs.html},
                                                   {"--front", outputs.front}}};
-    return report::check_apart(files, inputs);
+    return report::check_outputs(files, inputs);
 }
 
 Expected<void> write_outputs(const SweepReport& report, const SweepOutputs& outputs) {

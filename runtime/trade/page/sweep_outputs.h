@@ -17,7 +17,7 @@ struct SweepOutputs {
     bool text = true;
 };
 
-/// Checks all before a long sweep. Errors: as report::check_output() and report::check_apart().
+/// Checks all before a long sweep. Errors: as report::check_outputs().
 Expected<void> check_outputs(const SweepOutputs& outputs,
                              std::span<const report::NamedFile> inputs);
 

@@ -166,6 +166,18 @@ TEST(VideoRegions, OutsideThePictureAreNamed) {
 
 TEST(VideoRegions, AreFourWholeNumbers) {
     EXPECT_EQ(*probe::parse_region("lamp", "1,2,3,4"), (probe::Region{1, 2, 3, 4}));
+    const auto apart = [](const char* lamp, const char* patch) {
+        return probe::check_regions_apart(*probe::parse_region("lamp", lamp),
+                                          *probe::parse_region("patch", patch));
+    };
+    EXPECT_TRUE(apart("0,0,8,16", "8,0,8,16"));
+    EXPECT_TRUE(apart("0,16,8,16", "0,0,8,16"));
+    for (const char* patch : {"0,0,8,16", "7,15,1,1", "0,0,4294967295,4294967295"}) {
+        const auto overlap = apart("0,0,8,16", patch);
+        ASSERT_FALSE(overlap) << patch;
+        EXPECT_EQ(overlap.error().kind, ErrorKind::Usage);
+        EXPECT_THAT(overlap.error().message, HasSubstr("overlap"));
+    }
     for (const char* const text :
          {"", "1,2,3", "1,2,3,4,", "1,2,3,4,5", "a,2,3,4", "-1,2,3,4", "1.5,2,3,4", "1,2,3,4 ",
           " 1,2,3,4", "1,2,0,4", "1,2,3,0", "4294967296,2,3,4", "1;2;3;4"}) {

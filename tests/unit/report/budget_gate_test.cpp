@@ -66,6 +66,20 @@ TEST(BudgetGate, PassesWhatIsWithin) {
     EXPECT_EQ(gate_json(gate)["kept"], true);
 }
 
+TEST(BudgetGate, ShowsWhatKeepsEqualLookingFiguresApart) {
+    const BudgetGate gate{.budget = "test",
+                          .parts = {{.name = "gaze age at display",
+                                     .key = "gaze_age_at_display",
+                                     .allowed_ns = 37'550'000,
+                                     .p95_ms = 37.550'04,
+                                     .known = 100,
+                                     .verdict = GateVerdict::Broken}},
+                          .with_gaze = 100,
+                          .pace = latency::Verdict::Unknown};
+    EXPECT_THAT(refusal(gate), HasSubstr("p95 37.55004 ms, allowed 37.55000 ms"));
+    EXPECT_THAT(gate_text(gate), HasSubstr("37.55004    37.55000"));
+}
+
 TEST(BudgetGate, NamesEachBrokenPart) {
     const BudgetGate total = budget_gate(report_of(200), budget_of(15, 5));
     EXPECT_THAT(refusal(total), HasSubstr("budget test broken: gaze age at display: p95 16.0"));

@@ -106,6 +106,12 @@ const std::vector<RuleCase>& cases() {
         {"budget-kept", [](Made& m) { m.facts.budget = &m.budget; },
          "allows 70.0 ms, which 95 % of the frames keep with 44.8 ms to spare."},
         {"try-being-worn", [](Made& m) { m.forget_frames(9); }, "put the headset on"},
+        {"try-its-log",
+         [](Made& m) {
+             m.forget_frames(0);
+             m.facts.log_missing = true;
+         },
+         "The recording's log (-wal) is not beside it"},
         {"try-more-frames", [](Made& m) { m.forget_frames(0); }, "Run longer"},
         {"try-devices", [](Made& m) { m.forget_gaze(0); }, "gazeloop devices"},
         {"try-younger-samples",

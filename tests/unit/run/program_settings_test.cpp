@@ -201,6 +201,13 @@ TEST(ProgramSettings, OfGazeAreInUseWithTheirFilterOrPrediction) {
         {"gaze.longest_prediction_ms", {"gaze.prediction", "true"}},
         {"gaze.one_euro_hz_per_deg_per_s", {"gaze.filter", "one-euro"}},
         {"gaze.one_euro_least_hz", {"gaze.filter", "one-euro"}},
+        {"gaze.widen_by", {"gaze.widen", "true"}},
+        {"gaze.widen_error_deg", {"gaze.widen", "true"}},
+        {"gaze.widen_head_deg_per_s", {"gaze.widen", "true"}},
+        {"gaze.widen_lost_deg_per_s", {"gaze.widen", "true"}},
+        {"gaze.widen_most_deg", {"gaze.widen", "true"}},
+        {"gaze.widen_noise_deg", {"gaze.widen", "true"}},
+        {"gaze.widen_pursuit_deg_per_s", {"gaze.widen", "true"}},
         {"gaze.widen_suppressed", {"gaze.widen_by", "events"}},
         {"gaze.widen_suppressed_margin_ms", {"gaze.widen_by", "events"}}};
     const ProgramSettings settings;
@@ -217,6 +224,21 @@ TEST(ProgramSettings, OfGazeAreInUseWithTheirFilterOrPrediction) {
         EXPECT_EQ(row.only_while.key, key) << row.key;
         EXPECT_EQ(row.only_while.values, std::vector{value}) << row.key;
     }
+}
+
+TEST(ProgramSettings, AreInUseWhileWhatTheyDependOnIs) {
+    ProgramSettings settings;
+    const auto in_use = [&](std::string_view key) {
+        return std::ranges::any_of(settings.rows(), [&](const SettingRow& row) {
+            return row.key == key && settings.is_in_use(row);
+        });
+    };
+    ASSERT_TRUE(settings.set("gaze.widen_by", "events", "--set"));
+    EXPECT_FALSE(in_use("gaze.widen_by"));
+    EXPECT_FALSE(in_use("gaze.widen_suppressed")) << "depends on it in its turn";
+    ASSERT_TRUE(settings.set("gaze.widen", "true", "--set"));
+    EXPECT_TRUE(in_use("gaze.widen_by"));
+    EXPECT_TRUE(in_use("gaze.widen_suppressed"));
 }
 
 TEST(ProgramSettings, OfTheGovernorAreInUseWithIt) {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "runtime/files/output_file.h"
 #include "runtime/study/analysis_page.h"
 #include "runtime/study/analysis_report.h"
 #include "runtime/study/published_plans.h"
@@ -173,7 +174,7 @@ TEST(ResponsesFile, ReadsBackWhatItWroteAndRefusesTheRest) {
     EXPECT_FALSE(responses_of(plan, "", "a.csv"));
     const tests::TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "a.csv";
-    ASSERT_TRUE(write_private(file, csv));
+    ASSERT_TRUE(files::write_text(file, csv, files::kOwnerOnly));
     EXPECT_EQ(std::filesystem::status(file).permissions(),
               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
     const std::vector<std::filesystem::path> twice{file, file};
@@ -222,7 +223,7 @@ TEST(Forget, RemovesOneSubjectAndSaysWhat) {
     const std::vector<Response> answers{response(1, 0, {9.0}, Answer::Same),
                                         response(11, 0, {9.0}, Answer::Same),
                                         response(1, 1, {9.0}, Answer::Same)};
-    ASSERT_TRUE(write_private(file, responses_csv(plan, answers)));
+    ASSERT_TRUE(files::write_text(file, responses_csv(plan, answers), files::kOwnerOnly));
     const std::vector<std::filesystem::path> files{file};
     const auto said = forget(1, files);
     ASSERT_TRUE(said);

@@ -385,9 +385,10 @@ TEST(GltfFiles, RefusesFoldersDevicesAndWhatIsNotThere) {
         const auto scene = scene::gltf::load_gltf(file);
         return scene ? "" : scene.error().message;
     };
-    EXPECT_THAT(message(folder / "no.gltf"), HasSubstr("no.gltf cannot be read (No such file"));
+    EXPECT_THAT(message(folder / "no.gltf"), HasSubstr("no.gltf: cannot be read (No such file"));
+    EXPECT_THAT(message(folder / "no.gltf"), HasSubstr("name a .gltf or .glb file that is there"));
     EXPECT_THAT(message(folder.path()), HasSubstr("is no regular file"));
-    EXPECT_THAT(message("/dev/zero"), HasSubstr("/dev/zero is no regular file"));
+    EXPECT_THAT(message("/dev/zero"), HasSubstr("/dev/zero: is no regular file"));
     std::ofstream(folder / "scene.gltf") << R"({"asset": {"version": "2.0"}, "scenes": [{}],
         "buffers": [{"uri": "../../../../../../../../dev/zero", "byteLength": 8}]})";
     EXPECT_THAT(message(folder / "scene.gltf"), HasSubstr("is no regular file"));
