@@ -20,6 +20,8 @@ namespace gazeloop::run {
 std::optional<ErrorKind> calibration_run(const CalibrationRun& wanted, FrameRunRequest request,
                                          ProgramSettings& settings) {
     // What is measured is the tracker without a calibration, and points have no depth of the scene.
+    // So the file that was in use until now is not read, and may be written anew.
+    value_or_throw(settings.set("gaze.calibration", "", "gazeloop calibrate"));
     value_or_throw(settings.set("gaze.calibration_values", "", "gazeloop calibrate"));
     value_or_throw(settings.set("gaze.calibration_device", "", "gazeloop calibrate"));
     value_or_throw(settings.set("render.depth", "false", "gazeloop calibrate"));

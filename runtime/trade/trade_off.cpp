@@ -176,6 +176,9 @@ SweepRecord record_of(const TradeRequest& request, const TradeScene& scene,
 bool trade_off(const TradeRequest& request, const TradeScene& scene, settings::Settings& settings,
                const SweepHooks& hooks) {
     std::vector<report::NamedFile> inputs = report::files_of(settings);
+    // A governor's front is what a sweep makes, and may make anew.
+    std::erase_if(inputs,
+                  [](const report::NamedFile& file) { return file.name == "governor.front"; });
     inputs.emplace_back("--resume", request.journal);
     for (const std::string& file : request.merge) {
         inputs.emplace_back("--merge", file);
