@@ -196,11 +196,93 @@ std::string odd_part(std::span<const gaze::GazeSample> samples, const gaze::Anat
                           odd, kParts, static_cast<double>(first_ns) * 1e-9);
 }
 
+/// Rows with an eye that looks behind the head.
+struct BehindHead {
+    gaze::PerEye<std::uint64_t> eyes{};
+    std::uint64_t rows = 0;
+    std::uint64_t without_gaze = 0;  ///< of them, those without another eye
+    std::uint64_t first_line = 0;
+    std::uint64_t samples = 0;  ///< with gaze, behind or not
+};
+
+/// No eye turns so far: what points there is invalid.
+BehindHead take_out_behind(gaze::GazeTrace& trace) {
+    BehindHead behind;
+    for (std::size_t i = 0; i < trace.samples.size(); ++i) {
+        gaze::PerEye<gaze::EyeRay>& eyes = trace.samples[i].eyes;
+        behind.samples += eyes[0].valid || eyes[1].valid ? 1 : 0;
+        bool any = false;
+        for (const gaze::Eye eye : gaze::kEyes) {
+            gaze::EyeRay& ray = eyes[gaze::index(eye)];
+            if (ray.valid && ray.direction.z > 0.0) {
+                ray.valid = false;
+                ++behind.eyes[gaze::index(eye)];
+                any = true;
+            }
+        }
+        if (!any) {
+            continue;
+        }
+        behind.without_gaze += eyes[0].valid || eyes[1].valid ? 0 : 1;
+        if (behind.rows++ == 0 && !trace.lines.empty()) {
+            behind.first_line = trace.lines[i];
+        }
+    }
+    for (const std::size_t e : {0U, 1U}) {
+        std::uint64_t& valid = trace.report.valid[e];
+        valid -= std::min(valid, behind.eyes[e]);
+    }
+    return behind;
+}
+
+std::string rows_text(std::uint64_t rows) {
+    return fmt::format("{} {}", rows, rows == 1 ? "row" : "rows");
+}
+
+std::string at_line(const gaze::GazeTrace& trace, std::uint64_t line) {
+    return line > 0 ? fmt::format("{}:{}", trace.file, line) : trace.file;
+}
+
+/// Reports them; more than a tenth of the gaze is too much to do without.
+Expected<void> report_behind(gaze::GazeTrace& trace, const BehindHead& behind,
+                             bool accept_repairs) {
+    constexpr std::uint64_t kRowsPerRepair = 10;
+    if (behind.rows == 0) {
+        return {};
+    }
+    if (!accept_repairs && behind.without_gaze * kRowsPerRepair > behind.samples) {
+        return std::unexpected(Error{
+            ErrorKind::BadInput,
+            fmt::format("{}: in {} of {} rows all gaze points behind the head (+Z), the first of "
+                        "them here; turn the Z axis of these rows, or --accept-repairs plays the "
+                        "others",
+                        at_line(trace, behind.first_line), behind.without_gaze, behind.samples)});
+    }
+    trace.report.add(
+        {.kind = gaze::TraceFindingKind::BehindHead,
+         .line = behind.first_line,
+         .rows = behind.rows,
+         .text = fmt::format("gaze points behind the head (+Z): left eye in {}, right eye in {}: "
+                             "the eye is invalid there",
+                             rows_text(behind.eyes[0]), rows_text(behind.eyes[1]))});
+    return {};
+}
+
 }  // namespace
 
-Expected<void> hold_against_anatomy(gaze::GazeTrace& trace, AxesCorrection correction) {
+Expected<void> hold_against_anatomy(gaze::GazeTrace& trace, AxesCorrection correction,
+                                    bool accept_repairs) {
     correct_axes(trace.samples, correction);
-    const gaze::Anatomy anatomy = gaze::anatomy_of(trace.samples);
+    gaze::Anatomy anatomy = gaze::anatomy_of(trace.samples);
+    if (anatomy.verdict != AnatomyVerdict::Behind) {
+        const BehindHead behind = take_out_behind(trace);
+        if (auto reported = report_behind(trace, behind, accept_repairs); !reported) {
+            return reported;
+        }
+        if (behind.rows > 0) {
+            anatomy = gaze::anatomy_of(trace.samples);
+        }
+    }
     std::string text = gaze::anatomy_text(anatomy);
     if (correction != AxesCorrection::None) {
         text = fmt::format("corrected by --axes {}: {}", name_of(correction), text);

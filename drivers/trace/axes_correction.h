@@ -30,8 +30,12 @@ void correct_axes(std::span<gaze::GazeSample> samples, AxesCorrection correction
 /// result into its report: the line, and a finding where it is in doubt or was corrected, with each
 /// correction that would help. Nothing is corrected unasked.
 ///
-/// Errors (BadInput): most gaze points behind the head; the correction that would help is named.
-[[nodiscard]] Expected<void> hold_against_anatomy(gaze::GazeTrace& trace,
-                                                  AxesCorrection correction);
+/// An eye that looks behind the head in less than half of the samples is made invalid there and
+/// counted (BehindHead), by trace.lines where they are known.
+///
+/// Errors (BadInput): half of the gaze or more points behind the head, and the correction that
+/// would help is named; unless repairs are accepted, a tenth of the samples has all gaze there.
+[[nodiscard]] Expected<void> hold_against_anatomy(gaze::GazeTrace& trace, AxesCorrection correction,
+                                                  bool accept_repairs = false);
 
 }  // namespace gazeloop::drivers

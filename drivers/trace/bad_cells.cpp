@@ -30,6 +30,23 @@ void BadCells::report_to(gaze::TraceReport& report) const {
                                             count.rows == 1 ? "row" : "rows", kWords[part].done)});
         }
     }
+    constexpr std::array<std::string_view, kRowDetails> kDetails{
+        "left eye's place",  "left eye's openness",  "left eye's confidence",
+        "right eye's place", "right eye's openness", "right eye's confidence",
+        "head's pose",       "sequence number",      "arrival",
+    };
+    for (std::size_t detail = 0; detail < kRowDetails; ++detail) {
+        const auto& [known, unknown] = details_[detail];
+        if (known && unknown.rows > 0) {
+            report.add({.kind = gaze::TraceFindingKind::BadCells,
+                        .line = unknown.first_line,
+                        .rows = unknown.rows,
+                        .text = fmt::format("{}: {} is no number, though other rows have one ({} "
+                                            "{} with such cells: unknown there)",
+                                            kDetails[detail], unknown.first, unknown.rows,
+                                            unknown.rows == 1 ? "row" : "rows")});
+        }
+    }
 }
 
 }  // namespace gazeloop::drivers

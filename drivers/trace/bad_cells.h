@@ -21,6 +21,30 @@ enum class RowPart : std::uint8_t {
 };
 inline constexpr std::size_t kRowParts = 6;
 
+/// What a row may leave out, which is only worth a word where other rows have it.
+enum class RowDetail : std::uint8_t {
+    LeftOrigin,
+    LeftOpenness,
+    LeftConfidence,
+    RightOrigin,
+    RightOpenness,
+    RightConfidence,
+    Head,
+    Sequence,
+    Arrival,
+};
+inline constexpr std::size_t kRowDetails = 9;
+
+[[nodiscard]] constexpr RowDetail origin_of(gaze::Eye eye) {
+    return eye == gaze::Eye::Left ? RowDetail::LeftOrigin : RowDetail::RightOrigin;
+}
+[[nodiscard]] constexpr RowDetail openness_of(gaze::Eye eye) {
+    return eye == gaze::Eye::Left ? RowDetail::LeftOpenness : RowDetail::RightOpenness;
+}
+[[nodiscard]] constexpr RowDetail confidence_of(gaze::Eye eye) {
+    return eye == gaze::Eye::Left ? RowDetail::LeftConfidence : RowDetail::RightConfidence;
+}
+
 [[nodiscard]] constexpr RowPart direction_of(gaze::Eye eye) {
     return eye == gaze::Eye::Left ? RowPart::LeftDirection : RowPart::RightDirection;
 }
@@ -36,16 +60,30 @@ class BadCells {
     /// only.
     template <typename What>
     void add(RowPart part, std::uint64_t line, const What& what) {
-        Count& count = counts_[static_cast<std::size_t>(part)];
-        if (count.rows == 0) {
-            count.first_line = line;
-            count.first = what();
-        }
-        count.rows += count.last_line == line ? 0U : 1U;
-        count.last_line = line;
+        counts_[static_cast<std::size_t>(part)].add(line, what);
     }
 
-    /// Adds a finding for each part that is concerned.
+    /// The same of an eye, where the cell is neither blank nor a mark of a loss: whoever wrote it
+    /// meant something that is not understood.
+    template <typename What>
+    void add_not_understood(gaze::Eye eye, std::uint64_t line, const What& what) {
+        add(direction_of(eye), line, what);
+        not_understood_line_ = line;
+    }
+    /// Whether that was so of an eye in this line, the latest.
+    [[nodiscard]] bool not_understood_at(std::uint64_t line) const {
+        return not_understood_line_ == line;
+    }
+
+    /// A row has this.
+    void has(RowDetail detail) { details_[static_cast<std::size_t>(detail)].known = true; }
+    /// A row has not, for `what`: "column 'x': 'NaN'". Reported where another row has.
+    template <typename What>
+    void lacks(RowDetail detail, std::uint64_t line, const What& what) {
+        details_[static_cast<std::size_t>(detail)].unknown.add(line, what);
+    }
+
+    /// Adds a finding for each part and detail that is concerned.
     void report_to(gaze::TraceReport& report) const;
 
   private:
@@ -54,8 +92,24 @@ class BadCells {
         std::uint64_t first_line = 0;
         std::uint64_t last_line = 0;
         std::string first;
+
+        template <typename What>
+        void add(std::uint64_t line, const What& what) {
+            if (rows == 0 || line < first_line) {
+                first_line = line;
+                first = what();
+            }
+            rows += last_line == line ? 0U : 1U;
+            last_line = line;
+        }
+    };
+    struct Detail {
+        bool known = false;  ///< in any row
+        Count unknown;
     };
     std::array<Count, kRowParts> counts_;
+    std::array<Detail, kRowDetails> details_;
+    std::uint64_t not_understood_line_ = 0;
 };
 
 }  // namespace gazeloop::drivers

@@ -18,6 +18,9 @@ namespace {
 /// back exactly.
 constexpr double kUnitTolerance = 1e-9;
 
+/// Directions further off unit length are more than rounded.
+constexpr double kLengthTolerance = 0.01;
+
 constexpr double kUnknown = -1.0;
 
 std::array<std::string_view, 3> views(const std::array<std::string, 3>& names) {
@@ -83,10 +86,11 @@ gaze::EyeRay EyeCells::read(CsvTable& table, BadCells& bad) {
         ray.origin_m = read_origin(table, vouched.direction, bad);
     }
     if (openness_ && vouched.openness) {
-        ray.openness = read_fraction(table, *openness_, vouched.direction, bad);
+        ray.openness = read_fraction(table, *openness_, openness_of(eye_), vouched.direction, bad);
     }
     if (confidence_) {
-        ray.confidence = read_fraction(table, *confidence_, vouched.direction, bad);
+        ray.confidence =
+            read_fraction(table, *confidence_, confidence_of(eye_), vouched.direction, bad);
     }
     return ray;
 }
@@ -105,10 +109,15 @@ std::optional<EyeTrust> EyeCells::trust(CsvTable& table, BadCells& bad) const {
         return vouched;
     }
     if (!table.is_missing(*valid_) || !no_direction()) {
-        bad.add(direction_of(eye_), table.line(), [&] {
+        const auto what = [&] {
             return fmt::format("{} does not say whether the eye is valid",
                                table.described(*valid_));
-        });
+        };
+        if (table.is_missing(*valid_)) {
+            bad.add(direction_of(eye_), table.line(), what);
+        } else {
+            bad.add_not_understood(eye_, table.line(), what);
+        }
     }
     return std::nullopt;
 }
@@ -126,8 +135,7 @@ void EyeCells::count_refusals(const EyeTrust& trust, std::uint64_t line) {
     }
 }
 
-void EyeCells::read_direction(CsvTable& table, bool vouched, gaze::EyeRay& ray,
-                              BadCells& bad) const {
+void EyeCells::read_direction(CsvTable& table, bool vouched, gaze::EyeRay& ray, BadCells& bad) {
     glm::dvec3 numbers{0.0};
     glm::dvec3 written = ray.direction;
     std::optional<std::size_t> unreadable;
@@ -149,8 +157,14 @@ void EyeCells::read_direction(CsvTable& table, bool vouched, gaze::EyeRay& ray,
         return;
     }
     if (unreadable) {
-        bad.add(direction_of(eye_), table.line(),
-                [&] { return fmt::format("{} is no number", table.described(*unreadable)); });
+        const auto what = [&] {
+            return fmt::format("{} is no number", table.described(*unreadable));
+        };
+        if (table.is_missing(*unreadable)) {
+            bad.add(direction_of(eye_), table.line(), what);
+        } else {
+            bad.add_not_understood(eye_, table.line(), what);
+        }
         return;
     }
     if (std::abs(glm::length(written) - 1.0) <= kUnitTolerance) {
@@ -159,6 +173,12 @@ void EyeCells::read_direction(CsvTable& table, bool vouched, gaze::EyeRay& ray,
                                           : is_direction(written)) {
         ray.valid = true;
         ray.direction = *gaze::unit(written);
+        const double length = glm::length(written);
+        if (form_.direction == nullptr && std::abs(length - 1.0) > kLengthTolerance &&
+            other_length_.rows++ == 0) {
+            other_length_.first_line = table.line();
+            other_length_.first = length;
+        }
     } else {
         bad.add(direction_of(eye_), table.line(), [&] {
             return written == glm::dvec3{0.0} ? std::string{"a direction without length (0, 0, 0)"}
@@ -186,21 +206,33 @@ glm::dvec3 EyeCells::read_origin(CsvTable& table, bool counts, BadCells& bad) co
             continue;
         }
         complete = false;
-        if (counts && !table.is_missing(column)) {
+        if (!counts) {
+            continue;
+        }
+        if (table.is_missing(column)) {
+            bad.lacks(origin_of(eye_), table.line(), [&] { return table.described(column); });
+        } else {
             bad.add(other_of(eye_), table.line(),
                     [&] { return fmt::format("{} is no number", table.described(column)); });
         }
     }
-    return complete ? origin_m : glm::dvec3{0.0};
+    if (!complete) {
+        return glm::dvec3{0.0};
+    }
+    bad.has(origin_of(eye_));
+    return origin_m;
 }
 
-double EyeCells::read_fraction(CsvTable& table, std::size_t column, bool counts,
+double EyeCells::read_fraction(CsvTable& table, std::size_t column, RowDetail detail, bool counts,
                                BadCells& bad) const {
     const std::optional<double> value = table.real(column);
     if (value && (*value == kUnknown || (*value >= 0.0 && *value <= 1.0))) {
+        bad.has(detail);
         return *value;
     }
-    if (counts && !table.is_missing(column)) {
+    if (counts && table.is_missing(column)) {
+        bad.lacks(detail, table.line(), [&] { return table.described(column); });
+    } else if (counts) {
         bad.add(other_of(eye_), table.line(), [&] {
             return fmt::format("{} is neither 0 to 1 nor -1 (unknown)", table.described(column));
         });
@@ -220,6 +252,16 @@ void EyeCells::report_to(gaze::TraceReport& report) const {
                                      name_of(eye_), kNames[i], refused_[i].rows,
                                      refused_[i].rows == 1 ? "row" : "rows", (*form_.bits)[i])});
         }
+    }
+    if (other_length_.rows > 0) {
+        report.add({.kind = gaze::TraceFindingKind::Text,
+                    .line = other_length_.first_line,
+                    .rows = other_length_.rows,
+                    .text = fmt::format("{} eye: {} {} of another length than 1, the first of "
+                                        "{:.3g}: taken for where they point",
+                                        name_of(eye_), other_length_.rows,
+                                        other_length_.rows == 1 ? "direction" : "directions",
+                                        other_length_.first)});
     }
 }
 

@@ -49,7 +49,8 @@ struct EyeForm {
 /// Reads one eye of a table's rows and counts what is refused. Only the direction and whether it is
 /// valid are needed. An eye that the row does not vouch for may have anything in its cells. In one
 /// that it does, a direction that cannot be read makes the eye invalid and counts as bad cells;
-/// another number that is missing is unknown, and one that cannot be read counts too.
+/// another number is unknown where it cannot be read or is missing, and counts too: a missing one
+/// where other rows have it.
 class EyeCells {
   public:
     /// An eye whose direction or validity the table lacks is never valid, which is noted: as
@@ -59,19 +60,19 @@ class EyeCells {
     /// The eye in the table's current row.
     [[nodiscard]] gaze::EyeRay read(CsvTable& table, BadCells& bad);
 
-    /// Adds what the tracker's bits did not vouch for.
+    /// Adds what the tracker's bits did not vouch for, and directions of another length than 1.
     void report_to(gaze::TraceReport& report) const;
 
   private:
     /// What the row vouches for; none where its validity cannot be read.
     [[nodiscard]] std::optional<EyeTrust> trust(CsvTable& table, BadCells& bad) const;
     void count_refusals(const EyeTrust& trust, std::uint64_t line);
-    void read_direction(CsvTable& table, bool vouched, gaze::EyeRay& ray, BadCells& bad) const;
+    void read_direction(CsvTable& table, bool vouched, gaze::EyeRay& ray, BadCells& bad);
     /// The direction's cell that is farthest from zero, in words.
     [[nodiscard]] std::string described(CsvTable& table) const;
     [[nodiscard]] glm::dvec3 read_origin(CsvTable& table, bool counts, BadCells& bad) const;
-    [[nodiscard]] double read_fraction(CsvTable& table, std::size_t column, bool counts,
-                                       BadCells& bad) const;
+    [[nodiscard]] double read_fraction(CsvTable& table, std::size_t column, RowDetail detail,
+                                       bool counts, BadCells& bad) const;
 
     struct Refused {
         std::uint64_t rows = 0;
@@ -86,6 +87,12 @@ class EyeCells {
     std::optional<std::size_t> openness_;
     std::optional<std::size_t> confidence_;
     std::array<Refused, 3> refused_{};  ///< direction, origin, openness
+    struct OtherLength {
+        std::uint64_t rows = 0;
+        std::uint64_t first_line = 0;
+        double first = 0.0;
+    };
+    OtherLength other_length_;
 };
 
 }  // namespace gazeloop::drivers

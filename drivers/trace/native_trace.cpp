@@ -54,11 +54,11 @@ constexpr std::array<std::span<const ColumnNames>, 2> kNeeded{kTimes, kEyes};
 constexpr double kUnitTolerance = 1e-9;
 
 std::optional<EyeTrust> trust(CsvTable& table, std::size_t column) {
-    const std::optional<std::int64_t> valid = table.whole(column);
-    if (valid != 0 && valid != 1) {
+    const std::optional<bool> valid = table.truth(column);
+    if (!valid) {
         return std::nullopt;
     }
-    return EyeTrust{.direction = valid == 1, .origin = true, .openness = true};
+    return EyeTrust{.direction = *valid, .origin = true, .openness = true};
 }
 
 EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
@@ -102,9 +102,9 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
         return gaze::Pose{is_unit ? written : written / length, {x, y, z}};
     };
     return rows.read(options, [&](TraceRow& row) {
-        row.sequence = rows.optional_count(sequence);
+        row.sequence = rows.sequence(sequence);
         row.device_ticks = rows.ticks(device_clock, "nanoseconds");
-        row.host_ns = rows.optional_ticks(host_clock);
+        row.host_ns = rows.arrival_ticks(host_clock);
         row.head = head_pose();
         const auto parallax_rad = parallax ? table.real(*parallax) : std::nullopt;
         if (parallax_rad && *parallax_rad >= 0.0) {
@@ -175,7 +175,7 @@ void write_native_trace(const gaze::GazeTrace& trace, std::ostream& out) {
         for (const gaze::EyeRay& ray : sample.eyes) {
             line.add(ray.valid ? 1 : 0);
             line.add_finite(ray.direction);
-            line.add_finite(ray.origin_m);
+            line.add_place(ray.origin_m);
             line.add_finite(ray.openness);
             line.add_finite(ray.confidence);
         }

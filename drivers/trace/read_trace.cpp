@@ -188,10 +188,11 @@ Expected<gaze::GazeTrace> read_rows(std::istream& in, const std::string& name,
 /// What a format's reader made of the rows, held against what eyes and heads do.
 Expected<gaze::GazeTrace> judged(Expected<gaze::GazeTrace> trace, const ReadOptions& options) {
     if (trace) {
-        if (auto held = hold_against_anatomy(*trace, options.axes); !held) {
+        if (auto held = hold_against_anatomy(*trace, options.axes, options.accept_repairs); !held) {
             return std::unexpected(std::move(held.error()));
         }
         gaze::report_new_origins(trace->samples, trace->report);
+        trace->lines = {};
     }
     return trace;
 }
@@ -210,6 +211,9 @@ std::string trace_in(const TraceFile& folder) {
         if (std::filesystem::exists(folder / name, ignored)) {
             return fmt::format(": read {} in it", name);
         }
+    }
+    if (const TraceFile physio = bids_physio_in(folder); !physio.empty()) {
+        return fmt::format(": of a BIDS data set name a recording, {}", physio.string());
     }
     return {};
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <glm/common.hpp>
+
 namespace gazeloop::drivers {
 
 std::expected<void, std::string> ScreenGeometry::check() const {
@@ -31,6 +33,17 @@ glm::dvec3 ScreenGeometry::direction(const glm::dvec2& point_px) const {
     const glm::dvec2 from_middle = point_px / size_px - 0.5;
     return middle_m + glm::dvec3{from_middle.x * size_m.x * (from_left ? 1.0 : -1.0),
                                  from_middle.y * size_m.y * (from_top ? -1.0 : 1.0), 0.0};
+}
+
+std::string_view ScreenGeometry::loss_at(const glm::dvec2& point_px) const {
+    constexpr double kScreens = 4.0;
+    if (point_px == glm::dvec2{0.0} || point_px == glm::dvec2{-1.0}) {
+        return "x and y are 0,0 or -1,-1, as trackers mark losses";
+    }
+    const glm::dvec2 off = glm::abs(point_px / size_px - 0.5);
+    return off.x > kScreens + 0.5 || off.y > kScreens + 0.5
+               ? "a point more than 4 screens off the screen, as trackers mark losses"
+               : std::string_view{};
 }
 
 }  // namespace gazeloop::drivers

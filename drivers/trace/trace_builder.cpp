@@ -66,7 +66,8 @@ std::string reasons(const gaze::TraceReport& report) {
 }
 
 /// What is wrong with a trace of which so much was dropped or changed; nothing if it will do.
-Expected<void> check_repairs(const std::string& file, const gaze::TraceReport& report) {
+Expected<void> check_repairs(const std::string& file, const gaze::TraceReport& report,
+                             const NotUnderstood& not_understood) {
     const std::uint64_t harmless = report.count(TraceFindingKind::CutRow).dropped +
                                    report.count(TraceFindingKind::OtherRecording).dropped;
     const std::uint64_t dropped = report.rows_dropped() - harmless;
@@ -86,6 +87,15 @@ Expected<void> check_repairs(const std::string& file, const gaze::TraceReport& r
             fmt::format("{}:{}: {} of {} rows cannot be used ({}), the first of them "
                         "here; --accept-repairs plays the others",
                         file, line, dropped, rows, reasons(report)));
+    }
+    if (not_understood.rows * kRowsPerRepair > rows) {
+        const auto cells = std::ranges::find(report.findings(), TraceFindingKind::BadCells,
+                                             &gaze::TraceFinding::kind);
+        return bad_input(fmt::format(
+            "{}:{}: {} of {} rows have no gaze that is understood, the first of them here{}; mend "
+            "these cells, or --accept-repairs plays the other rows",
+            file, not_understood.first_line, not_understood.rows, rows,
+            cells == report.findings().end() ? "" : fmt::format(" ({})", cells->text)));
     }
     const std::uint64_t sets = report.count(TraceFindingKind::DeviceClockSet).times +
                                report.count(TraceFindingKind::HostClockSet).times;
@@ -170,6 +180,10 @@ TraceBuilder::TraceBuilder(TraceOrigin origin) : origin_(std::move(origin)) {
 void TraceBuilder::add(const TraceRow& row) {
     rows_.add(row);
     ++trace_.report.rows;
+    if (row.not_understood && !row.eyes[0].valid && !row.eyes[1].valid) {
+        not_understood_.first_line =
+            not_understood_.rows++ == 0 ? row.line : not_understood_.first_line;
+    }
 }
 
 double TraceBuilder::choose_clock() {
@@ -297,7 +311,7 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
     const std::int64_t longest_gap_ns = std::llround(options.longest_gap_s * 1e9);
     if (!options.accept_repairs) {
         for (const Expected<void>& check :
-             {check_repairs(trace.file, report),
+             {check_repairs(trace.file, report, not_understood_),
               check_gap(trace.file, lines[gap.after], gap, fitted, longest_gap_ns)}) {
             if (!check) {
                 return std::unexpected(check.error());
@@ -336,6 +350,7 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
     if (report.valid[0] + report.valid[1] == 0) {
         return bad_input(fmt::format("no valid gaze in {}", trace.file));
     }
+    trace.lines = std::move(lines);
     return trace;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,6 +22,12 @@ struct TraceOrigin {
     double device_tick_ns = 1.0;        ///< > 0; a tick of TraceRow::device_ticks
     double other_tick_ns = 1.0;         ///< > 0; a tick of TraceRow::other_ticks
     std::string_view other_clock = {};  ///< as messages name it
+};
+
+/// Rows without any gaze because their cells are not understood.
+struct NotUnderstood {
+    std::uint64_t rows = 0;
+    std::uint64_t first_line = 0;
 };
 
 /// Makes a trace from a file's rows and enforces what gaze_trace.h promises. Rows are held in
@@ -51,6 +58,8 @@ class TraceBuilder {
     }
     [[nodiscard]] bool knows_clock() const { return !clock_.empty(); }
     [[nodiscard]] const TraceOrigin& origin() const { return origin_; }
+    /// Of all rows so far, in their order.
+    [[nodiscard]] std::span<RowClock> clocks() { return rows_.clocks(); }
 
     /// For what the format's reader finds. Rows that it does not add it counts itself.
     [[nodiscard]] gaze::TraceReport& report() { return trace_.report; }
@@ -58,7 +67,8 @@ class TraceBuilder {
     /// The trace. Leaves nothing behind. Errors (BadInput), with file and line: no row was added;
     /// none has a readable time, or all have the same; no used row has a valid eye; it is longer
     /// than a year. Unless options.accept_repairs also: more than a tenth of the rows is dropped,
-    /// or a clock was set at more than a tenth of them; a gap is longer than all the rest.
+    /// or has no gaze because its cells are not understood, or a clock was set at more than a tenth
+    /// of them; a gap is longer than all the rest.
     [[nodiscard]] Expected<gaze::GazeTrace> finish(const ReadOptions& options);
 
   private:
@@ -74,6 +84,7 @@ class TraceBuilder {
     double clock_unit_ns_ = 0.0;
     gaze::GazeTrace trace_;
     RowsRead rows_;
+    NotUnderstood not_understood_;
 };
 
 }  // namespace gazeloop::drivers

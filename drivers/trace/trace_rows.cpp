@@ -98,26 +98,54 @@ void TraceRows::report_other_recordings() {
                              recordings_[0].quoted, table_.name_of(*recording_column_), list)});
 }
 
-std::optional<std::int64_t> TraceRows::optional_ticks(std::optional<std::size_t> column) {
+std::optional<std::int64_t> TraceRows::arrival_ticks(std::optional<std::size_t> column) {
     if (!column) {
         return std::nullopt;
     }
     const std::optional<std::int64_t> value = table_.whole(*column);
-    if (!value) {
-        refuse_unless_missing(RowPart::Other, *column);
+    if (value) {
+        bad_.has(RowDetail::Arrival);
+    } else {
+        refuse_optional(RowDetail::Arrival, *column);
     }
     return value;
 }
 
-std::optional<std::uint64_t> TraceRows::optional_count(std::optional<std::size_t> column) {
+std::optional<std::uint64_t> TraceRows::sequence(std::optional<std::size_t> column) {
     if (!column) {
         return std::nullopt;
     }
-    const std::optional<std::uint64_t> value = table_.count(*column);
-    if (!value) {
-        refuse_unless_missing(RowPart::Other, *column);
+    if (const std::optional<std::uint64_t> value = table_.count(*column)) {
+        bad_.has(RowDetail::Sequence);
+        sequence_.add(*value);
+        return value;
     }
-    return value;
+    if (const std::optional<std::int64_t> negative = table_.whole(*column)) {
+        sequence_.add_negative(*negative, [&] { return table_.described(*column); });
+        return static_cast<std::uint64_t>(*negative);
+    }
+    refuse_optional(RowDetail::Sequence, *column);
+    return std::nullopt;
+}
+
+void TraceRows::settle_negative_numbers() {
+    if (!sequence_.any_negative()) {
+        return;
+    }
+    const std::optional<std::uint64_t> range = sequence_.range(rows_);
+    for (RowClock& row : builder_.clocks()) {
+        if (!row.sequence || !SignedCounts::is_negative(*row.sequence)) {
+            continue;
+        }
+        if (range) {
+            row.sequence = *row.sequence + *range;
+        } else {
+            row.sequence.reset();
+            bad_.add(RowPart::Other, row.line, [&] {
+                return fmt::format("{} is no whole number from 0 on", sequence_.first_negative());
+            });
+        }
+    }
 }
 
 void TraceRows::make_room() {
@@ -129,9 +157,11 @@ void TraceRows::make_room() {
     }
 }
 
-void TraceRows::refuse_unless_missing(RowPart part, std::size_t column) {
-    if (!table_.is_missing(column)) {
-        bad_.add(part, table_.line(),
+void TraceRows::refuse_optional(RowDetail detail, std::size_t column) {
+    if (table_.is_missing(column)) {
+        bad_.lacks(detail, table_.line(), [&] { return table_.described(column); });
+    } else {
+        bad_.add(RowPart::Other, table_.line(),
                  [&] { return fmt::format("{} is no whole number", table_.described(column)); });
     }
 }
@@ -152,9 +182,17 @@ void TraceRows::refuse_eyes(TraceRow& row, std::string_view why) {
     }
 }
 
+void TraceRows::lose_eyes(TraceRow& row, std::string_view why) {
+    for (const gaze::Eye eye : gaze::kEyes) {
+        row.eyes[gaze::index(eye)].valid = false;
+        bad_.add(direction_of(eye), row.line, [why] { return std::string{why}; });
+    }
+}
+
 Expected<gaze::GazeTrace> TraceRows::finish(const ReadOptions& options) {
     gaze::TraceReport& report = builder_.report();
     table_.report_to(report);
+    settle_negative_numbers();
     bad_.report_to(report);
     for (const EyeCells& eye : eyes_) {
         eye.report_to(report);

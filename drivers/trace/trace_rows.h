@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "drivers/trace/bad_cells.h"
+#include "drivers/trace/clock/signed_counts.h"
 #include "drivers/trace/clock/trace_row.h"
 #include "drivers/trace/eye_cells.h"
 #include "drivers/trace/read_options.h"
@@ -50,12 +51,14 @@ class TraceRows {
     /// ("seconds").
     [[nodiscard]] std::optional<std::int64_t> decimal_ticks(std::size_t column, int digits,
                                                             std::string_view unit);
-    /// The same of a clock or counter that a row can do without.
-    [[nodiscard]] std::optional<std::int64_t> optional_ticks(std::optional<std::size_t> column);
-    [[nodiscard]] std::optional<std::uint64_t> optional_count(std::optional<std::size_t> column);
+    /// When the host had the row, by a clock that a row can do without.
+    [[nodiscard]] std::optional<std::int64_t> arrival_ticks(std::optional<std::size_t> column);
+    /// The number of the row's report, which it can do without. A counter with a sign is read too,
+    /// where it turns negative behind the end of its range.
+    [[nodiscard]] std::optional<std::uint64_t> sequence(std::optional<std::size_t> column);
 
     /// The numbers of the head's pose. None where all cells are missing, or where one of them
-    /// cannot be read, which is counted.
+    /// cannot be read, which is counted: the former where other rows have a pose.
     template <std::size_t Count>
     [[nodiscard]] std::optional<std::array<double, Count>> head(
         const std::array<std::size_t, Count>& columns);
@@ -66,12 +69,17 @@ class TraceRows {
     /// by the reason, which is a literal: "during a blink (blink id)".
     void refuse_eyes(TraceRow& row, std::string_view why);
 
+    /// The same where the numbers themselves tell: counted as bad cells.
+    void lose_eyes(TraceRow& row, std::string_view why);
+
   private:
     /// Rows after which it is guessed how many there will be.
     static constexpr std::uint64_t kGuessedFrom = 1024;
     /// So that the rows are not moved again and again while they become more.
     void make_room();
-    void refuse_unless_missing(RowPart part, std::size_t column);
+    void refuse_optional(RowDetail detail, std::size_t column);
+    /// Makes a counter with a sign one without, or its negative numbers unknown and counted.
+    void settle_negative_numbers();
     /// Whether the current row is of another recording; counts it.
     [[nodiscard]] bool is_of_another();
     void report_other_recordings();
@@ -100,6 +108,7 @@ class TraceRows {
     std::vector<Recording> recordings_;  ///< the first is read
     std::uint64_t of_unnamed_ = 0;       ///< rows of recordings beyond the few that are named
     std::vector<Refused> refused_;
+    SignedCounts sequence_;
     BadCells bad_;
     std::uint64_t rows_ = 0;
     bool any_valid_ = false;
@@ -128,6 +137,7 @@ Expected<gaze::GazeTrace> TraceRows::read(const ReadOptions& options, const Take
             row.eyes[gaze::index(eye)] = eyes_[gaze::index(eye)].read(table_, bad_);
         }
         take_apart(row);
+        row.not_understood = bad_.not_understood_at(row.line);
         any_valid_ = any_valid_ || row.eyes[0].valid || row.eyes[1].valid;
         builder_.add(row);
         if (++rows_ == kGuessedFrom) {
@@ -151,10 +161,13 @@ std::optional<std::array<double, Count>> TraceRows::head(
         }
     }
     if (!unreadable) {
+        bad_.has(RowDetail::Head);
         return numbers;
     }
     if (missing < Count) {
         refuse_head(*unreadable, "is no number");
+    } else {
+        bad_.lacks(RowDetail::Head, table_.line(), [&] { return table_.described(*unreadable); });
     }
     return std::nullopt;
 }

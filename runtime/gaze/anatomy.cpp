@@ -87,16 +87,19 @@ AnatomyCheck::AnatomyCheck(std::size_t most) {
 
 void AnatomyCheck::add(const GazeSample& sample) {
     PerEye<bool> ahead{};
+    bool any_behind = false;
     for (const std::size_t e : {0U, 1U}) {
         const EyeRay& ray = sample.eyes[e];
         if (ray.valid && is_finite(ray.direction)) {
             ++facts_.directions[e];
             ahead[e] = !(ray.direction.z > 0.0);
             facts_.behind[e] += ahead[e] ? 0 : 1;
+            any_behind = any_behind || !ahead[e];
         }
     }
     const auto& [left, right] = sample.eyes;
     samples_ += left.valid || right.valid ? 1 : 0;
+    samples_behind_ += any_behind && !ahead[0] && !ahead[1] ? 1 : 0;
     if (!ahead[0] || !ahead[1]) {
         return;
     }
@@ -171,7 +174,7 @@ Anatomy AnatomyCheck::judge() {
         facts_.vergence_deg = {at_share(sorted_, 0.25), at_share(sorted_, 0.5),
                                at_share(sorted_, 0.75)};
     }
-    if (behind > 0.5) {
+    if (behind > 0.5 || (samples_behind_ > 0 && 2 * samples_behind_ >= samples_)) {
         facts_.verdict = AnatomyVerdict::Behind;
     } else if (behind > kSomeBehind) {
         facts_.verdict = AnatomyVerdict::PartlyBehind;

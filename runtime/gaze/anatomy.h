@@ -16,7 +16,7 @@ namespace gazeloop::gaze {
 enum class AnatomyVerdict : std::uint8_t {
     Agrees,           ///< nothing contradicts, and the eyes were told apart
     Unknown,          ///< one eye, one ray for both, or too few samples
-    Behind,           ///< most gaze points behind the head
+    Behind,           ///< half of the gaze or more points behind the head
     PartlyBehind,     ///< some of it does, or all of one eye's
     OneMirrored,      ///< the eyes move left and right against each other
     OneUpended,       ///< the eyes move up and down against each other
@@ -52,7 +52,10 @@ struct Anatomy {
 /// Gathers what a stream says of the eyes. Fixed memory; nothing is allocated after construction.
 ///
 /// Thresholds, and why:
-/// - Eyes turn some 55 degrees at most, so no gaze has +Z. kSomeBehind (5 %) lets glitches pass.
+/// - Eyes turn some 55 degrees at most, so no gaze has +Z. kSomeBehind (5 %) lets a live stream's
+/// glitches pass;
+///   in a trace each of them is taken for no gaze before it is judged. Half of the samples, with
+///   all their eyes, or more than half of the directions are no glitches: the axes are others.
 /// - Two rays that are looked along diverge in nobody; trackers' errors of .5 to 1 degree an eye
 ///   make that -1 degree (kDiverging_deg), and three quarters of the samples must be below 0, so
 ///   that noise about a small vergence decides nothing. Gaze recorded in a headset has medians of 0
@@ -101,6 +104,7 @@ class AnatomyCheck {
 
     Anatomy facts_;
     std::uint64_t samples_ = 0;
+    std::uint64_t samples_behind_ = 0;  ///< of them, those with all valid eyes behind
     std::vector<Pair> pairs_;
     std::vector<double> apart_m_;
     std::vector<double> sorted_;

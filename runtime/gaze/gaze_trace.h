@@ -27,6 +27,8 @@ struct GazeTrace {
     std::string device{};  ///< as the file states it, else the format's device
     std::vector<gaze::GazeSample> samples{};
     TraceReport report{};  ///< what the file's reader found
+    /// Of the file, for each sample, while its readers judge it; empty else.
+    std::vector<std::uint64_t> lines{};
 };
 
 }  // namespace gazeloop::gaze

@@ -37,34 +37,25 @@ enum class TraceFindingKind : std::uint8_t {
     SequenceOutlier,    ///< a sequence number that neither neighbour agrees with
     GapShortened,       ///< longer without a row than is played: played shorter
     // Where the gaze points.
-    Axes,       ///< directions that no pair of eyes has, or were corrected on request
-    NewOrigin,  ///< the head's pose jumps as no head moves: its origin is another from here
+    BehindHead,  ///< an eye that looks behind the head: that eye of that row is invalid
+    Axes,        ///< directions that no pair of eyes has, or were corrected on request
+    NewOrigin,   ///< the head's pose jumps as no head moves: its origin is another from here
     // The file.
     Text,  ///< quotes, 'sep=', decimal commas and the like, that were read all the same
 };
-inline constexpr std::array<std::string_view, 23> kTraceFindingNames{"time outlier",
-                                                                     "repeat",
-                                                                     "bad time",
-                                                                     "bad cells",
-                                                                     "cut row",
-                                                                     "refused by bit",
-                                                                     "other recording",
-                                                                     "not read",
-                                                                     "counter wrapped",
-                                                                     "device clock set",
-                                                                     "host clock set",
-                                                                     "host time outlier",
-                                                                     "clock stood still",
-                                                                     "clock rates",
-                                                                     "odd times",
-                                                                     "coarse times",
-                                                                     "out of order",
-                                                                     "sequence restarted",
-                                                                     "sequence outlier",
-                                                                     "gap shortened",
-                                                                     "axes",
-                                                                     "new origin",
-                                                                     "text"};
+inline constexpr std::array<std::string_view, 24> kTraceFindingNames{
+    "time outlier",      "repeat",
+    "bad time",          "bad cells",
+    "cut row",           "refused by bit",
+    "other recording",   "not read",
+    "counter wrapped",   "device clock set",
+    "host clock set",    "host time outlier",
+    "clock stood still", "clock rates",
+    "odd times",         "coarse times",
+    "out of order",      "sequence restarted",
+    "sequence outlier",  "gap shortened",
+    "behind head",       "axes",
+    "new origin",        "text"};
 inline constexpr std::size_t kTraceFindingKinds = kTraceFindingNames.size();
 static_assert(kTraceFindingNames[static_cast<std::size_t>(TraceFindingKind::Text)] == "text" &&
               kTraceFindingKinds == static_cast<std::size_t>(TraceFindingKind::Text) + 1);

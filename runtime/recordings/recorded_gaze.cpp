@@ -1,5 +1,7 @@
 #include "runtime/recordings/recorded_gaze.h"
 
+#include <spdlog/spdlog.h>
+
 #include <utility>
 
 #include "drivers/trace/read_trace.h"
@@ -9,7 +11,12 @@ namespace gazeloop::recordings {
 namespace {
 
 gaze::GazeTrace session_gaze(const std::string& file) {
-    return trace_of_session(value_or_throw(session::OpenSession::open(file)));
+    const session::OpenSession session = value_or_throw(session::OpenSession::open(file));
+    gaze::GazeTrace trace = trace_of_session(session);
+    if (!session.info().missing_log.empty()) {
+        spdlog::warn("{}: {}", file, session.info().missing_log);
+    }
+    return trace;
 }
 
 }  // namespace

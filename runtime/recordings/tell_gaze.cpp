@@ -41,7 +41,17 @@ void tell_gaze(const GazeQuestion& question) {
         return;
     }
     std::string refusal;
-    const gaze::GazeTrace trace = recorded_gaze_even_refused(question.file, question.read, refusal);
+    const gaze::GazeTrace trace = [&] {
+        try {
+            return recorded_gaze_even_refused(question.file, question.read, refusal);
+        } catch (const SetupError& error) {
+            if (error.kind() == ErrorKind::BadInput) {
+                value_or_throw(
+                    report::write_refusal(question.file, error.what(), question.outputs));
+            }
+            throw;
+        }
+    }();
     const report::GazeFindings found = report::gaze_findings(trace);
     if (!question.outputs.take_stdout()) {
         fmt::print("{}", report::gaze_text(trace, found));

@@ -39,10 +39,12 @@ class TraceOfSession final : public frame::FrameObserver {
         }
     }
 
-    gaze::GazeTrace take() {
+    /// `missing_log` as SessionInfo has it.
+    gaze::GazeTrace take(const std::string& missing_log) {
         if (trace_.samples.empty()) {
             throw SetupError(ErrorKind::BadInput,
-                             fmt::format("{}: the session holds no gaze to replay", trace_.file));
+                             fmt::format("{}: the session holds no gaze{}{}", trace_.file,
+                                         missing_log.empty() ? " to replay" : ": ", missing_log));
         }
         return std::move(trace_);
     }
@@ -58,7 +60,7 @@ gaze::GazeTrace trace_of_session(const session::OpenSession& session) {
     TraceOfSession trace(session.file().string());
     const std::array<frame::FrameObserver*, 1> observers{&trace};
     value_or_throw(session::play(session, observers));
-    return trace.take();
+    return trace.take(session.info().missing_log);
 }
 
 }  // namespace gazeloop::recordings

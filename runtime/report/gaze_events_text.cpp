@@ -113,6 +113,10 @@ std::string events_text(const gaze::EventStatistics& statistics) {
             (statistics.saccade_amplitude_deg
                  ? ", " + spread_text(statistics.saccade_amplitude_deg, 1, "deg") + ", peaks of " +
                        spread_text(statistics.saccade_peak_deg_per_s, 0, "deg/s")
+                 : std::string{}) +
+            (statistics.instant_saccades > 0
+                 ? fmt::format(", {} within one interval, of unknown size",
+                               statistics.instant_saccades)
                  : std::string{}));
     text += wrapped_row("", sequence_text(statistics.main_sequence));
     text += wrapped_row("pursuit",
@@ -131,6 +135,7 @@ Json events_json(const gaze::EventStatistics& statistics) {
         json[std::string(name)] = kind_json(*kind);
     }
     json["fixations"]["deviation_deg"] = spread_json(statistics.fixation_deviation_deg);
+    json["saccades"]["instant"] = statistics.instant_saccades;
     json["saccades"]["amplitude_deg"] = spread_json(statistics.saccade_amplitude_deg);
     json["saccades"]["peak_deg_per_s"] = spread_json(statistics.saccade_peak_deg_per_s);
     json["pursuits"]["deg_per_s"] = spread_json(statistics.pursuit_deg_per_s);

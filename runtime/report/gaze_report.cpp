@@ -167,7 +167,7 @@ std::string gaze_text(const gaze::GazeTrace& trace, const GazeFindings& findings
                                     : std::string("not recorded"));
     const std::optional<std::uint64_t> lost = lost_by_tracker(trace, found);
     row("lost", lost ? fmt::format("{} by the tracker", *lost)
-                     : std::string("unknown: no sequence numbers that count"));
+                     : std::string("unknown: no sequence numbers that count all along"));
     return trace.report.rows > 0 ? text + findings_text(trace.report) : text;
 }
 

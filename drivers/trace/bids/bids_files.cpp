@@ -119,4 +119,37 @@ fs::path with_recording(const fs::path& file, std::string_view label, std::strin
     return file.parent_path() / changed;
 }
 
+fs::path packed_or_not(const fs::path& file) {
+    constexpr std::string_view kPacked = ".gz";
+    std::error_code ignored;
+    if (fs::exists(file, ignored)) {
+        return file;
+    }
+    const std::string name = file.string();
+    const fs::path other =
+        name.ends_with(kPacked) ? name.substr(0, name.size() - kPacked.size()) : name + ".gz";
+    return fs::exists(other, ignored) ? other : file;
+}
+
+fs::path bids_physio_in(const fs::path& folder) {
+    constexpr int kDeepest = 4;  // sub-, ses-, beh and the file
+    constexpr int kMost = 10'000;
+    std::error_code error;
+    fs::path first;
+    int seen = 0;
+    for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        if (++seen > kMost) {
+            break;
+        }
+        if (entry.depth() >= kDeepest) {
+            entry.disable_recursion_pending();
+        }
+        if (is_bids_physio(entry->path()) && (first.empty() || entry->path() < first)) {
+            first = entry->path();
+        }
+    }
+    return first;
+}
+
 }  // namespace gazeloop::drivers

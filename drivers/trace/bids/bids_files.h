@@ -37,4 +37,12 @@ struct BidsName {
 [[nodiscard]] std::filesystem::path with_recording(const std::filesystem::path& file,
                                                    std::string_view label, std::string_view suffix);
 
+/// The file, or where there is none the same with ".gz" behind its name or without it, if that is
+/// there.
+[[nodiscard]] std::filesystem::path packed_or_not(const std::filesystem::path& file);
+
+/// The first recording by name in a data set, or a part of one; empty where there is none. Looks at
+/// 10,000 entries, four folders down.
+[[nodiscard]] std::filesystem::path bids_physio_in(const std::filesystem::path& folder);
+
 }  // namespace gazeloop::drivers

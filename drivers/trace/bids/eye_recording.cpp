@@ -220,9 +220,9 @@ Expected<void> EyeRecording::read_blinks(const fs::path& file) {
     const fs::path events_file = [&] {
         const std::optional<BidsName> name = bids_name(file);
         const auto recording = name->entities.find("recording");
-        return with_recording(file,
-                              recording != name->entities.end() ? recording->second : std::string{},
-                              "physioevents");
+        return packed_or_not(with_recording(
+            file, recording != name->entities.end() ? recording->second : std::string{},
+            "physioevents"));
     }();
     const auto in = opened(events_file);
     if (in == nullptr) {
@@ -301,9 +301,75 @@ glm::dvec3 EyeRecording::direction(double x, double y) const {
     return of_azimuth_elevation(x * per_unit_, y * per_unit_);
 }
 
-double EyeRecording::fraction(std::optional<std::size_t> column) {
-    const auto value = column ? table_.real(*column) : std::nullopt;
-    return value && *value >= 0.0 && *value <= 1.0 ? *value : -1.0;
+double EyeRecording::fraction(std::optional<std::size_t> column, RowDetail detail, gaze::Eye eye,
+                              BadCells& bad) {
+    constexpr double kUnknown = -1.0;
+    if (!column) {
+        return kUnknown;
+    }
+    const auto value = table_.real(*column);
+    if (value && ((*value >= 0.0 && *value <= 1.0) || *value == kUnknown)) {
+        bad.has(detail);
+        return *value;
+    }
+    if (table_.is_missing(*column)) {
+        bad.lacks(detail, table_.line(), [&] { return table_.described(*column); });
+    } else {
+        bad.add(other_of(eye), table_.line(), [&] {
+            return fmt::format("{} is neither 0 to 1 nor -1 (unknown)", table_.described(*column));
+        });
+    }
+    return kUnknown;
+}
+
+glm::dvec3 EyeRecording::place(gaze::Eye eye, BadCells& bad) {
+    glm::dvec3 origin_m{0.0};
+    for (const int i : {0, 1, 2}) {
+        const std::size_t column = (*origin_)[static_cast<std::size_t>(i)];
+        if (const auto value = table_.real(column)) {
+            origin_m[i] = *value;
+            continue;
+        }
+        if (table_.is_missing(column)) {
+            bad.lacks(origin_of(eye), table_.line(), [&] { return table_.described(column); });
+        } else {
+            bad.add(other_of(eye), table_.line(),
+                    [&] { return fmt::format("{} is no number", table_.described(column)); });
+        }
+        return glm::dvec3{0.0};
+    }
+    bad.has(origin_of(eye));
+    return origin_m;
+}
+
+void EyeRecording::read_head(BadCells& bad) {
+    std::array<double, 7> numbers{};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::size_t column = (*head_)[i];
+        const auto number = table_.real(column);
+        if (!number && table_.is_missing(column)) {
+            bad.lacks(RowDetail::Head, table_.line(), [&] { return table_.described(column); });
+            return;
+        }
+        if (!number) {
+            bad.add(RowPart::Head, table_.line(),
+                    [&] { return fmt::format("{} is no number", table_.described(column)); });
+            return;
+        }
+        numbers[i] = *number;
+    }
+    const auto [x, y, z, qx, qy, qz, qw] = numbers;
+    const glm::dquat turn{qw, qx, qy, qz};
+    const double length = glm::length(turn);
+    if (!std::isnormal(length)) {
+        bad.add(RowPart::Head, table_.line(), [&] {
+            return fmt::format("{} ends an orientation without length",
+                               table_.described(head_->back()));
+        });
+        return;
+    }
+    bad.has(RowDetail::Head);
+    row_.head = gaze::Pose{turn / length, {x, y, z}};
 }
 
 void EyeRecording::read_eye(BadCells& bad) {
@@ -311,7 +377,11 @@ void EyeRecording::read_eye(BadCells& bad) {
     gaze::EyeRay ray;
     const auto x = table_.real(kX);
     const auto y = table_.real(kY);
-    if (x && y) {
+    const std::string_view loss =
+        x && y && system_ == System::Screen_px ? screen_.loss_at({*x, *y}) : std::string_view{};
+    if (!loss.empty()) {
+        bad.add(direction_of(eye), table_.line(), [loss] { return std::string{loss}; });
+    } else if (x && y) {
         if (const auto unit = gaze::unit(direction(*x, *y))) {
             ray.valid = true;
             ray.direction = *unit;
@@ -324,12 +394,15 @@ void EyeRecording::read_eye(BadCells& bad) {
         bad.add(direction_of(eye), table_.line(),
                 [&] { return fmt::format("{} is no number", table_.described(column)); });
     }
-    ray.openness = fraction(openness_);
-    ray.confidence = fraction(confidence_);
-    if (origin_) {
-        for (const int i : {0, 1, 2}) {
-            ray.origin_m[i] = table_.real((*origin_)[static_cast<std::size_t>(i)]).value_or(0.0);
-        }
+    if (ray.valid) {
+        ray.openness = fraction(openness_, openness_of(eye), eye, bad);
+        ray.confidence = fraction(confidence_, confidence_of(eye), eye, bad);
+        ray.origin_m = origin_ ? place(eye, bad) : glm::dvec3{0.0};
+    } else {
+        BadCells not_counted;  // of an eye without a direction nothing is missed
+        ray.openness = fraction(openness_, openness_of(eye), eye, not_counted);
+        ray.confidence = fraction(confidence_, confidence_of(eye), eye, not_counted);
+        ray.origin_m = origin_ ? place(eye, not_counted) : glm::dvec3{0.0};
     }
     if (in_blink()) {
         first_in_blink_ = in_blinks_++ == 0 ? table_.line() : first_in_blink_;
@@ -362,19 +435,7 @@ Expected<bool> EyeRecording::next(BadCells& bad) {
         row_.parallax_rad = combined_parallax_rad();
     }
     if (head_) {
-        std::array<double, 7> numbers{};
-        bool complete = true;
-        for (std::size_t i = 0; i < numbers.size(); ++i) {
-            const auto number = table_.real((*head_)[i]);
-            complete = complete && number.has_value();
-            numbers[i] = number.value_or(0.0);
-        }
-        const auto [x, y, z, qx, qy, qz, qw] = numbers;
-        const glm::dquat turn{qw, qx, qy, qz};
-        const double length = glm::length(turn);
-        if (complete && std::isnormal(length)) {
-            row_.head = gaze::Pose{turn / length, {x, y, z}};
-        }
+        read_head(bad);
     }
     return true;
 }

@@ -54,7 +54,10 @@ class EyeRecording {
     [[nodiscard]] Expected<void> read_blinks(const std::filesystem::path& file);
     [[nodiscard]] glm::dvec3 direction(double x, double y) const;
     void read_eye(BadCells& bad);
-    [[nodiscard]] double fraction(std::optional<std::size_t> column);
+    [[nodiscard]] double fraction(std::optional<std::size_t> column, RowDetail detail,
+                                  gaze::Eye eye, BadCells& bad);
+    [[nodiscard]] glm::dvec3 place(gaze::Eye eye, BadCells& bad);
+    void read_head(BadCells& bad);
     [[nodiscard]] bool in_blink() const;
 
     std::unique_ptr<std::ifstream> in_;  // stays where it is, for the table

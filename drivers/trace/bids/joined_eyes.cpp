@@ -61,6 +61,20 @@ void take_alone(const EyeRows& eye, const DeviceTimes& times, JoinedEyes& joined
     }
 }
 
+/// No two eyes are looked at at rates so far apart: a unit is wrong.
+constexpr double kMostApart = 50.0;
+
+/// How many times longer one's usual interval is than the other's, from 1 on; 1 where either has
+/// none.
+double rates_apart(const DeviceTimes& one, const DeviceTimes& other) {
+    if (one.interval_ns <= 0 || other.interval_ns <= 0) {
+        return 1.0;
+    }
+    const double factor =
+        static_cast<double>(one.interval_ns) / static_cast<double>(other.interval_ns);
+    return std::max(factor, 1.0 / factor);
+}
+
 std::string span_text(const TimedRows& timed) {
     if (timed.at_ns.empty()) {
         return "no times";
@@ -106,12 +120,19 @@ std::vector<gaze::TraceFinding> doubt_stated_rate(const EyeRows& eye, const Devi
                                  eye.name, eye.stated_rate_hz, rate_hz)}};
 }
 
-JoinedEyes join_eyes(const EyeRows& first, const EyeRows& second) {
+Expected<JoinedEyes> join_eyes(const EyeRows& first, const EyeRows& second) {
     JoinedEyes joined;
     const DeviceTimes times = device_times(RowsRead(first.rows), 1.0);
     joined.findings = doubt_stated_rate(first, times);
     const bool same = same_times(first, second);
     const DeviceTimes others = same ? times : device_times(RowsRead(second.rows), 1.0);
+    if (const double factor = rates_apart(times, others); factor > kMostApart) {
+        return std::unexpected(
+            Error{ErrorKind::BadInput,
+                  fmt::format("{}, {}: one goes on {:.3g} times as fast as the other: mend the "
+                              "timestamp's Units in the JSON of the one that is wrong",
+                              first.name, second.name, factor)});
+    }
     for (gaze::TraceFinding& doubt : doubt_stated_rate(second, others)) {
         joined.findings.push_back(std::move(doubt));
     }

@@ -6,6 +6,7 @@
 
 #include "drivers/trace/clock/device_times.h"
 #include "drivers/trace/clock/trace_row.h"
+#include "runtime/error.h"
 #include "runtime/gaze/eye.h"
 #include "runtime/gaze/trace_report.h"
 
@@ -35,6 +36,6 @@ struct JoinedEyes {
 /// row of the other. Where both files have the very same times, that is left to who reads the
 /// joined rows. Where more than a tenth of the rows find no partner, that is an OddTimes. O(n log
 /// n).
-[[nodiscard]] JoinedEyes join_eyes(const EyeRows& first, const EyeRows& second);
+[[nodiscard]] Expected<JoinedEyes> join_eyes(const EyeRows& first, const EyeRows& second);
 
 }  // namespace gazeloop::drivers

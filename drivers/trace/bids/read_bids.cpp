@@ -33,7 +33,7 @@ std::vector<fs::path> recordings_of(const fs::path& file) {
     }
     for (const std::string_view other : {"eye1", "eye2", "eye3"}) {
         std::error_code ignored;
-        const fs::path beside = with_recording(file, other, "physio");
+        const fs::path beside = packed_or_not(with_recording(file, other, "physio"));
         if (other != label->second && fs::exists(beside, ignored)) {
             files.push_back(beside);
         }
@@ -97,7 +97,11 @@ Expected<gaze::GazeTrace> read_bids(const fs::path& file, const ReadOptions& opt
     builder.clock_is("timestamp", recordings.front().time_unit_ns());
     JoinedEyes joined;
     if (eyes.size() > 1) {
-        joined = join_eyes(eyes[0], eyes[1]);
+        Expected<JoinedEyes> both = join_eyes(eyes[0], eyes[1]);
+        if (!both) {
+            return std::unexpected(both.error());
+        }
+        joined = std::move(*both);
     } else {
         joined.findings = doubt_stated_rate(eyes[0], device_times(RowsRead(eyes[0].rows), 1.0));
         joined.rows = std::move(eyes[0].rows);

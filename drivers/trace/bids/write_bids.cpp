@@ -154,7 +154,7 @@ void write_rows(const gaze::GazeTrace& trace, const Recording& recording, const 
             line.add_if_known(ray.confidence);
         }
         if (extras.origin) {
-            line.add_finite(ray.origin_m);
+            line.add_place(ray.origin_m);
         }
         if (extras.head && sample.head) {
             const glm::dquat& q = sample.head->orientation;

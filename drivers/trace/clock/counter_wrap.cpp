@@ -8,13 +8,21 @@ namespace {
 
 /// Counters whose range is less than so many steps are not told from clocks that were set.
 constexpr std::int64_t kFewestSteps = 8;
-/// Nearer to the end than this share of the range, and than a second.
+/// Nearer to the end than this share of the range, and than so long.
 constexpr std::int64_t kShare = 64;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kLongest_ns = 30 * kSecond_ns;
+
+bool agrees(const std::optional<OtherwiseElapsed>& elapsed, Wide ns) {
+    return elapsed && ns >= elapsed->ns - elapsed->within_ns &&
+           ns <= elapsed->ns + elapsed->within_ns;
+}
 
 }  // namespace
 
-std::optional<Wide> wrapped_range(Wide before, Wide after, std::int64_t step_ns) {
+std::optional<Wide> wrapped_range(Wide before, Wide after, std::int64_t step_ns,
+                                  const std::optional<OtherwiseElapsed>& by_host,
+                                  const std::optional<OtherwiseElapsed>& by_count) {
     constexpr std::array<std::uint32_t, 5> kBits{32, 31, 24, 20, 16};
     constexpr std::array<std::int64_t, 4> kTicks_ns{1'000, 1'000'000, 100, 1};
     if (after >= before) {
@@ -23,9 +31,12 @@ std::optional<Wide> wrapped_range(Wide before, Wide after, std::int64_t step_ns)
     for (const std::uint32_t bits : kBits) {
         for (const std::int64_t tick_ns : kTicks_ns) {
             const Wide range = static_cast<Wide>(tick_ns) << bits;
-            const Wide near = std::max<Wide>(step_ns, std::min<Wide>(range / kShare, kSecond_ns));
-            const bool fits = before - after < range && after + range - before <= near &&
-                              range / kFewestSteps >= step_ns;
+            const Wide elapsed_ns = after + range - before;
+            const std::int64_t longest_ns = by_host ? kSecond_ns : kLongest_ns;
+            const Wide near = std::max<Wide>(step_ns, std::min<Wide>(range / kShare, longest_ns));
+            const bool likely = elapsed_ns <= near || agrees(by_host, elapsed_ns) ||
+                                (!by_host && agrees(by_count, elapsed_ns));
+            const bool fits = elapsed_ns > 0 && likely && range / kFewestSteps >= step_ns;
             const bool from_zero = after >= 0 && before < range;
             const bool with_sign = after >= -range / 2 && before < range / 2;
             if (fits && (from_zero || with_sign)) {

@@ -131,7 +131,12 @@ class DeviceClock {
             const std::size_t now = used_[i];
             const Wide raw_before = at_ns_[before] - epoch_of_last_ns_;
             const Wide raw = at_ns_[now];
-            if (const auto range = wrapped_range(raw_before, raw, step_ns)) {
+            const auto range =
+                raw < raw_before
+                    ? wrapped_range(raw_before, raw, step_ns, elapsed_by_host(i - 1, i),
+                                    elapsed_by_count(i - 1, i, step_ns / 4))
+                    : std::nullopt;
+            if (range) {
                 epoch_ns += *range;
                 if (epoch_ns > most_ns) {
                     most_ns = epoch_ns;
@@ -357,9 +362,32 @@ class DeviceClock {
 
     /// A wrap with something else in between.
     [[nodiscard]] std::optional<Wide> wrap_between(std::size_t before, std::size_t after) const {
+        if (step(before, after) >= 0) {
+            return std::nullopt;
+        }
         const std::int64_t step_ns = time::saturated(4 * static_cast<Wide>(interval_ns_) *
                                                      static_cast<Wide>(after - before));
-        return wrapped_range(at_ns_[used_[before]], at_ns_[used_[after]], step_ns);
+        return wrapped_range(at_ns_[used_[before]], at_ns_[used_[after]], step_ns,
+                             elapsed_by_host(before, after),
+                             elapsed_by_count(before, after, interval_ns_));
+    }
+
+    [[nodiscard]] std::optional<OtherwiseElapsed> elapsed_by_host(std::size_t before,
+                                                                  std::size_t after) const {
+        const auto host_ns = host_step(before, after);
+        return host_ns ? std::optional(OtherwiseElapsed{*host_ns, host_tolerance_ns(*host_ns)})
+                       : std::nullopt;
+    }
+
+    /// A count of one says nothing: a tracker that stood still counts on from where it was.
+    [[nodiscard]] std::optional<OtherwiseElapsed> elapsed_by_count(std::size_t before,
+                                                                   std::size_t after,
+                                                                   std::int64_t interval_ns) const {
+        constexpr Wide kWithin = 5;  // one in so many
+        const Wide elapsed_ns = reports(before, after).value_or(0) * interval_ns;
+        return elapsed_ns > interval_ns
+                   ? std::optional(OtherwiseElapsed{elapsed_ns, elapsed_ns / kWithin})
+                   : std::nullopt;
     }
 
     /// Leaves aside that rows may be mixed up.
@@ -529,18 +557,33 @@ class DeviceClock {
         return interval_ns_ * (count <= kMostLost ? count : 1);
     }
 
+    /// Whether the report numbers go back where the clock does.
+    [[nodiscard]] bool begins_anew(std::size_t position) const {
+        const auto& before = rows_[used_[position - 1]].sequence;
+        const auto& now = rows_[used_[position]].sequence;
+        return step(position - 1, position) < 0 && before && now && *now < *before;
+    }
+
     void report_set(std::size_t position, Wide by_ns) {
         const auto host_ns = host_step(position - 1, position);
+        const bool counted = reports(position - 1, position).value_or(0) > 1;
+        const std::string_view goes_on =
+            host_ns && *host_ns > 0 ? "the host's clock"
+            : counted               ? "the usual interval and the report numbers"
+                                    : "the usual interval: how long it really was is not known";
         times_.findings.push_back(
             {.kind = TraceFindingKind::DeviceClockSet,
              .line = rows_[used_[position]].line,
              .rows = 1,
              .dropped = 0,
              .span_ns = time::saturated(by_ns),
-             .text =
-                 fmt::format("the device's clock steps {} by {}: times go on by {}",
-                             by_ns < 0 ? "back" : "ahead", in_words(time::saturated(by_ns)),
-                             host_ns && *host_ns > 0 ? "the host's clock" : "the usual interval")});
+             .text = fmt::format("the device's clock steps {} by {}{}: times go on by {}",
+                                 by_ns < 0 ? "back" : "ahead", in_words(time::saturated(by_ns)),
+                                 begins_anew(position)
+                                     ? " and its report numbers begin anew (the tracker was "
+                                       "restarted, or another recording follows: split the file)"
+                                     : "",
+                                 goes_on)});
     }
 
     static void move_to_end(std::vector<gaze::TraceFinding>& from,

@@ -38,7 +38,7 @@ class Numbering {
                 std::fill(steps_.begin(), steps_.end(), 1);
                 report_no_count();
             } else {
-                result_.lost = lost_;
+                result_.lost = lost_is_known() ? std::optional(lost_) : std::nullopt;
             }
         }
         Wide last = number;
@@ -155,9 +155,33 @@ class Numbering {
             return lose(before, i, *sequence(i) + *range - *sequence(before), *range);
         }
         note_break(i);
-        report_restart(i, fmt::format("the sequence begins anew, {} after {}: counted on",
-                                      *sequence(i), *sequence(before)));
+        const bool in_a_gap = had_time_for_more(before, i);
+        restarted_in_a_gap_ = restarted_in_a_gap_ || in_a_gap;
+        report_restart(i, fmt::format("the sequence begins anew, {} after {}: counted on{}",
+                                      *sequence(i), *sequence(before),
+                                      in_a_gap ? "; what was lost there is not known" : ""));
         return 0;
+    }
+
+    /// Whether reports may be missing between two rows, by the time, or because nobody knows how
+    /// long it was.
+    [[nodiscard]] bool had_time_for_more(std::size_t before, std::size_t after) const {
+        const auto set = std::upper_bound(times_.sets.begin(), times_.sets.end(), before);
+        const auto& host_before = rows_[times_.rows[before]].host_ns;
+        const auto& host_after = rows_[times_.rows[after]].host_ns;
+        const bool made_up = set != times_.sets.end() && *set <= after &&
+                             !(host_before && host_after && *host_after > *host_before);
+        return made_up || usual_reports(before, after) > static_cast<Wide>(after - before) + 1;
+    }
+
+    /// Not where the count begins anew across a gap, or many rows have no number.
+    [[nodiscard]] bool lost_is_known() const {
+        constexpr std::size_t kRowsPerUnknown = 10;
+        std::size_t unknown = 0;
+        for (std::size_t i = 0; i < count_; ++i) {
+            unknown += sequence(i) ? 0 : 1;
+        }
+        return !restarted_in_a_gap_ && unknown * kRowsPerUnknown <= count_;
     }
 
     /// Whether there was time for so many reports, give or take what a clock is off.
@@ -369,6 +393,7 @@ class Numbering {
     std::size_t breaks_ = 0;           ///< numbers that do not follow, wraps left aside
     std::size_t first_break_ = 0;      ///< the position of the first
     std::uint64_t lost_ = 0;
+    bool restarted_in_a_gap_ = false;
     SequenceNumbers result_;
 };
 

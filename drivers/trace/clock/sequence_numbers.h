@@ -17,7 +17,8 @@ struct SequenceNumbers {
     /// Of each used row. Those of the file where it counts up, and counted on where it begins anew;
     /// a gap is what the tracker lost, never a row that was left out here.
     std::vector<std::uint64_t> numbers;
-    /// None where there are no numbers, or they do not count: nobody knows then.
+    /// None where there are no numbers, over a tenth of the rows has none, they do not count, or
+    /// they begin anew across a gap: nobody knows then.
     std::optional<std::uint64_t> lost;
     std::vector<gaze::TraceFinding> findings;
 };

@@ -14,6 +14,8 @@ struct TraceRow : RowClock {
     gaze::PerEye<gaze::EyeRay> eyes;     ///< in our axes and units
     std::optional<double> parallax_rad;  ///< as GazeSample has it
     std::optional<gaze::Pose> head;
+    /// Whether an eye is invalid because a cell of it holds something that is not understood.
+    bool not_understood = false;
 };
 
 }  // namespace gazeloop::drivers

@@ -214,8 +214,12 @@ class Reader {
             return;
         }
         const glm::dvec2 origin = settings_.first_px.value_or(glm::dvec2{0.0});
-        const auto direction =
-            gaze::unit(screen_->direction(glm::dvec2{*x, *y} - origin + glm::dvec2{0.5}));
+        const glm::dvec2 point = glm::dvec2{*x, *y} - origin + glm::dvec2{0.5};
+        if (const std::string_view loss = screen_->loss_at(point); !loss.empty()) {
+            bad_.add(direction_of(eye), row.line, [loss] { return std::string{loss}; });
+            return;
+        }
+        const auto direction = gaze::unit(screen_->direction(point));
         if (!direction) {
             bad_.add(direction_of(eye), row.line,
                      [] { return std::string{"a point too far from the screen"}; });

@@ -14,6 +14,7 @@
 #include "drivers/trace/directions.h"
 #include "drivers/trace/eye_cells.h"
 #include "drivers/trace/json_file.h"
+#include "drivers/trace/text/cell_number.h"
 #include "drivers/trace/trace_rows.h"
 
 namespace gazeloop::drivers {
@@ -191,10 +192,6 @@ void report_served(const Beside& beside, const Served& served, gaze::TraceReport
     }
 }
 
-bool says_no(std::string_view cell) {
-    return cell == "0" || cell == "0.0" || cell == "False" || cell == "false";
-}
-
 Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const ReadOptions& options) {
     constexpr std::int64_t kSameTime_ns = 6'000'000;
     const Expected<Beside> beside = read_beside(table, file);
@@ -219,7 +216,7 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const Rea
         ++served.rows;
         row.device_ticks = rows.ticks(time, "nanoseconds");
         row.parallax_rad = parallax_rad;
-        if (worn && says_no(table.text(*worn))) {
+        if (worn && truth_of(table.text(*worn)) == false) {
             rows.refuse_eyes(row, "not worn");
         }
         if (blink && !table.is_missing(*blink)) {

@@ -87,6 +87,10 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const Rea
             return;
         }
         places.add({*x_px, *y_px});
+        if (const auto loss = sidecar->screen.loss_at({*x_px, *y_px}); !loss.empty()) {
+            rows.lose_eyes(row, loss);
+            return;
+        }
         const auto direction = gaze::unit(sidecar->screen.direction({*x_px, *y_px}));
         if (!direction) {
             rows.refuse_eyes(row, "a point too far from the screen for a direction");

@@ -13,6 +13,7 @@
 #include "drivers/trace/bad_cells.h"
 #include "drivers/trace/directions.h"
 #include "drivers/trace/json_file.h"
+#include "drivers/trace/text/json_numbers.h"
 #include "drivers/trace/text/line_cells.h"
 #include "drivers/trace/trace_builder.h"
 #include "runtime/gaze/direction.h"
@@ -84,10 +85,13 @@ gaze::EyeRay eye_of(const Json* written, gaze::Eye eye, std::uint64_t line, BadC
     if (const Json* const origin = member(*written, "gazeorigin")) {
         if (const std::optional<glm::dvec3> origin_mm = vector_of(origin)) {
             ray.origin_m = *origin_mm * 1e-3;
+            bad.has(origin_of(eye));
         } else {
             bad.add(other_of(eye), line,
                     [] { return std::string{"'gazeorigin' is not three numbers"}; });
         }
+    } else if (ray.valid) {
+        bad.lacks(origin_of(eye), line, [] { return std::string{"'gazeorigin': nothing"}; });
     }
     return ray;
 }
@@ -140,13 +144,20 @@ Expected<gaze::GazeTrace> read_tobii_glasses_3(TextLines lines, const ReadOption
         if (trimmed(lines.text()).empty()) {
             continue;
         }
-        const Json json = Json::parse(lines.text(), nullptr, false);
+        Json json = Json::parse(lines.text(), nullptr, false);
+        if (json.is_discarded()) {
+            json = Json::parse(with_numbers_quoted_that_json_lacks(lines.text()), nullptr, false);
+        }
         if (!json.is_object()) {
             if (!lines.ended()) {
                 cut_line = lines.line();
                 break;
             }
-            return lines.error_here("no JSON object: mend or remove the line");
+            return lines.error_here(
+                builder.report().rows + others.lines == 0
+                    ? "no JSON object in a line: gazedata of Tobii glasses has one in each; where "
+                      "this is the JSON file beside a trace, name the trace"
+                    : "no JSON object: mend or remove the line");
         }
         if (text_in(json, "type") != "gaze") {
             others.first = others.lines++ == 0 ? lines.line() : others.first;
@@ -168,7 +179,8 @@ Expected<gaze::GazeTrace> read_tobii_glasses_3(TextLines lines, const ReadOption
     if (builder.report().rows == (cut_line > 0 ? 1U : 0U)) {
         return std::unexpected(
             Error{ErrorKind::BadInput,
-                  fmt::format("{}: no line of the type 'gaze': read gazedata.gz of the recording",
+                  fmt::format("{}: no line of the type 'gaze': of Tobii glasses read gazedata.gz; "
+                              "where this is the JSON file beside a trace, name the trace",
                               lines.name())});
     }
     return builder.finish(options);

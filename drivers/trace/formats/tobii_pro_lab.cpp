@@ -7,6 +7,7 @@
 #include <string>
 
 #include "drivers/trace/eye_cells.h"
+#include "drivers/trace/text/cell_number.h"
 #include "drivers/trace/trace_rows.h"
 
 namespace gazeloop::drivers {
@@ -35,11 +36,14 @@ constexpr std::array<ColumnNames, 2> kEyes{kNeededLeft, kNeededRight};
 constexpr std::array<std::span<const ColumnNames>, 2> kNeeded{kTimes, kEyes};
 
 std::optional<EyeTrust> trust(CsvTable& table, std::size_t column) {
+    // Numbers are other trackers' codes, of which 0 is the best.
     const std::string_view word = table.text(column);
-    if (word != "Valid" && word != "Invalid") {
+    const bool is_number = !word.empty() && word.front() >= '0' && word.front() <= '9';
+    const std::optional<bool> says = is_number ? std::nullopt : truth_of(word);
+    if (!says) {
         return std::nullopt;
     }
-    const bool valid = word == "Valid";
+    const bool valid = *says;
     return EyeTrust{.direction = valid, .origin = valid, .openness = valid};
 }
 
@@ -99,11 +103,16 @@ Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
     const std::size_t time = *table.column(kTime);
     const std::optional<int> decimals = decimals_of(table.unit(time));
     if (!decimals) {
-        return std::unexpected(
-            Error{ErrorKind::BadInput,
-                  fmt::format("{}:{}: 'Recording timestamp' does not say its unit: name the column "
-                              "'Recording timestamp [ms]' or '[us]'",
-                              table.name(), table.header_line())});
+        const std::string_view unit = table.unit(time);
+        return std::unexpected(Error{
+            ErrorKind::BadInput,
+            fmt::format("{}:{}: {}: write the times in milliseconds or microseconds and name the "
+                        "column 'Recording timestamp [ms]' or '[us]'",
+                        table.name(), table.header_line(),
+                        unit.empty() ? "'Recording timestamp' does not say its unit"
+                                     : fmt::format("the unit of '{}' is not known (s, ms, us and "
+                                                   "ns are)",
+                                                   table.name_of(time)))});
     }
     const bool glasses = is_of_glasses(table);
     gaze::PerEye<EyeCells> eyes{eye_cells(table, gaze::Eye::Left, glasses),

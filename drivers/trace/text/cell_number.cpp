@@ -16,6 +16,24 @@ std::string_view without_plus(std::string_view cell) {
     return plus ? cell.substr(1) : cell;
 }
 
+constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // U+2212
+
+/// What `parse` makes of a cell that begins with a minus sign, with '-' in its place.
+template <typename Parse>
+auto parsed_with_minus(std::string_view cell, NumberSpelling& seen, const Parse& parse)
+    -> decltype(parse(cell)) {
+    std::array<char, 64> copy{};
+    if (!cell.starts_with(kMinusSign) || cell.size() > copy.size()) {
+        return std::nullopt;
+    }
+    const std::string_view rest = cell.substr(kMinusSign.size());
+    copy[0] = '-';
+    std::copy(rest.begin(), rest.end(), copy.begin() + 1);
+    const auto value = parse(std::string_view{copy.data(), rest.size() + 1});
+    seen.minus_sign = seen.minus_sign || value.has_value();
+    return value;
+}
+
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Decimals of a few digits, as half of a table's cells are, for a fraction of what any number
@@ -78,6 +96,10 @@ double parsed_with_comma(std::string_view cell) {
 template <typename Whole>
 std::optional<Whole> parsed_whole(std::string_view cell, NumberSpelling& seen) {
     cell = without_plus(cell);
+    if (cell.starts_with(kMinusSign)) {
+        return parsed_with_minus(
+            cell, seen, [&](std::string_view ascii) { return parsed_whole<Whole>(ascii, seen); });
+    }
     Whole value{};
     const char* const end = cell.data() + cell.size();
     const auto [stop, error] = std::from_chars(cell.data(), end, value);
@@ -108,6 +130,11 @@ double real_or_nan(std::string_view cell, NumberSpelling& seen) {
     if (std::isnan(value)) {
         value = parsed_with_comma(cell);
         seen.decimal_comma = seen.decimal_comma || !std::isnan(value);
+    }
+    if (std::isnan(value) && cell.starts_with(kMinusSign)) {
+        return parsed_with_minus(cell, seen,
+                                 [&](std::string_view ascii) { return real_number(ascii, seen); })
+            .value_or(kNone);
     }
     return std::isfinite(value) ? value : kNone;
 }
@@ -146,6 +173,11 @@ std::optional<std::int64_t> decimal_of_real(std::string_view cell, int digits,
 std::optional<std::int64_t> decimal_number(std::string_view cell, int digits,
                                            NumberSpelling& seen) {
     constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+    if (cell.starts_with(kMinusSign)) {
+        return parsed_with_minus(cell, seen, [&](std::string_view ascii) {
+            return decimal_number(ascii, digits, seen);
+        });
+    }
     std::string_view rest = without_plus(cell);
     const bool negative = rest.starts_with('-');
     rest.remove_prefix(negative ? 1 : 0);
@@ -189,18 +221,59 @@ std::optional<std::int64_t> decimal_number(std::string_view cell, int digits,
     return negative ? -value : value;
 }
 
+namespace {
+
+constexpr std::size_t kLongestWord = 9;  // "-nan(ind)"
+
+/// A cell in lower case; empty where it is longer than any word that is known.
+class ShortWord {
+  public:
+    explicit ShortWord(std::string_view cell)
+        : size_(cell.size() <= kLongestWord ? cell.size() : 0) {
+        std::transform(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(size_),
+                       lower_.begin(),
+                       [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    }
+    [[nodiscard]] std::string_view text() const { return {lower_.data(), size_}; }
+
+  private:
+    std::array<char, kLongestWord> lower_{};
+    std::size_t size_;
+};
+
+}  // namespace
+
+std::optional<bool> truth_of(std::string_view cell) {
+    if (cell == "1" || cell == "0") {
+        return cell == "1";
+    }
+    NumberSpelling ignored;
+    if (const std::optional<std::int64_t> number = whole_number(cell, ignored)) {
+        return *number == 0 || *number == 1 ? std::optional(*number == 1) : std::nullopt;
+    }
+    const ShortWord word(cell);
+    for (const std::string_view yes : {"true", "yes", "valid"}) {
+        if (word.text() == yes) {
+            return true;
+        }
+    }
+    for (const std::string_view no : {"false", "no", "invalid"}) {
+        if (word.text() == no) {
+            return false;
+        }
+    }
+    return std::nullopt;
+}
+
 bool says_no_number(std::string_view cell) {
-    constexpr std::size_t kLongest = 9;  // "-nan(ind)"
     if (cell.empty()) {
         return true;
     }
-    if (cell.size() > kLongest) {
+    const ShortWord lower(cell);
+    std::string_view word = lower.text();
+    if (word.empty()) {
         return false;
     }
-    std::array<char, kLongest> lower{};
-    std::transform(cell.begin(), cell.end(), lower.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    std::string_view word{lower.data(), cell.size()};
     // "-1.#IND" is how Microsoft's libraries wrote it.
     constexpr std::array<std::string_view, 4> kWords{"n/a", "na", "null", "none"};
     if (word == "-" || word == "." ||

@@ -10,10 +10,11 @@ namespace gazeloop::drivers {
 struct NumberSpelling {
     bool decimal_comma = false;  ///< "0,5"
     bool whole_as_real = false;  ///< "31.0" for 31
+    bool minus_sign = false;     ///< U+2212, as word processors write it, for '-'
 };
 
-/// Numbers of a table's cells, whatever the locale. Decimals have a point, or a comma, which is
-/// added to `seen`.
+/// Numbers of a table's cells, whatever the locale. Decimals have a point, or a comma; a
+/// minus may be U+2212. Either is added to `seen`.
 ///
 /// A finite number; none where the cell is anything else, or does not fit.
 [[nodiscard]] std::optional<double> real_number(std::string_view cell, NumberSpelling& seen);
@@ -32,6 +33,10 @@ struct NumberSpelling {
 /// to 18.
 [[nodiscard]] std::optional<std::int64_t> decimal_number(std::string_view cell, int digits,
                                                          NumberSpelling& seen);
+
+/// Yes or no as programs write it: 1 or 0, "true" or "false", "yes" or "no", "valid" or "invalid",
+/// in any case. None where it is something else.
+[[nodiscard]] std::optional<bool> truth_of(std::string_view cell);
 
 /// Whether the cell says that there is no number: blank, "NaN", "-nan(ind)", "inf", "n/a", "null"
 /// and the like, in any case.

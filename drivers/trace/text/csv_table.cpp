@@ -309,6 +309,11 @@ Expected<bool> CsvTable::next() {
                                 ? "; numbers with decimal commas need ';' between them, or quotes"
                                 : ""));
         }
+        if (!lines_.ended()) {
+            note(lines_.line(),
+                 "the last line has no end: were it cut short within its last "
+                 "number, nobody could tell; it is used");
+        }
         if (cells_.had_quotes() && !seen_quotes_) {
             seen_quotes_ = true;
             note(lines_.line(), "cells in double quotes: read without them");
@@ -338,6 +343,16 @@ std::optional<std::int64_t> CsvTable::decimal(std::size_t column, int digits) {
     return value;
 }
 
+std::optional<bool> CsvTable::truth(std::size_t column) {
+    const std::optional<bool> yes = truth_of(cells_[column]);
+    const char first = cells_[column].empty() ? '\0' : cells_[column].front();
+    if (yes && !seen_truth_in_words_ && first != '0' && first != '1') {
+        seen_truth_in_words_ = true;
+        note(lines_.line(), fmt::format("{}: words for 1 and 0: read as these", described(column)));
+    }
+    return yes;
+}
+
 std::string_view CsvTable::unit(std::size_t column) const { return apart(header_[column]).unit; }
 
 std::string CsvTable::quoted(std::size_t column) const { return shown(cells_[column]); }
@@ -354,6 +369,10 @@ void CsvTable::note(const NumberSpelling& seen) {
     if (seen.decimal_comma && !seen_.decimal_comma) {
         seen_.decimal_comma = true;
         note(lines_.line(), "decimal commas: read as points");
+    }
+    if (seen.minus_sign && !seen_.minus_sign) {
+        seen_.minus_sign = true;
+        note(lines_.line(), "minus signs (U+2212): read as '-'");
     }
     if (seen.whole_as_real && !seen_.whole_as_real) {
         seen_.whole_as_real = true;

@@ -78,7 +78,7 @@ class CsvTable {
     [[nodiscard]] std::optional<double> real(std::size_t column) {
         NumberSpelling seen;
         const double value = real_or_nan(cells_[column], seen);
-        if (seen.decimal_comma) {
+        if (seen.decimal_comma || seen.minus_sign) {
             note(seen);
         }
         return std::isnan(value) ? std::nullopt : std::optional(value);
@@ -87,6 +87,8 @@ class CsvTable {
     [[nodiscard]] std::optional<std::uint64_t> count(std::size_t column);
     /// In units of the `digits`th decimal: seconds as nanoseconds (9).
     [[nodiscard]] std::optional<std::int64_t> decimal(std::size_t column, int digits);
+    /// Yes or no (truth_of); words in place of 1 and 0 are noted.
+    [[nodiscard]] std::optional<bool> truth(std::size_t column);
     /// The cell itself, until the next row.
     [[nodiscard]] std::string_view text(std::size_t column) const { return cells_[column]; }
     /// What stands in brackets or parentheses behind a column's name; empty where nothing does.
@@ -135,6 +137,7 @@ class CsvTable {
     std::vector<gaze::TraceFinding> notes_;
     std::vector<std::string> in_other_case_;  ///< as the header has them
     NumberSpelling seen_;
+    bool seen_truth_in_words_ = false;
     bool seen_quotes_ = false;
     std::uint64_t cut_line_ = 0;  ///< 0: none
 };

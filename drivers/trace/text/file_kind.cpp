@@ -85,6 +85,13 @@ std::string_view kind_of_no_table(std::string_view start) {
     if (first != std::string_view::npos && start[first] == '<') {
         return "an HTML or XML page, not a table: download the file that the page offers";
     }
+    if (first != std::string_view::npos && start[first] == '[') {
+        const std::size_t second = start.find_first_not_of(" \t\r\n", first + 1);
+        if (second != std::string_view::npos &&
+            "[{\"0123456789-"sv.find(start[second]) != std::string_view::npos) {
+            return "a JSON array: write each of its objects on a line of its own (jq -c '.[]')";
+        }
+    }
     return {};
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -44,6 +45,12 @@ class LineWriter {
         add_finite(v.x);
         add_finite(v.y);
         add_finite(v.z);
+    }
+
+    /// Of an eye; 0,0,0 where it is unknown.
+    void add_place(const glm::dvec3& origin_m) {
+        constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+        add_finite(origin_m == glm::dvec3{0.0} ? glm::dvec3{kUnknown} : origin_m);
     }
 
     /// An openness or confidence, which is below 0 where it is unknown.

@@ -89,6 +89,10 @@ EventStatistics event_statistics(std::span<const RecordedEvent> events) {
         if (&event == &events.front() || &event == &events.back()) {
             continue;
         }
+        if (event.event == EyeEvent::Saccade && whole_ms <= 0.0) {
+            ++statistics.instant_saccades;
+            continue;
+        }
         kind.durations_ms.push_back(
             event.unseen_ns > 0 ? static_cast<double>(event.unseen_ns) * 1e-6 : whole_ms);
         if (event.event == EyeEvent::Fixation) {

@@ -35,6 +35,9 @@ struct EventStatistics {
     EventKindStatistics blinks;  ///< losses in which the eye is unseen for 100 to 400 ms
     EventKindStatistics losses;  ///< all others
     std::optional<Spread> fixation_deviation_deg;
+    /// Between one sample and the next, so that neither size nor duration is known: left out of
+    /// the spreads, as a recording's first and last event are.
+    std::size_t instant_saccades = 0;
     std::optional<Spread> saccade_amplitude_deg;
     std::optional<Spread> saccade_peak_deg_per_s;
     std::optional<Spread> pursuit_deg_per_s;       ///< amplitude over duration

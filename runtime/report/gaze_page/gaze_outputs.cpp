@@ -67,6 +67,12 @@ Expected<void> write_gaze(const page::PageRecording& recording, const GazeOutput
                               [&] { return page::gaze_page(std::span{&recording, 1}, nullptr); });
 }
 
+Expected<void> write_refusal(const std::string& file, const std::string& refusal,
+                             const GazeOutputs& outputs) {
+    return write_where_wanted(
+        outputs.json, [&] { return json_text(Json{{"file", file}, {"refused", refusal}}); });
+}
+
 Expected<void> write_comparison(std::span<const page::PageRecording> recordings,
                                 const gaze::GazeComparison& comparison,
                                 const GazeOutputs& outputs) {

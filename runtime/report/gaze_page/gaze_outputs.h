@@ -26,6 +26,10 @@ struct GazeOutputs {
 /// Of one recording. Errors (BadInput): a file cannot be written.
 [[nodiscard]] Expected<void> write_gaze(const page::PageRecording& recording,
                                         const GazeOutputs& outputs);
+/// Of one that cannot be read even with repairs: its JSON, if it is asked for, names the file and
+/// says why ("refused").
+[[nodiscard]] Expected<void> write_refusal(const std::string& file, const std::string& refusal,
+                                           const GazeOutputs& outputs);
 /// Of two that were compared.
 [[nodiscard]] Expected<void> write_comparison(std::span<const page::PageRecording> recordings,
                                               const gaze::GazeComparison& comparison,

@@ -124,6 +124,67 @@ TEST(HoldAgainstAnatomy, RefusesGazeBehindTheHeadWithTheRemedy) {
               "gaze.csv: 100 % of the gaze points behind the head (+Z); --axes -z makes it agree");
 }
 
+/// No eye looks there: whatever says so in a row is no gaze.
+TEST(HoldAgainstAnatomy, TakesEachLookBehindTheHeadForNone) {
+    for (const std::size_t count : {1U, 10U, 40U}) {
+        gaze::GazeTrace trace{.file = "gaze.csv", .samples = gaze::pair_of_eyes()};
+        for (std::size_t i = 0; i < trace.samples.size(); ++i) {
+            trace.lines.push_back(i + 2);
+        }
+        trace.report.rows = trace.samples.size();
+        trace.report.valid = {400, 400};
+        for (std::size_t i = 100; i < 100 + count; ++i) {
+            put_behind(trace.samples[i].eyes[0], trace.samples[i].eyes[1]);
+        }
+        ASSERT_TRUE(hold_against_anatomy(trace, AxesCorrection::None));
+        for (std::size_t i = 0; i < trace.samples.size(); ++i) {
+            const bool ahead = i < 100 || i >= 100 + count;
+            EXPECT_EQ(trace.samples[i].eyes[0].valid, ahead) << i;
+            EXPECT_EQ(trace.samples[i].eyes[1].valid, ahead) << i;
+        }
+        EXPECT_EQ(trace.report.valid[0], 400 - count);
+        EXPECT_EQ(trace.report.count(gaze::TraceFindingKind::BehindHead).rows, count);
+        EXPECT_EQ(trace.report.findings().at(0).line, 102U);
+        EXPECT_THAT(trace.report.findings()[0].text,
+                    HasSubstr("gaze points behind the head (+Z): left eye in"));
+        EXPECT_EQ(trace.report.worth_a_warning(), count > 4) << "1 % of the rows";
+        EXPECT_THAT(trace.report.axes, HasSubstr("agree with anatomy"));
+    }
+}
+
+TEST(HoldAgainstAnatomy, KeepsTheOtherEyeOfARow) {
+    gaze::GazeTrace trace{.samples = gaze::changed(gaze::pair_of_eyes(), [](EyeRay& left, EyeRay&) {
+                              left.direction.z *= -1.0;
+                          })};
+    ASSERT_TRUE(hold_against_anatomy(trace, AxesCorrection::None));
+    for (const GazeSample& sample : trace.samples) {
+        EXPECT_FALSE(sample.eyes[0].valid);
+        EXPECT_TRUE(sample.eyes[1].valid);
+    }
+    EXPECT_EQ(trace.report.count(gaze::TraceFindingKind::BehindHead).rows, 400U);
+}
+
+TEST(HoldAgainstAnatomy, RefusesWhereATenthOfTheGazeIsBehindTheHead) {
+    const auto held = [](std::size_t behind, bool accept) {
+        gaze::GazeTrace trace{.file = "gaze.csv", .samples = gaze::pair_of_eyes()};
+        for (std::size_t i = 0; i < trace.samples.size(); ++i) {
+            trace.lines.push_back(i + 2);
+        }
+        for (std::size_t i = 400 - behind; i < 400; ++i) {
+            put_behind(trace.samples[i].eyes[0], trace.samples[i].eyes[1]);
+        }
+        const Expected<void> result = hold_against_anatomy(trace, AxesCorrection::None, accept);
+        return result ? std::string{} : result.error().message;
+    };
+    EXPECT_EQ(held(40, false), "");
+    EXPECT_THAT(held(41, false), HasSubstr("gaze.csv:361: in 41 of 400 rows all gaze points behind "
+                                           "the head (+Z), the first of them here; "));
+    EXPECT_EQ(held(41, true), "");
+    EXPECT_EQ(held(199, true), "");
+    EXPECT_THAT(held(200, true), HasSubstr("50 % of the gaze points behind the head"));
+    EXPECT_THAT(held(200, false), HasSubstr("50 % of the gaze points behind the head"));
+}
+
 /// Where one eye is all there is, left and right cannot be told.
 TEST(HoldAgainstAnatomy, OffersBothTurnsForOneEyeBehind) {
     gaze::GazeTrace trace{.samples =
@@ -174,6 +235,22 @@ TEST(ReadTrace, HoldsItsDirectionsAgainstAnatomy) {
     ASSERT_FALSE(behind);
     EXPECT_THAT(behind.error().message,
                 AllOf(HasSubstr("gaze.csv: 100 %"), HasSubstr("--axes -z")));
+}
+
+TEST(ReadTrace, NamesTheLineOfGazeBehindTheHead) {
+    std::string text = std::string(kHtcHeader) + "\n";
+    for (int i = 0; i < 400; ++i) {
+        const bool behind = i >= 50 && i < 60;
+        text += htc_row(638'500'000'000'000'000 + i * 83'333LL, behind ? "-0.02;0;-1" : "-0.02;0;1",
+                        behind ? "0.02;0;-1" : "0.02;0;1");
+    }
+    const auto trace = read_text(text);
+    ASSERT_TRUE(trace) << trace.error().message;
+    EXPECT_FALSE(trace->samples[55].eyes[0].valid);
+    EXPECT_EQ(trace->report.count(gaze::TraceFindingKind::BehindHead).rows, 10U);
+    EXPECT_EQ(trace->report.findings().at(0).line, 52U);
+    EXPECT_EQ(trace->report.valid[0], 390U);
+    EXPECT_TRUE(trace->lines.empty()) << "nobody needs them any more";
 }
 
 TEST(ReadTrace, TurnsDirectionsOnRequest) {

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "tests/unit/drivers/trace/trace_findings.h"
 #include "tests/unit/drivers/trace/trace_text.h"
@@ -211,7 +214,144 @@ TEST(BadCells, LeaveASequenceOrArrivalUnknown) {
     EXPECT_FALSE(trace.samples[3].arrived.known());
     EXPECT_THAT(told(trace, TraceFindingKind::BadCells),
                 ElementsAre("3: sequence number or arrival: column 'sequence': '-1' is no whole "
-                            "number (2 rows with such cells: unknown there)"));
+                            "number from 0 on (2 rows with such cells: unknown there)",
+                            "5: arrival: column 't_host_ns': 'nan' is no number, though other rows "
+                            "have one (1 row with such cells: unknown there)"));
+}
+
+/// A valid eye without its place jumps there; what other rows say is missed.
+TEST(BadCells, CountWhatIsMissingWhereOtherRowsHaveIt) {
+    for (const std::string_view cell : kMissing) {
+        std::string native;
+        std::string htc;
+        for (int i = 0; i < 40; ++i) {
+            const bool lacks = i % 4 == 1;
+            const std::string other =
+                lacks ? fmt::format("{0},{0},{0},{0},{0}", cell) : std::string{"-0.03,0,0,1,0.9"};
+            native += native_left(i * 10'000'000LL, "1", "0,0,-1", other);
+            htc += htc_left(i * 100'000LL, "31", "0;0;1", lacks ? cell : "0.9",
+                            lacks ? fmt::format("{0};{0};{0}", cell) : "38;2;-37");
+        }
+        const gaze::GazeTrace trace = read_native(native);
+        EXPECT_TRUE(trace.samples[1].eyes[0].valid);
+        EXPECT_EQ(trace.samples[1].eyes[0].origin_m, glm::dvec3(0.0));
+        EXPECT_EQ(trace.samples[1].eyes[0].openness, -1.0);
+        EXPECT_THAT(
+            told(trace, TraceFindingKind::BadCells),
+            ElementsAre(fmt::format("3: left eye's place: column 'left_origin_x_m': '{}' is no "
+                                    "number, though other rows have one (10 rows with such cells: "
+                                    "unknown there)",
+                                    cell),
+                        HasSubstr("3: left eye's openness: column 'left_openness'"),
+                        HasSubstr("3: left eye's confidence: column 'left_confidence'")));
+        EXPECT_TRUE(trace.report.worth_a_warning());
+        EXPECT_EQ(trace.report.rows_dropped(), 0U);
+        EXPECT_THAT(told(read_htc(htc), TraceFindingKind::BadCells),
+                    ElementsAre(HasSubstr("3: left eye's place: column 'gaze_origin_L.x(mm)'"),
+                                HasSubstr("3: left eye's openness: column 'openness_L'")))
+            << cell;
+    }
+}
+
+TEST(BadCells, CountRowsWithoutAHeadThatOthersHave) {
+    std::string rows;
+    for (int i = 0; i < 40; ++i) {
+        rows += native_row(i, i * 10'000'000LL, i == 7 ? "" : std::to_string(i * 10'000'000LL),
+                           i >= 10 && i < 15 ? ",,,,,," : "0,1,0,0,0,0,1");
+    }
+    const gaze::GazeTrace trace = read_native(rows);
+    EXPECT_FALSE(trace.samples[12].head.has_value());
+    EXPECT_FALSE(trace.samples[7].arrived.known());
+    EXPECT_THAT(told(trace, TraceFindingKind::BadCells),
+                ElementsAre(HasSubstr("12: head's pose: column 'head_x_m': '' is no number, though "
+                                      "other rows have one (5 rows"),
+                            HasSubstr("9: arrival: column 't_host_ns': '' is no number, though "
+                                      "other rows have one (1 row ")));
+}
+
+TEST(BadCells, TakeWordsForAnEyesValidity) {
+    for (const auto& [yes, no] : {std::pair{"true", "false"}, std::pair{"True", "False"},
+                                  std::pair{"YES", "no"}, std::pair{"Valid", "Invalid"}}) {
+        const gaze::GazeTrace trace =
+            read_native(native_left(1, yes, "0,0,-1") + native_left(2, no, "0,0,-1"));
+        EXPECT_TRUE(trace.samples[0].eyes[0].valid) << yes;
+        EXPECT_FALSE(trace.samples[1].eyes[0].valid) << no;
+        EXPECT_THAT(told(trace, TraceFindingKind::BadCells), IsEmpty());
+        EXPECT_THAT(told(trace, TraceFindingKind::Text),
+                    ElementsAre(HasSubstr("words for 1 and 0: read as these")));
+    }
+}
+
+TEST(BadCells, TakeMinusSignsOfWordProcessors) {
+    const gaze::GazeTrace trace = read_native(native_left(1, "1",
+                                                          "\xE2\x88\x92"
+                                                          "0.6,0,\xE2\x88\x92"
+                                                          "0.8"));
+    EXPECT_TRUE(trace.samples[0].eyes[0].valid);
+    EXPECT_DOUBLE_EQ(trace.samples[0].eyes[0].direction.x, -0.6);
+    EXPECT_THAT(told(trace, TraceFindingKind::Text),
+                ElementsAre("2: minus signs (U+2212): read as '-'"));
+}
+
+TEST(BadCells, RefuseAFileOfWhichTooManyAreNotUnderstood) {
+    const auto rows = [](int odd) {
+        std::string text;
+        for (int i = 0; i < 40; ++i) {
+            text += fmt::format("{0},{1},,{2},0,0,-1,,,,,,{2},0,0,-1,,,,,,,,,,,,\n", i,
+                                i * 10'000'000LL, i >= 10 && i < 10 + odd ? "oui" : "1");
+        }
+        return fmt::format("{}\n{}", kNativeHeader, text);
+    };
+    const auto few = read_text(rows(4));
+    ASSERT_TRUE(few) << few.error().message;
+    EXPECT_TRUE(few->report.worth_a_warning());
+    EXPECT_EQ(read_text(rows(5)).error().message,
+              "gaze.csv:12: 5 of 40 rows have no gaze that is understood, the first of them here "
+              "(left eye: column 'left_valid': 'oui' does not say whether the eye is valid (5 rows "
+              "with such cells: the eye is invalid there)); mend these cells, or --accept-repairs "
+              "plays the other rows");
+    std::istringstream in(rows(5));
+    EXPECT_TRUE(read_trace(in, "gaze.csv", {.accept_repairs = true}));
+}
+
+TEST(BadCells, NameDirectionsOfAnotherLength) {
+    const gaze::GazeTrace trace =
+        read_native(native_left(1, "1", "0,0,-1.001") + native_left(2, "1", "0,1.5,-2"));
+    EXPECT_THAT(told(trace, TraceFindingKind::Text),
+                ElementsAre("3: left eye: 1 direction of another length than 1, the first of 2.5: "
+                            "taken for where they point"));
+}
+
+TEST(BadCells, CountOnNumbersWithASign) {
+    const auto read_numbered = [](long long first, long long range) {
+        std::string rows;
+        for (long long i = 0; i < 40; ++i) {
+            const long long number = first + i;
+            rows += native_row(number < range / 2 ? number : number - range, i * 10'000'000);
+        }
+        return read_native(rows);
+    };
+    for (const long long range : {1LL << 8, 1LL << 16, 1LL << 32}) {
+        const gaze::GazeTrace trace = read_numbered(range / 2 - 20, range);
+        EXPECT_THAT(trace.report.findings(), IsEmpty()) << range;
+        EXPECT_EQ(trace.report.lost_by_tracker, 0U) << range;
+        for (std::size_t i = 0; i < 40; ++i) {
+            EXPECT_EQ(trace.samples[i].sequence, static_cast<std::uint64_t>(range / 2 - 20) + i);
+        }
+    }
+}
+
+TEST(BadCells, LeaveUnknownWhatWasLostWhereManyNumbersAre) {
+    const auto read_with = [](int unread) {
+        std::string rows;
+        for (int i = 0; i < 40; ++i) {
+            rows += (i >= 10 && i < 10 + unread ? "x" : std::to_string(i)) +
+                    native_row(0, i * 10'000'000LL).substr(1);
+        }
+        return read_native(rows).report.lost_by_tracker;
+    };
+    EXPECT_EQ(read_with(4), 0U);
+    EXPECT_EQ(read_with(5), std::nullopt);
 }
 
 TEST(BadCells, AreNamedSafely) {

@@ -19,6 +19,7 @@
 #include "tests/support/comma_locale.h"
 #include "tests/support/gzip.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/unit/drivers/trace/trace_findings.h"
 #include "tests/unit/drivers/trace/trace_text.h"
 
 namespace gazeloop::drivers {
@@ -149,6 +150,19 @@ TEST(NativeTrace, LeavesWhatIsNotFiniteBlankAndReadsItAsUnknown) {
     ASSERT_TRUE(read.has_value()) << read.error().message;
     EXPECT_EQ(read->samples[0].eyes[0].direction, glm::dvec3(0.0, 0.0, -1.0));
     EXPECT_EQ(read->samples[0].eyes[0].openness, -1.0);
+}
+
+/// 0,0,0 would be a place, 31 mm off.
+TEST(NativeTrace, LeavesAnUnknownPlaceBlank) {
+    gaze::GazeTrace trace = awkward_trace();
+    for (gaze::EyeRay& ray : trace.samples[3].eyes) {
+        ray.origin_m = glm::dvec3{0.0};
+    }
+    const gaze::GazeTrace read = value_or_throw(read_text(written(trace)));
+    EXPECT_EQ(read.samples[3].eyes[0].origin_m, glm::dvec3{0.0});
+    EXPECT_THAT(told(read, gaze::TraceFindingKind::BadCells),
+                ::testing::Contains(HasSubstr("5: left eye's place: column 'left_origin_x_m': '' "
+                                              "is no number, though other rows have one (1 row")));
 }
 
 TEST(NativeTrace, RefusesAValidEyeWithoutADirection) {

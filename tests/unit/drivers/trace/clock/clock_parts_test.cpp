@@ -94,6 +94,23 @@ TEST(WrappedRange, KnowsTheUsualCounters) {
     }
 }
 
+/// Rows are missing around the wrap.
+TEST(WrappedRange, IsKnownWithinAGap) {
+    constexpr Wide kSecond = 1'000'000'000;
+    const std::int64_t step = 11 * kThreeMs;
+    const Wide range = Wide{1'000} << 32;
+    for (const Wide gap : {2 * kSecond, 10 * kSecond, 29 * kSecond}) {
+        EXPECT_TRUE(wrapped_range(range - kSecond, gap - kSecond, step) == range);
+        EXPECT_TRUE(wrapped_range(range / 2 - kSecond, gap - kSecond - range / 2, step) == range);
+    }
+    EXPECT_FALSE(wrapped_range(range - kSecond, 40 * kSecond, step)) << "too far to be told";
+    const OtherwiseElapsed elapsed{41 * kSecond, kSecond / 20};
+    EXPECT_TRUE(wrapped_range(range - kSecond, 40 * kSecond, step, elapsed) == range);
+    EXPECT_TRUE(wrapped_range(range - kSecond, 40 * kSecond, step, {}, elapsed) == range);
+    EXPECT_FALSE(wrapped_range(range - kSecond, 20 * kSecond, step, elapsed)) << "the host objects";
+    EXPECT_TRUE(wrapped_range(range - kSecond, 20 * kSecond, step, {}, elapsed) == range)
+        << "numbers do not";
+}
 TEST(WrappedRange, IsNoneWhereAClockWasSetOrGoesOn) {
     const std::int64_t step = 11 * kThreeMs;
     const Wide range = Wide{1'000} << 32;

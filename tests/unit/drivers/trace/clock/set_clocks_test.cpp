@@ -52,6 +52,40 @@ TEST_P(Wraps, AreCountedOn) {
     }
 }
 
+TEST(DeviceTimes, KeepAGapInWhichTheCounterWraps) {
+    constexpr std::int64_t kGap = 3 * kSecond;
+    constexpr std::int64_t kRange = kUs << 32;
+    for (const bool with_host : {false, true}) {
+        auto rows = good_rows(300, 0);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const std::int64_t since =
+                static_cast<std::int64_t>(i) * kInterval + (i < 150 ? 0 : kGap - kInterval);
+            rows[i].device_ticks = (kRange - 150 * kInterval - kGap / 2 + since) % kRange;
+            if (with_host) {
+                rows[i].host_ns = 77 * kSecond + since;
+            }
+        }
+        const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
+        EXPECT_EQ(times.rows.size(), 300U);
+        EXPECT_EQ(times.time_ns[150] - times.time_ns[149], kGap);
+        expect_one(times, TraceFindingKind::CounterWrapped, 2 + 150, 0);
+    }
+}
+
+TEST(DeviceTimes, SayThatAGapsLengthIsNotKnownWhereClockAndNumbersBeginAnew) {
+    auto rows = without_sequence(good_rows(300));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].sequence = i < 150 ? i : i - 150;
+        rows[i].device_ticks = *rows[i < 150 ? i : i - 150].device_ticks;
+    }
+    const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
+    const auto sets = of_kind(times.findings, TraceFindingKind::DeviceClockSet);
+    ASSERT_THAT(sets, SizeIs(1));
+    EXPECT_THAT(sets[0].text, ::testing::HasSubstr("its report numbers begin anew (the tracker was "
+                                                   "restarted, or another recording follows"));
+    EXPECT_THAT(sets[0].text, ::testing::HasSubstr("how long it really was is not known"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Counters, Wraps,
                          ::testing::Values(Counter{kUs, 32, false}, Counter{kMs, 32, false},
                                            Counter{100, 32, false}, Counter{1, 32, false},

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -288,6 +290,65 @@ TEST(Bids, JudgesTheClockOfEachEyeBeforeItJoinsThem) {
         EXPECT_TRUE(trace.samples[i].eyes[0].valid) << i;
         EXPECT_EQ(trace.samples[i].eyes[1].valid, i != 60) << i;
     }
+}
+
+std::string eye_rows(int step) {
+    std::string rows;
+    for (int i = 0; i < 100; ++i) {
+        rows += fmt::format("{}\t{}\t5\t3\n", i * step, i % 10);
+    }
+    return rows;
+}
+
+TEST(Bids, ReadsEyesOfWhichOneIsPacked) {
+    BidsFolder folder;
+    folder.recording("eye1", physio("left"), eye_rows(4));
+    const std::string packed = folder.recording("eye2", physio("right"), eye_rows(4));
+    const std::string stem = "sub-01/beh/sub-01_task-look_recording-eye1_physio";
+    const std::string plain = folder.write(stem + ".tsv", eye_rows(4));
+    std::filesystem::remove(plain + ".gz");
+    for (const std::string& file : {plain, packed}) {
+        const gaze::GazeTrace trace = value_or_throw(read_trace(file));
+        EXPECT_EQ(trace.report.valid, (gaze::PerEye<std::uint64_t>{100, 100})) << file;
+    }
+}
+
+TEST(Bids, RefusesEyesWhoseClocksAreInOtherUnits) {
+    BidsFolder folder;
+    const std::string file = folder.recording("eye1", physio("left"), eye_rows(4));
+    Json json = physio("right");
+    json["timestamp"]["Units"] = "ns";
+    folder.recording("eye2", json, eye_rows(4));
+    EXPECT_THAT(refusal(file), HasSubstr("one goes on 1e+06 times as fast as the other: mend the "
+                                         "timestamp's Units"));
+}
+
+TEST(Bids, CountsWhatIsMissingWhereOtherRowsHaveIt) {
+    BidsFolder folder;
+    Json json = physio("left");
+    for (const char* column :
+         {"eye_openness", "confidence", "origin_x_m", "origin_y_m", "origin_z_m"}) {
+        json["Columns"].push_back(column);
+    }
+    std::string rows;
+    for (int i = 0; i < 100; ++i) {
+        rows += fmt::format("{}\t{}\t5\t3\t{}\n", 4 * i, i % 10,
+                            i == 30 ? "n/a\tn/a\tn/a\t0\t0" : "1\t1\t-0.03\t0\t0");
+    }
+    const gaze::GazeTrace trace = value_or_throw(read_trace(folder.recording("eye1", json, rows)));
+    EXPECT_EQ(trace.samples[30].eyes[0].origin_m, glm::dvec3(0.0));
+    EXPECT_THAT(
+        told(trace, gaze::TraceFindingKind::BadCells),
+        ElementsAre(HasSubstr("31: left eye's place: column 'origin_x_m': 'n/a'"),
+                    HasSubstr("31: left eye's openness"), HasSubstr("31: left eye's confidence")));
+}
+
+TEST(Bids, OfAFolderNamesARecording) {
+    BidsFolder folder;
+    const std::string file = folder.recording("eye1", physio("left"), eye_rows(4));
+    const std::string root =
+        std::filesystem::path(file).parent_path().parent_path().parent_path().string();
+    EXPECT_THAT(refusal(root), HasSubstr("name a recording, " + file));
 }
 
 TEST(Bids, WarnsWhereTheEyesTimesDoNotMatch) {

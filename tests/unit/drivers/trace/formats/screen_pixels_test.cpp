@@ -115,6 +115,27 @@ TEST(ScreenPixels, GuessesNothingInSilence) {
                                          "\"x and y are 0,0\" is known"));
 }
 
+TEST(ScreenPixels, TakesMarksOfLossesForNoGaze) {
+    for (const std::string_view mark :
+         {"0,0", "-1,-1", "-32768,-32768", "1e8,300", "500,1e9", "-32768,300"}) {
+        RecordingFolder folder;
+        std::string rows = "t_ms,x_px,y_px\n";
+        for (int i = 0; i < 200; ++i) {
+            rows += i % 10 == 3 ? fmt::format("{},{}\n", 2 * i, mark)
+                                : fmt::format("{},{},{}\n", 2 * i, 300 + i, 200 + i);
+        }
+        const std::string file = folder.write("a.csv", rows);
+        folder.write("a.json", R"({"screen_size_m": [0.4, 0.3], "screen_px": [1000, 600],
+                                   "view_distance_m": 0.5})");
+        const gaze::GazeTrace trace = value_or_throw(read_trace(file));
+        EXPECT_EQ(trace.report.valid[0], 180U) << mark;
+        EXPECT_EQ(trace.report.count(gaze::TraceFindingKind::BadCells).rows, 40U) << "both eyes";
+        EXPECT_THAT(told(trace, gaze::TraceFindingKind::BadCells)[0],
+                    HasSubstr("as trackers mark losses (20 rows"));
+        EXPECT_TRUE(trace.report.worth_a_warning());
+    }
+}
+
 TEST(ScreenPixels, IsRefusedFromAStream) {
     std::istringstream in("t_ms,x_px,y_px\n0,1,2\n");
     const auto trace = read_trace(in, "stdin");

@@ -52,6 +52,43 @@ TEST(TobiiGlasses3, TurnsLeftForwardAxesIntoOurs) {
     expect_anatomy(trace);
 }
 
+/// JSON has no such numbers, programs write them all the same.
+TEST(TobiiGlasses3, TakesNumbersThatJsonLacks) {
+    for (const std::string_view odd : {"NaN", "-Infinity", "Infinity", "1e999", "-nan", "inf"}) {
+        RecordingFolder folder;
+        const std::string file = folder.write(
+            "gazedata",
+            both_eyes(0.0) +
+                gaze_line(0.01, fmt::format(R"("eyeleft":{{"gazedirection":[0,{},1]}},{})", odd,
+                                            kRightEye)) +
+                gaze_line(0.02, fmt::format(R"({},"eyeright":{{"gazeorigin":[-31.8,-9.4,-25.9],)"
+                                            R"("gazedirection":[0,0,1],"pupildiameter":{}}})",
+                                            kLeftEye, odd)) +
+                both_eyes(0.03));
+        const gaze::GazeTrace trace = value_or_throw(read_trace(file));
+        ASSERT_EQ(trace.samples.size(), 4U) << odd;
+        EXPECT_FALSE(trace.samples[1].eyes[0].valid) << odd;
+        EXPECT_TRUE(trace.samples[1].eyes[1].valid) << odd;
+        EXPECT_TRUE(trace.samples[2].eyes[1].valid) << odd << ": nobody asks for the diameter";
+        EXPECT_THAT(told(trace, gaze::TraceFindingKind::BadCells),
+                    ElementsAre(HasSubstr("2: left eye: 'gazedirection'")))
+            << odd;
+        EXPECT_EQ(trace.report.rows_dropped(), 0U);
+    }
+    RecordingFolder folder;
+    EXPECT_THAT(refusal(folder.write("gazedata", both_eyes(0.0) + "{\"a\":abc}\n")),
+                HasSubstr("no JSON object"));
+}
+
+TEST(TobiiGlasses3, CountsPlacesThatAreMissing) {
+    RecordingFolder folder;
+    const std::string file = folder.write(
+        "gazedata", both_eyes(0.0) + gaze_line(0.01, R"("eyeleft":{"gazedirection":[0,0,1]})") +
+                        both_eyes(0.02));
+    EXPECT_THAT(told(value_or_throw(read_trace(file)), gaze::TraceFindingKind::BadCells),
+                ElementsAre(HasSubstr("2: left eye's place: 'gazeorigin'")));
+}
+
 TEST(TobiiGlasses3, MixesTypesAndLosesEyes) {
     RecordingFolder folder;
     const std::string file = folder.write(
