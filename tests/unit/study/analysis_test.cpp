@@ -181,23 +181,6 @@ TEST(ResponsesFile, ReadsBackWhatItWroteAndRefusesTheRest) {
     EXPECT_THAT(gather(plan, twice).error().message, HasSubstr("subject 3's answer to trial 7"));
 }
 
-TEST(PrivateFile, IsAFileOrWhereALinkLeads) {
-    const tests::TemporaryFolder folder;
-    const std::filesystem::path file = folder / "a.csv";
-    const std::filesystem::path link = folder / "link.csv";
-    ASSERT_TRUE(write_private(file, "before"));
-    std::filesystem::create_symlink(file, link);
-    ASSERT_TRUE(write_private(link, "after"));
-    EXPECT_TRUE(std::filesystem::is_symlink(link));
-    std::ifstream in(file);
-    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "after");
-    EXPECT_THAT(write_private(folder.path(), "x").error().message, HasSubstr("is no file"));
-    std::filesystem::create_symlink("/dev/null", folder / "null");
-    EXPECT_THAT(write_private(folder / "null", "x").error().message, HasSubstr("is no file"));
-    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
-    EXPECT_FALSE(write_private(folder / "none" / "a.csv", "x"));
-}
-
 // What study analyse --r-csv wrote has lines of persons, too.
 TEST(Forget, RemovesLinesForR) {
     const Plan& plan = *published_plan("f3d-pair");
@@ -205,7 +188,8 @@ TEST(Forget, RemovesLinesForR) {
     const std::filesystem::path file = folder / "r.csv";
     const std::vector<Response> answers{response(1, 0, {9.0}, Answer::Same),
                                         response(11, 0, {9.0}, Answer::Same)};
-    ASSERT_TRUE(write_private(file, decisions_csv(analyse(plan, answers), answers)));
+    ASSERT_TRUE(
+        files::write_text(file, decisions_csv(analyse(plan, answers), answers), files::kOwnerOnly));
     const std::vector<std::filesystem::path> files{file};
     const auto said = forget(1, files);
     ASSERT_TRUE(said) << said.error().message;
