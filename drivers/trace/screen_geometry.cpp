@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <glm/common.hpp>
 
 namespace gazeloop::drivers {
@@ -36,13 +37,17 @@ glm::dvec3 ScreenGeometry::direction(const glm::dvec2& point_px) const {
 }
 
 std::string_view ScreenGeometry::loss_at(const glm::dvec2& point_px) const {
-    constexpr double kScreens = 4.0;
+    constexpr double kScreens = 20.0;
     if (point_px == glm::dvec2{0.0} || point_px == glm::dvec2{-1.0}) {
         return "x and y are 0,0 or -1,-1, as trackers mark losses";
     }
+    const auto is_mark = [](double coordinate_px) {
+        const double whole_px = std::floor(coordinate_px);
+        return whole_px == -32768.0 || whole_px == -9999.0;
+    };
     const glm::dvec2 off = glm::abs(point_px / size_px - 0.5);
-    return off.x > kScreens + 0.5 || off.y > kScreens + 0.5
-               ? "a point more than 4 screens off the screen, as trackers mark losses"
+    return is_mark(point_px.x) || is_mark(point_px.y) || off.x > kScreens || off.y > kScreens
+               ? "x or y is -32768, -9999 or more than 20 screens off, as trackers mark losses"
                : std::string_view{};
 }
 

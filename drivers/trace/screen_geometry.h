@@ -24,9 +24,9 @@ struct ScreenGeometry {
 
     /// Toward a point of the screen or beside it, not of unit length. Pixel centres are at +.5.
     [[nodiscard]] glm::dvec3 direction(const glm::dvec2& point_px) const;
-    /// Why a point is no place that somebody looked at but a mark of a loss, or a damaged number;
-    /// empty where it may be one. Trackers write losses as 0,0 or -1,-1, which are no gaze but by
-    /// chance, or as numbers far off, -32768 or 1e8: more than 4 screens beyond its edge.
+    /// Why a point is no place that somebody looked at but a mark of a loss; empty where it may be
+    /// one. Trackers write losses as 0,0 or -1,-1, which are no gaze but by chance, or as numbers
+    /// far off: -32768, -9999 or 1e8. What their noise makes of a blink lies up to 10 screens off.
     [[nodiscard]] std::string_view loss_at(const glm::dvec2& point_px) const;
     [[nodiscard]] double distance_m() const { return -middle_m.z; }
 };

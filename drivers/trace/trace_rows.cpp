@@ -133,11 +133,13 @@ void TraceRows::settle_negative_numbers() {
         return;
     }
     const std::optional<std::uint64_t> range = sequence_.range(rows_);
+    std::optional<std::uint64_t> first_line;
     for (RowClock& row : builder_.clocks()) {
         if (!row.sequence || !SignedCounts::is_negative(*row.sequence)) {
             continue;
         }
         if (range) {
+            first_line = first_line.value_or(row.line);
             row.sequence = *row.sequence + *range;
         } else {
             row.sequence.reset();
@@ -145,6 +147,16 @@ void TraceRows::settle_negative_numbers() {
                 return fmt::format("{} is no whole number from 0 on", sequence_.first_negative());
             });
         }
+    }
+    if (first_line) {
+        builder_.report().add(
+            {.kind = gaze::TraceFindingKind::SequenceRestarted,
+             .line = *first_line,
+             .rows = 1,
+             .text =
+                 fmt::format("{}: the numbers of a counter with a sign: counted on by adding {} "
+                             "to those below 0",
+                             sequence_.first_negative(), *range)});
     }
 }
 

@@ -132,6 +132,30 @@ TEST(RecordedEvents, TakeRowsThatAreMissingForALoss) {
     EXPECT_TRUE(lost);
 }
 
+/// A made trace steps from one sample to the next: 0 ms and 0 deg are no sizes.
+TEST(RecordedEvents, SayNothingOfTheSizeOfAnInstantSaccade) {
+    constexpr std::int64_t kStep_ns = 400'000'000;
+    std::vector<RecordedEvent> events;
+    for (std::int64_t i = 0; i < 4; ++i) {
+        events.push_back({.event = EyeEvent::Fixation,
+                          .begin_ns = i * kStep_ns,
+                          .end_ns = (i + 1) * kStep_ns,
+                          .samples = 48});
+        events.push_back({.event = EyeEvent::Saccade,
+                          .begin_ns = (i + 1) * kStep_ns,
+                          .end_ns = (i + 1) * kStep_ns,
+                          .samples = 1,
+                          .peak_deg_per_s = 1'228.0});
+    }
+    events.push_back(
+        {.event = EyeEvent::Fixation, .begin_ns = 4 * kStep_ns, .end_ns = 5 * kStep_ns});
+    const EventStatistics statistics = event_statistics(events);
+    EXPECT_EQ(statistics.saccades.count, 4U);
+    EXPECT_EQ(statistics.instant_saccades, 4U);
+    EXPECT_FALSE(statistics.saccades.duration_ms.has_value());
+    EXPECT_FALSE(statistics.saccade_amplitude_deg.has_value());
+}
+
 TEST(RecordedEvents, DoWithoutSamplesAndTimes) {
     EXPECT_TRUE(recorded_events({}).empty());
     Made made;

@@ -117,7 +117,7 @@ TEST(ScreenPixels, GuessesNothingInSilence) {
 
 TEST(ScreenPixels, TakesMarksOfLossesForNoGaze) {
     for (const std::string_view mark :
-         {"0,0", "-1,-1", "-32768,-32768", "1e8,300", "500,1e9", "-32768,300"}) {
+         {"0,0", "-1,-1", "-32768,-32768", "1e8,300", "500,1e9", "-32768,300", "300,-9999"}) {
         RecordingFolder folder;
         std::string rows = "t_ms,x_px,y_px\n";
         for (int i = 0; i < 200; ++i) {
