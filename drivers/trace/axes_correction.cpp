@@ -200,9 +200,15 @@ std::string odd_part(std::span<const gaze::GazeSample> samples, const gaze::Anat
 struct BehindHead {
     gaze::PerEye<std::uint64_t> eyes{};
     std::uint64_t rows = 0;
-    std::uint64_t without_gaze = 0;  ///< of them, those without another eye
     std::uint64_t first_line = 0;
-    std::uint64_t samples = 0;  ///< with gaze, behind or not
+    std::uint64_t samples = 0;                     ///< with gaze, behind or not
+    gaze::PerEye<std::uint64_t> all_directions{};  ///< behind or not
+
+    /// One eye's axes are others all along, and the other's are not.
+    [[nodiscard]] bool is_one_eye() const {
+        return (eyes[0] == all_directions[0] && eyes[1] == 0) ||
+               (eyes[1] == all_directions[1] && eyes[0] == 0);
+    }
 };
 
 /// No eye turns so far: what points there is invalid.
@@ -214,6 +220,7 @@ BehindHead take_out_behind(gaze::GazeTrace& trace) {
         bool any = false;
         for (const gaze::Eye eye : gaze::kEyes) {
             gaze::EyeRay& ray = eyes[gaze::index(eye)];
+            behind.all_directions[gaze::index(eye)] += ray.valid ? 1 : 0;
             if (ray.valid && ray.direction.z > 0.0) {
                 ray.valid = false;
                 ++behind.eyes[gaze::index(eye)];
@@ -223,7 +230,6 @@ BehindHead take_out_behind(gaze::GazeTrace& trace) {
         if (!any) {
             continue;
         }
-        behind.without_gaze += eyes[0].valid || eyes[1].valid ? 0 : 1;
         if (behind.rows++ == 0 && !trace.lines.empty()) {
             behind.first_line = trace.lines[i];
         }
@@ -250,13 +256,15 @@ Expected<void> report_behind(gaze::GazeTrace& trace, const BehindHead& behind,
     if (behind.rows == 0) {
         return {};
     }
-    if (!accept_repairs && behind.without_gaze * kRowsPerRepair > behind.samples) {
+    const std::uint64_t all = behind.all_directions[0] + behind.all_directions[1];
+    if (!accept_repairs && (behind.eyes[0] + behind.eyes[1]) * kRowsPerRepair > all &&
+        !behind.is_one_eye()) {
         return std::unexpected(Error{
             ErrorKind::BadInput,
-            fmt::format("{}: in {} of {} rows all gaze points behind the head (+Z), the first of "
+            fmt::format("{}: in {} of {} rows gaze points behind the head (+Z), the first of "
                         "them here; turn the Z axis of these rows, or --accept-repairs plays the "
                         "others",
-                        at_line(trace, behind.first_line), behind.without_gaze, behind.samples)});
+                        at_line(trace, behind.first_line), behind.rows, behind.samples)});
     }
     trace.report.add(
         {.kind = gaze::TraceFindingKind::BehindHead,

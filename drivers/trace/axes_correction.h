@@ -34,7 +34,8 @@ void correct_axes(std::span<gaze::GazeSample> samples, AxesCorrection correction
 /// counted (BehindHead), by trace.lines where they are known.
 ///
 /// Errors (BadInput): half of the gaze or more points behind the head, and the correction that
-/// would help is named; unless repairs are accepted, a tenth of the samples has all gaze there.
+/// would help is named; unless repairs are accepted, more than a tenth of the
+/// directions points there, and not all of one eye's.
 [[nodiscard]] Expected<void> hold_against_anatomy(gaze::GazeTrace& trace, AxesCorrection correction,
                                                   bool accept_repairs = false);
 

@@ -18,8 +18,8 @@ namespace {
 /// back exactly.
 constexpr double kUnitTolerance = 1e-9;
 
-/// Directions further off unit length are more than rounded.
-constexpr double kLengthTolerance = 0.01;
+/// Directions further off unit length are more than rounded to a few digits.
+constexpr double kLengthTolerance = 0.05;
 
 constexpr double kUnknown = -1.0;
 

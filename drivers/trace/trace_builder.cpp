@@ -88,7 +88,10 @@ Expected<void> check_repairs(const std::string& file, const gaze::TraceReport& r
                         "here; --accept-repairs plays the others",
                         file, line, dropped, rows, reasons(report)));
     }
-    if (not_understood.rows * kRowsPerRepair > rows) {
+    // A few cells refuse no file, however short.
+    constexpr std::uint64_t kFewestNotUnderstood = 16;
+    if (not_understood.rows >= kFewestNotUnderstood &&
+        not_understood.rows * kRowsPerRepair > rows) {
         const auto cells = std::ranges::find(report.findings(), TraceFindingKind::BadCells,
                                              &gaze::TraceFinding::kind);
         return bad_input(fmt::format(

@@ -67,8 +67,8 @@ class TraceBuilder {
     /// The trace. Leaves nothing behind. Errors (BadInput), with file and line: no row was added;
     /// none has a readable time, or all have the same; no used row has a valid eye; it is longer
     /// than a year. Unless options.accept_repairs also: more than a tenth of the rows is dropped,
-    /// or has no gaze because its cells are not understood, or a clock was set at more than a tenth
-    /// of them; a gap is longer than all the rest.
+    /// or has no gaze because its cells are not understood (16 rows or more), or a clock was set at
+    /// more than a tenth of them; a gap is longer than all the rest.
     [[nodiscard]] Expected<gaze::GazeTrace> finish(const ReadOptions& options);
 
   private:

@@ -178,8 +178,8 @@ TEST(HoldAgainstAnatomy, RefusesWhereATenthOfTheGazeIsBehindTheHead) {
         return result ? std::string{} : result.error().message;
     };
     EXPECT_EQ(held(40, false), "");
-    EXPECT_THAT(held(41, false), HasSubstr("gaze.csv:361: in 41 of 400 rows all gaze points behind "
-                                           "the head (+Z), the first of them here; "));
+    EXPECT_THAT(held(41, false), HasSubstr("gaze.csv:361: in 41 of 400 rows gaze points behind the "
+                                           "head (+Z), the first of them here; "));
     EXPECT_EQ(held(41, true), "");
     EXPECT_EQ(held(199, true), "");
     EXPECT_THAT(held(200, true), HasSubstr("50 % of the gaze points behind the head"));

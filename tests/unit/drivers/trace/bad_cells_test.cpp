@@ -298,21 +298,22 @@ TEST(BadCells, TakeMinusSignsOfWordProcessors) {
 TEST(BadCells, RefuseAFileOfWhichTooManyAreNotUnderstood) {
     const auto rows = [](int odd) {
         std::string text;
-        for (int i = 0; i < 40; ++i) {
+        for (int i = 0; i < 400; ++i) {
             text += fmt::format("{0},{1},,{2},0,0,-1,,,,,,{2},0,0,-1,,,,,,,,,,,,\n", i,
                                 i * 10'000'000LL, i >= 10 && i < 10 + odd ? "oui" : "1");
         }
         return fmt::format("{}\n{}", kNativeHeader, text);
     };
-    const auto few = read_text(rows(4));
+    const auto few = read_text(rows(40));
     ASSERT_TRUE(few) << few.error().message;
     EXPECT_TRUE(few->report.worth_a_warning());
-    EXPECT_EQ(read_text(rows(5)).error().message,
-              "gaze.csv:12: 5 of 40 rows have no gaze that is understood, the first of them here "
-              "(left eye: column 'left_valid': 'oui' does not say whether the eye is valid (5 rows "
-              "with such cells: the eye is invalid there)); mend these cells, or --accept-repairs "
-              "plays the other rows");
-    std::istringstream in(rows(5));
+    EXPECT_EQ(
+        read_text(rows(41)).error().message,
+        "gaze.csv:12: 41 of 400 rows have no gaze that is understood, the first of them here "
+        "(left eye: column 'left_valid': 'oui' does not say whether the eye is valid (41 rows "
+        "with such cells: the eye is invalid there)); mend these cells, or --accept-repairs "
+        "plays the other rows");
+    std::istringstream in(rows(41));
     EXPECT_TRUE(read_trace(in, "gaze.csv", {.accept_repairs = true}));
 }
 
