@@ -17,7 +17,7 @@ struct InterleavedSettings {
     bool follow = true;
     bool hold = true;
     bool refill = true;
-    std::string sharp = "disc";
+    std::string sharp = "nothing";
 };
 
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(InterleavedSettings& interleaved);
