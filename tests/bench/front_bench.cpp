@@ -186,8 +186,13 @@ std::vector<Figure> front(const Options& options) {
         }
         // From better than the published point to much fewer samples.
         const std::vector<trade::SweepPoint> points{
-            published_kfr(),         interleaved("1.4", "4"), interleaved("1.8", "4"),
-            interleaved("1.4", "8"), interleaved("1.8", "8"), interleaved("2.2", "8")};
+            published_kfr(),
+            interleaved("1.8", "4"),
+            interleaved("1.4", "8"),
+            interleaved("1.8", "8"),
+            interleaved("1.8", "8", {{"interleaved.disc_every", "2"}}),
+            interleaved("2.2", "8"),
+            interleaved("2.2", "8", {{"interleaved.disc_every", "2"}})};
         LossByFrame by_frame;
         const auto sheets = swept(context, question(display, options, gaze), points,
                                   [&](const trade::ComparedFrame& frame) { by_frame.add(frame); });
