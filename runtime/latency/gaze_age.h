@@ -61,7 +61,7 @@ struct ShownFrame {
 
 /// How old the gaze was in one frame.
 struct GazeAge {
-    time::Span at_latch;    ///< sampled -> latch
+    time::Span at_latch;  ///< sampled -> latch
     /// at_latch, had the gaze been read as the frame began: as old then, and older by the time from
     /// there to the latch. What latching late gains is the difference.
     time::Span read_at_begin;
