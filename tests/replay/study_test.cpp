@@ -182,7 +182,7 @@ TEST_F(StudyProgram, ShowsScenesByTurnsAndCarriesTheViewer) {
     const nlohmann::json result = nlohmann::json::parse(analysed.out);
     EXPECT_EQ(result["cells"].size(), 8U);
     for (const nlohmann::json& cell : result["cells"]) {
-        EXPECT_EQ(cell["trials"], 2);
+        EXPECT_EQ(cell["trials"], 1);  // each subject's first session has one of the scenes
     }
     EXPECT_EQ(result["thresholds"].size(), 4U);
     // One session has one scene.
