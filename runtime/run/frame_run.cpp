@@ -492,7 +492,8 @@ class FrameRun {
         const bool live = request_.clock == RunClock::Wall && !result_.fixed_in_head;
         const bool silent = report.gaze.received == 0 && failure_ != ErrorKind::Interrupted;
         if (silent && !tracker_fault_.why().empty()) {
-            fail(ErrorKind::NoDevice, "no gaze came: " + tracker_fault_.why());
+            fail(ErrorKind::NoDevice, fmt::format("no gaze came: {}; {}", tracker_fault_.why(),
+                                                  no_gaze_remedy(request_.gaze)));
         } else if (silent && live && request_.from_device && !request_.openxr_gaze) {
             fail(ErrorKind::NoDevice, fmt::format("no gaze came from --gaze {}: {}", request_.gaze,
                                                   no_gaze_remedy(request_.gaze)));

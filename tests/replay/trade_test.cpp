@@ -252,8 +252,8 @@ TEST(Trade, RefusesWhatItCannotSweep) {
              {{"--scenes", "raymarch,raymarch"}, 2, "has raymarch twice"},
              {{"--gaze", "0,0", "--gaze", "0,0"}, 2, "--gaze 0,0 is there twice"},
              {{"--scene", "raymarch", "--scenes", "gallery"}, 2, "--scenes excludes --scene"},
-             {{"--merge", "j", "--methods", "kfr"}, 2, "--merge excludes --methods"},
-             {{"--merge", "j", "--metric", "flip"}, 2, "--merge excludes --metric"},
+             {{"--merge", "j", "--methods", "kfr"}, 2, "--methods excludes --merge"},
+             {{"--merge", "j", "--metric", "flip"}, 2, "--metric excludes --merge"},
              {{"--merge", "j", "--spp", "2"}, 2, "--merge excludes --spp"},
              {{"--budget-ms", "0"}, 2, "--budget-ms"},
          }) {
