@@ -18,8 +18,8 @@ namespace gazeloop::methods {
 /// Names of the methods that can be rendered.
 [[nodiscard]] std::vector<std::string> rendered_methods();
 
-/// Whether a setting of rows_of() decides a method's pictures. Of another's settings a method may use
-/// some: those of kfr are interleaved's, too.
+/// Whether a setting of rows_of() decides a method's pictures. Of another's settings a method may
+/// use some: those of kfr are interleaved's, too.
 [[nodiscard]] bool is_setting_of(const settings::SettingRow& row, const Method& method);
 [[nodiscard]] bool is_setting_of(std::string_view key, std::string_view method);
 

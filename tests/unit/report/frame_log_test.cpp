@@ -191,7 +191,8 @@ TEST(FrameCsv, LeavesUnknownCellsEmptyAndIsExact) {
                          "gaze_age_uncertainty_ms,stage_tracker_ms,"))
         << head;
     EXPECT_THAT(head, HasSubstr(",gaze_error_at_display_degrees,"));
-    EXPECT_TRUE(first.starts_with("3,30000000,43000000,tracking,,5.000001,6.000001,18.000001,,3.000001,"))
+    EXPECT_TRUE(
+        first.starts_with("3,30000000,43000000,tracking,,5.000001,6.000001,18.000001,,3.000001,"))
         << first;
     EXPECT_TRUE(second.starts_with("4,40000000,,,,,,,,,")) << second;
     EXPECT_TRUE(third.starts_with("6,,,tracking,,,,,,3.000000,,")) << third;
