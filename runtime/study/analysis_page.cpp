@@ -53,16 +53,23 @@ std::string key_of(const StudyResult& result) {
     return html + "</p>\n";
 }
 
+/// A mark in the middle of each level's place.
+std::vector<SvgPlot::Mark> level_marks(const Factor& factor) {
+    std::vector<SvgPlot::Mark> marks;
+    marks.reserve(factor.levels.size());
+    for (std::size_t level = 0; level < factor.levels.size(); ++level) {
+        marks.push_back(
+            {static_cast<double>(level) + 0.5, fmt::format("{:g}", factor.levels[level])});
+    }
+    return marks;
+}
+
 /// The papers' bars: a group per level, a bar per condition.
 std::string bars(const StudyResult& result) {
     const Plan& plan = *result.plan;
     const Factor& factor = plan.factors.front();
     const auto conditions = static_cast<double>(plan.conditions());
-    std::vector<SvgPlot::Mark> marks;
-    for (std::size_t level = 0; level < factor.levels.size(); ++level) {
-        marks.push_back(
-            {static_cast<double>(level) + 0.5, fmt::format("{:g}", factor.levels[level])});
-    }
+    const std::vector<SvgPlot::Mark> marks = level_marks(factor);
     SvgPlot plot(yes_name(plan) + ", with standard error over subjects", 0.0,
                  static_cast<double>(factor.levels.size()), 1.0, marks, factor.name,
                  yes_name(plan));
@@ -73,7 +80,8 @@ std::string bars(const StudyResult& result) {
             continue;
         }
         const std::size_t condition = cell % plan.conditions();
-        const auto level = static_cast<double>(cell / plan.conditions());
+        const std::size_t place = cell / plan.conditions();
+        const auto level = static_cast<double>(place);
         const double width = 0.84 / conditions;
         const double from = level + 0.08 + width * static_cast<double>(condition);
         plot.bar(from, from + 0.9 * width, one.subjects_mean, plot_colour(condition),
@@ -165,11 +173,7 @@ std::string histogram(const StudyResult& result) {
         }
     }
     const double most = std::max(std::ceil(std::ranges::max(counts) / 5.0) * 5.0, 5.0);
-    std::vector<SvgPlot::Mark> marks;
-    for (std::size_t level = 0; level < counts.size(); ++level) {
-        marks.push_back(
-            {static_cast<double>(level) + 0.5, fmt::format("{:g}", factor.levels[level])});
-    }
+    const std::vector<SvgPlot::Mark> marks = level_marks(factor);
     SvgPlot plot("Subjects' thresholds: " + rule_name(result.plan->design), 0.0,
                  static_cast<double>(counts.size()), most, marks, factor.name, "thresholds");
     for (std::size_t level = 0; level < counts.size(); ++level) {

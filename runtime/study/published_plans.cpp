@@ -1,6 +1,7 @@
 #include "runtime/study/published_plans.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gazeloop::study {
 namespace {
@@ -8,10 +9,10 @@ namespace {
 /// First, first + step, ...
 std::vector<double> levels(double first, double step, int count) {
     std::vector<double> list;
+    list.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
         // In whole hundredths, so that 1.2 + 3 * .2 is the double that 1.8 is.
-        list.push_back(static_cast<double>(static_cast<long>((first + step * i) * 100.0 + 0.5)) /
-                       100.0);
+        list.push_back(std::round((first + step * i) * 100.0) / 100.0);
     }
     return list;
 }

@@ -101,6 +101,7 @@ std::vector<PublishedResult> against_published(const Plan& plan, const Simulated
     }
     if (plan.design == Design::SameDifferent && plan.conditions() > 1) {
         std::vector<double> shares;
+        shares.reserve(found.cells.size());
         for (const CellResult& cell : found.cells) {
             shares.push_back(cell.yes.share);
         }

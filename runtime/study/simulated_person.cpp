@@ -23,7 +23,7 @@ void SimulatedPerson::see(const Shown& shown, const Trial& trial) {
 
 Press SimulatedPerson::answer(const Shown& shown, const Trial& trial, unsigned attempt,
                               double hours) {
-    const std::uint64_t look = trial.number * kLooksPerTrial + attempt * 64U;
+    const std::uint64_t look = trial.number * kLooksPerTrial + std::uint64_t{attempt} * 64U;
     Press press = Press::Same;
     switch (plan_.design) {
         case Design::SameDifferent:

@@ -46,7 +46,7 @@ SimulatedSubject simulate_subject(const Plan& plan, const SimulatedPeople& peopl
         if (shown.screen == Screen::Rest) {
             now += ns(plan.rest_s);
             rested += ns(plan.rest_s);
-            (void)clock.press(now, Press::GoOn);
+            value_or_throw(clock.press(now, Press::GoOn));
             continue;
         }
         const Trial& trial = *queue.next();
@@ -59,7 +59,7 @@ SimulatedSubject simulate_subject(const Plan& plan, const SimulatedPeople& peopl
         }
         now += ns(plan.answer_s);
         const double hours = static_cast<double>(now - rested) / kNsPerHour;
-        (void)clock.press(now, person.answer(shown, trial, queue.attempt(), hours));
+        value_or_throw(clock.press(now, person.answer(shown, trial, queue.attempt(), hours)));
         for (Response& response : clock.take_responses()) {
             result.responses.push_back(std::move(response));
         }

@@ -111,7 +111,7 @@ TEST(Analysis, LeavesOutWhoFailsTooManyValidations) {
     EXPECT_FALSE(result.subjects[0].excluded);
     EXPECT_TRUE(result.subjects[1].excluded);
     EXPECT_EQ(result.subjects[1].failed, 2U);
-    EXPECT_EQ(result.cells[6 * 4].yes.trials, 4U);
+    EXPECT_EQ(result.cells[std::size_t{6} * 4].yes.trials, 4U);
     EXPECT_THAT(analysis_text(result),
                 HasSubstr("left out: subject 2, 2 of 4 validation trials failed"));
     EXPECT_THAT(decisions_csv(result, answers), Not(HasSubstr("\n2,")));
