@@ -166,8 +166,10 @@ std::string gaze_text(const gaze::GazeTrace& trace, const GazeFindings& findings
                                                   percent(found.with_head, all))
                                     : std::string("not recorded"));
     const std::optional<std::uint64_t> lost = lost_by_tracker(trace, found);
-    row("lost", lost ? fmt::format("{} by the tracker", *lost)
-                     : std::string("unknown: no sequence numbers that count all along"));
+    const bool anew = trace.report.count(gaze::TraceFindingKind::SequenceRestarted).times > 0;
+    row("lost", lost   ? fmt::format("{} by the tracker", *lost)
+                : anew ? std::string("unknown where the sequence begins anew")
+                       : std::string("unknown: no sequence numbers that count"));
     return trace.report.rows > 0 ? text + findings_text(trace.report) : text;
 }
 
