@@ -15,6 +15,8 @@ class AnswerActions final : public present::ButtonSource {
     /// The session's action sets must not be attached yet; it must outlive this. Throws SetupError
     /// (NoDevice) where the runtime takes none of the bindings.
     explicit AnswerActions(openxr::Session& session);
+    AnswerActions(const AnswerActions&) = delete;
+    AnswerActions& operator=(const AnswerActions&) = delete;
     ~AnswerActions() override;
 
     /// Throws SetupError (SessionLost) when the runtime is gone.
