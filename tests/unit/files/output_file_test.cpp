@@ -10,7 +10,9 @@
 #include <unistd.h>
 
 #include <cstring>
+#include <fstream>
 #include <functional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -100,6 +102,26 @@ TEST(OutputFile, LeavesADeviceThatCannotBeWritten) {
         ASSERT_FALSE(written.has_value()) << name;
         EXPECT_THAT(written.error().message, HasSubstr("No space left on device")) << name;
         EXPECT_TRUE(std::filesystem::is_character_file(full)) << name;
+    }
+}
+
+TEST(OutputFile, ReplacesNoRecording) {
+    constexpr std::string_view kBegin{"SQLite format 3\0gaze", 20};
+    for (const auto& [name, write] : kWriters) {
+        const tests::TemporaryFolder folder;
+        const std::filesystem::path recording = folder / "session.png";
+        std::ofstream(recording, std::ios::binary) << kBegin;
+        std::ofstream(folder / "session.png-wal") << "what came last";
+        std::filesystem::create_symlink(recording, folder / "link.png");
+        for (const char* file : {"session.png", "link.png"}) {
+            const auto written = write(folder / file);
+            ASSERT_FALSE(written.has_value()) << name << file;
+            EXPECT_EQ(written.error().kind, ErrorKind::BadInput);
+            EXPECT_THAT(written.error().message, HasSubstr("a recording is there")) << name;
+        }
+        EXPECT_EQ(std::filesystem::file_size(recording), kBegin.size()) << name;
+        EXPECT_FALSE(check_output(folder / "session.png-wal").has_value());
+        EXPECT_TRUE(check_output(folder / "other.png-wal").has_value());
     }
 }
 

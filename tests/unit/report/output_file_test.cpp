@@ -51,5 +51,14 @@ TEST_F(CheckApart, RefusesToWriteOverWhatIsReadByAnyName) {
     }
 }
 
+TEST_F(CheckApart, RefusesToWriteOverWhatLiesInAFolderThatIsRead) {
+    std::filesystem::create_directory(folder / "frames");
+    std::ofstream(folder / "frames" / "1.png") << "a frame";
+    const auto lost = check(folder / "frames" / "1.png", "", folder / "frames");
+    ASSERT_FALSE(lost.has_value());
+    EXPECT_EQ(lost.error().kind, ErrorKind::Usage);
+    EXPECT_TRUE(check(folder / "frames" / "new.json", "", folder / "frames").has_value());
+}
+
 }  // namespace
 }  // namespace gazeloop::report
