@@ -62,7 +62,7 @@ XrResult get_system_properties(Call<&Next::GetSystemProperties>& call, XrInstanc
 
 /// FOLDER/NAME-20250131-123456-PID[-2].gaze where a folder is named, else the file itself.
 std::filesystem::path session_file(const LayeredInstance& layered) {
-    const std::filesystem::path named = layered.configuration.values.layer.record;
+    std::filesystem::path named = layered.configuration.values.layer.record;
     std::error_code failure;
     if (!std::filesystem::is_directory(named, failure)) {
         return named;

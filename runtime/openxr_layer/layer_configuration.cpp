@@ -98,7 +98,7 @@ Expected<void> load_into(settings::Settings& settings, LayerConfiguration& confi
     if (!corrected) {
         return std::unexpected(std::move(corrected.error()));
     }
-    configuration.calibration = std::move(*corrected);
+    configuration.calibration = *corrected;
     return gaze::check(values.gaze, settings);
 }
 
@@ -115,8 +115,7 @@ HistoryPolicy policy_of(const gaze::GazeSettings& gaze) {
 /// As in a run: live directions are held against anatomy, and corrected where they can be.
 run::MakeSource dressed(run::MakeSource make, bool live,
                         std::optional<calibration::Calibration> calibration) {
-    return [make = std::move(make), live,
-            calibration = std::move(calibration)](std::int64_t start_ns) {
+    return [make = std::move(make), live, calibration](std::int64_t start_ns) {
         auto source = make(start_ns);
         if (live) {
             source = std::make_unique<drivers::AnatomySource>(std::move(source));
