@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -92,9 +93,12 @@ void add_times(SweepRow& row, const JudgedPoint& judged, const Rounds& rounds,
 SweepRow row_of(const SweepRecord& record, std::size_t at_case, std::size_t point,
                 const Rounds& rounds) {
     SweepRow row{.point = record.points[point], .error = {}, .time = {}};
-    const auto judged = std::ranges::find_if(record.judged, [&](const JudgedPoint& one) {
-        return one.of_case == at_case && one.point == point;
-    });
+    const auto judged_point = [&](std::size_t number) {
+        return std::ranges::find_if(record.judged, [&](const JudgedPoint& one) {
+            return one.of_case == at_case && one.point == number;
+        });
+    };
+    const auto judged = judged_point(point);
     if (judged == record.judged.end()) {
         row.error = "not measured yet";
         return row;
@@ -103,10 +107,12 @@ SweepRow row_of(const SweepRecord& record, std::size_t at_case, std::size_t poin
         row.error = judged->error;
         return row;
     }
-    const double full_cells =
-        2.0 * record.subject.width_px * static_cast<double>(record.subject.height_px);
+    // As they were shaded: the eyes' pictures need not be of one size.
+    const auto full = judged_point(0);
     row.cells = judged->cells;
-    row.fewer_cells = full_cells / judged->cells;
+    row.fewer_cells = full != record.judged.end() && full->error.empty()
+                          ? full->cells / judged->cells
+                          : std::numeric_limits<double>::quiet_NaN();
     row.cells_over_fewest = judged->cells / record.cases[at_case].fewest_cells;
     row.figures = judged->figures;
     row.picture = judged->picture;

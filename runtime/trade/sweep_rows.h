@@ -24,7 +24,7 @@ struct SweepRow {
     /// How much faster than full resolution with as many samples per pixel: median of the rounds'
     /// ratios, each of one machine.
     double speedup = 0.0;
-    double fewer_cells = 0.0;  ///< than full resolution
+    double fewer_cells = 0.0;  ///< than full resolution; not a number where that failed
     /// Cells over the fewest that the comparison's acuity line asks for.
     double cells_over_fewest = 0.0;
     std::vector<std::pair<std::string, double>>

@@ -42,6 +42,17 @@ TEST(SweepRows, SayWhatWasMeasured) {
     }
 }
 
+// The other eye's picture may be as small as can be.
+TEST(SweepRows, HoldSamplesAgainstThoseOfFullResolution) {
+    SweepRecord record = made_sweep();
+    record.judged[0].cells *= 0.5;
+    const std::vector<SweepRow> rows = sheets_of(record).front().rows;
+    EXPECT_DOUBLE_EQ(rows[0].fewer_cells, 1.0);
+    EXPECT_DOUBLE_EQ(rows[1].fewer_cells, 2.0);
+    record.judged[0].error = "no";
+    EXPECT_TRUE(std::isnan(sheets_of(record).front().rows[1].fewer_cells));
+}
+
 TEST(SweepRows, TellNoTimeOfAPassThatDidNotRun) {
     SweepRecord record = made_sweep();
     for (TimedTurn& turn : record.turns) {
