@@ -17,7 +17,7 @@ struct InterleavedSettings {
     bool follow = true;
     bool hold = true;
     bool refill = true;
-    std::string sharp = "nothing";
+    std::string sharp = "all";
 };
 
 [[nodiscard]] std::vector<settings::SettingRow> rows_of(InterleavedSettings& interleaved);

@@ -260,7 +260,6 @@ class CaseSweep {
                     return std::unexpected(stopped.error());
                 }
                 const auto rendered = contender.renderer->render(view(frame), fovea(frame));
-                cells += static_cast<double>(rendered.counts.shaded());
                 const render::LinearPicture picture = contender.renderer->linear_picture(eye());
                 const auto quality = comparison.compare(
                     reference_[frame], picture, case_.directions[frame][gaze::index(eye())]);
@@ -272,6 +271,7 @@ class CaseSweep {
                         {at_case_, contender.point, frame, rendered.counts.shaded(), *quality});
                 }
                 if (frame >= question_.first_judged) {
+                    cells += static_cast<double>(rendered.counts.shaded());
                     totals.add(*quality);
                 }
                 if (question_.with_pictures && frame + 1 == frames()) {
@@ -279,7 +279,7 @@ class CaseSweep {
                     judged.heat_map = small_heat_map(*quality);
                 }
             }
-            judged.cells = cells / static_cast<double>(frames());
+            judged.cells = cells / static_cast<double>(frames() - question_.first_judged);
         } catch (const SetupError& error) {
             return std::unexpected(Error{error.kind(), error.what()});
         }

@@ -33,7 +33,8 @@ struct SweepQuestion {
     std::uint32_t samples = 1;             ///< per texel or pixel
     std::uint32_t reference_samples = 16;  ///< of full resolution, which is the reference
     double frame_seconds = 1.0 / 90.0;
-    /// The first frame that counts for quality; those before are rendered and seen all the same.
+    /// The first frame that counts for quality and samples; those before are rendered and seen all
+    /// the same, and timed.
     std::size_t first_judged = 0;
     unsigned rounds = 3;  ///< of which times are the medians
     /// Its view is that of its eye. More than one frame: a sequence.

@@ -60,7 +60,7 @@ struct JudgedPoint {
     std::size_t of_case = 0;
     std::size_t point = 0;
     std::string error{};  ///< why it could not be rendered; all below is then empty
-    double cells = 0.0;   ///< shaded per frame, both eyes
+    double cells = 0.0;   ///< shaded per frame that was judged, both eyes
     std::vector<std::string> passes{};
     std::vector<quality::QualityFigure> figures{};
     std::string picture{};   ///< the last frame, small, a PNG in base64; empty: none kept

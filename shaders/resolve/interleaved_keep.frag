@@ -18,7 +18,7 @@ layout(constant_id = 11) const bool kHeld = true;  // to the cells around
 
 layout(constant_id = 12) const bool kSharp = true;  // what is kept is resampled by a spline
 
-const vec2 kStrange = vec2(0.2, 0.5);  // from which a place is held a little, and in full
+const vec2 kStrange = vec2(0.4, 0.8);  // from which a place is held a little, and in full
 
 // The four shaded places around a place.
 struct Around {

@@ -93,7 +93,7 @@ std::vector<Ingredient> ingredients() {
             {"follow", interleaved("1.8", "4", {{"interleaved.follow", "false"}})},
             {"hold", interleaved("1.8", "4", {{"interleaved.hold", "false"}})},
             {"refill", interleaved("1.8", "4", {{"interleaved.refill", "false"}})},
-            {"lines", interleaved("1.8", "4", {{"interleaved.sharp", "all"}})}};
+            {"spline", interleaved("1.8", "4", {{"interleaved.sharp", "nothing"}})}};
 }
 
 trade::SweepQuestion question(const display::DisplayProfile& display, const Options& options,

@@ -24,7 +24,7 @@ struct InterleavedConfig {
     /// What of it is resampled by Catmull and Rom's spline as it follows; the rest is bilinearly.
     enum class Sharp : std::uint8_t { Nothing, Disc, All };
     static constexpr std::array<std::string_view, 3> kSharpNames{"nothing", "disc", "all"};
-    Sharp sharp = Sharp::Nothing;
+    Sharp sharp = Sharp::All;
     bool refill = true;  ///< where nothing of use is kept, all places are shaded at once
 };
 
