@@ -35,6 +35,9 @@ trade::SweepPoint interleaved(const char* sigma, const char* every,
     return {.method = kOurs, .settings = std::move(settings)};
 }
 
+/// A disc of which half is shaded in each frame: as the picture moves, most is lost there.
+const std::vector<std::pair<std::string, std::string>> kDiscInTwo{{"interleaved.disc_every", "2"}};
+
 /// A simulated person's gaze and head, a sample for each frame of the display.
 gaze::GazeTrace person(Gaze gaze, double frame_seconds) {
     sim::GazeSimulation simulation{.seed = kSeed};
@@ -185,14 +188,13 @@ std::vector<Figure> front(const Options& options) {
             continue;
         }
         // From better than the published point to much fewer samples.
-        const std::vector<trade::SweepPoint> points{
-            published_kfr(),
-            interleaved("1.8", "4"),
-            interleaved("1.4", "8"),
-            interleaved("1.8", "8"),
-            interleaved("1.8", "8", {{"interleaved.disc_every", "2"}}),
-            interleaved("2.2", "8"),
-            interleaved("2.2", "8", {{"interleaved.disc_every", "2"}})};
+        const std::vector<trade::SweepPoint> points{published_kfr(),
+                                                    interleaved("1.4", "8", kDiscInTwo),
+                                                    interleaved("1.6", "8", kDiscInTwo),
+                                                    interleaved("1.8", "8", kDiscInTwo),
+                                                    interleaved("2", "8", kDiscInTwo),
+                                                    interleaved("1.8", "8"),
+                                                    interleaved("2.2", "8")};
         LossByFrame by_frame;
         const auto sheets = swept(context, question(display, options, gaze), points,
                                   [&](const trade::ComparedFrame& frame) { by_frame.add(frame); });
