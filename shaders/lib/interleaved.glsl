@@ -142,51 +142,50 @@ Kept kept_of(bool pixels, ivec2 place, vec2 position_px, float nearness, bool sh
     bool resampled = any(greaterThan(abs(share - whole), vec2(kOnItsCentre)));
     share = resampled ? share : whole;
     uint first_band = uint(pixels ? woven.before.y : woven.first_bands.w);
+    vec4 across = spline_weights(share.x);
+    vec4 down = spline_weights(share.y);
     vec4 sum = vec4(0.0);
     float shares = 0.0;
     float most = 0.0;
     float main_channel = 0.0;
+    vec3 splined = vec3(0.0);
+    bool whole_patch = true;
     vec3 darkest = vec3(kGreatestRadiance);
     vec3 brightest = vec3(0.0);
-    for (int tap = 0; tap < 4; ++tap) {
-        ivec2 step_to = ivec2(tap & 1, tap >> 1);
-        ivec2 cell = ivec2(corner) + step_to;
+    for (int j = sharp ? -1 : 0; j <= (sharp ? 2 : 1); ++j) {
         // Rows of the LP-buffer wrap.
-        int wrapped = cell.y < 0 ? cell.y + size.y : cell.y >= size.y ? cell.y - size.y : cell.y;
-        cell.y = pixels ? cell.y : wrapped;
-        bool within = all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, size));
-        cell = clamp(cell, ivec2(0), size - 1);
-        vec2 part = mix(1.0 - share, share, vec2(step_to));
-        vec4 held = pixels ? texelFetch(pixels_before, cell, 0) : texelFetch(texels_before, cell, 0);
-        bool seen = within && is_needed(uvec2(cell), first_band) && seen_of(held.a) > 0.0;
-        float weight = seen ? part.x * part.y : 0.0;
-        sum += weight > 0.0 ? weight * held : vec4(0.0);
-        darkest = seen ? min(darkest, held.rgb) : darkest;
-        brightest = seen ? max(brightest, held.rgb) : brightest;
-        shares += weight;
-        main_channel = weight > most ? held.a : main_channel;
-        most = max(most, weight);
+        int y = int(corner.y) + j;
+        int wrapped = y < 0 ? y + size.y : y >= size.y ? y - size.y : y;
+        y = pixels ? y : wrapped;
+        bool row_within = y >= 0 && y < size.y;
+        y = clamp(y, 0, size.y - 1);
+        ivec2 needed = ivec2(bands[first_band + (uint(y) >> 2u)]);
+        for (int i = sharp ? -1 : 0; i <= (sharp ? 2 : 1); ++i) {
+            int x = int(corner.x) + i;
+            ivec2 cell = ivec2(clamp(x, 0, size.x - 1), y);
+            vec4 held =
+                pixels ? texelFetch(pixels_before, cell, 0) : texelFetch(texels_before, cell, 0);
+            bool seen = row_within && x >= needed.x && x < needed.y && seen_of(held.a) > 0.0;
+            held = seen ? held : vec4(0.0);
+            whole_patch = whole_patch && seen;
+            splined += across[i + 1] * down[j + 1] * held.rgb;
+            if (i >= 0 && i < 2 && j >= 0 && j < 2) {
+                vec2 part = mix(1.0 - share, share, vec2(i, j));
+                float weight = seen ? part.x * part.y : 0.0;
+                sum += weight * held;
+                shares += weight;
+                main_channel = weight > most ? held.a : main_channel;
+                most = max(most, weight);
+                darkest = seen ? min(darkest, held.rgb) : darkest;
+                brightest = seen ? max(brightest, held.rgb) : brightest;
+            }
+        }
     }
     Kept kept;
     kept.radiance = sum.rgb / max(shares, 1e-6);
-    if (sharp && resampled) {
-        vec4 across = spline_weights(share.x);
-        vec4 down = spline_weights(share.y);
-        vec3 splined = vec3(0.0);
-        bool whole_patch = true;
-        for (int tap = 0; tap < 16; ++tap) {
-            ivec2 cell = ivec2(corner) + ivec2((tap & 3) - 1, (tap >> 2) - 1);
-            int wrapped = cell.y < 0 ? cell.y + size.y : cell.y >= size.y ? cell.y - size.y : cell.y;
-            cell.y = pixels ? cell.y : wrapped;
-            bool within = all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, size));
-            cell = clamp(cell, ivec2(0), size - 1);
-            vec4 held =
-                pixels ? texelFetch(pixels_before, cell, 0) : texelFetch(texels_before, cell, 0);
-            bool seen = within && is_needed(uvec2(cell), first_band) && seen_of(held.a) > 0.0;
-            whole_patch = whole_patch && seen;
-            splined += seen ? across[tap & 3] * down[tap >> 2] * held.rgb : vec3(0.0);
-        }
-        kept.radiance = whole_patch ? clamp(splined, darkest, brightest) : kept.radiance;
+    if (sharp) {
+        kept.radiance =
+            resampled && whole_patch ? clamp(splined, darkest, brightest) : kept.radiance;
     }
     kept.nearness = resampled ? sum.a / max(shares, 1e-6) : main_channel;
     kept.seen = resampled ? 1.0 : seen_of(main_channel);

@@ -45,13 +45,14 @@ Around cells_around(ivec2 place) {
         float share_x = across - float(left);
         // Rows of the LP-buffer wrap.
         y = kPixels ? y : y < 0 ? y + cells.y : y >= cells.y ? y - cells.y : y;
+        bool row_within = y >= 0 && y < cells.y;
+        y = clamp(y, 0, cells.y - 1);
+        ivec2 needed =
+            ivec2(bands[(kPixels ? uint(woven.first_bands.x) : 0u) + (uint(y) >> 2u)]);
         for (int i = 0; i < 2; ++i) {
-            ivec2 cell = ivec2(left + i, y);
-            bool within = all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, cells));
-            cell = clamp(cell, ivec2(0), cells - 1);
+            ivec2 cell = ivec2(clamp(left + i, 0, cells.x - 1), y);
             float weight = (i == 0 ? 1.0 - share_x : share_x) * (j == 0 ? 1.0 - share_y : share_y);
-            bool shaded =
-                within && is_needed(uvec2(cell), kPixels ? uint(woven.first_bands.x) : 0u);
+            bool shaded = row_within && left + i >= needed.x && left + i < needed.y;
             weight = shaded ? weight : 0.0;
             vec4 seen = kPixels ? texelFetch(pixel_cells, cell, 0) : texelFetch(texel_cells, cell, 0);
             if (weight > 0.0) {
