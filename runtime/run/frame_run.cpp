@@ -42,6 +42,7 @@
 #include "runtime/run/run_checks.h"
 #include "runtime/run/run_header.h"
 #include "runtime/run/run_monitor.h"
+#include "runtime/run/run_snapshot.h"
 #include "runtime/run/run_summary.h"
 #include "runtime/run/run_target.h"
 #include "runtime/run/run_timeline.h"
@@ -489,20 +490,16 @@ class FrameRun {
             recorder_.reset();
         }
         const latency::SummaryReport report = summary.report();
-        const bool live = request_.clock == RunClock::Wall && !result_.fixed_in_head;
-        const bool silent = report.gaze.received == 0 && failure_ != ErrorKind::Interrupted;
-        if (silent && !tracker_fault_.why().empty()) {
-            fail(ErrorKind::NoDevice, fmt::format("no gaze came: {}; {}", tracker_fault_.why(),
-                                                  no_gaze_remedy(request_.gaze)));
-        } else if (silent && live && request_.from_device && !request_.openxr_gaze) {
-            fail(ErrorKind::NoDevice, fmt::format("no gaze came from --gaze {}: {}", request_.gaze,
-                                                  no_gaze_remedy(request_.gaze)));
-        } else if (live && report.frames.total > 0 &&
-                   report.gaze.received <= report.gaze.invalid + report.gaze.out_of_order) {
-            spdlog::warn("no gaze in all {} frames: {}", report.frames.total,
-                         request_.from_device
-                             ? no_gaze_remedy(request_.gaze)
-                             : "the run ended before any had arrived, or all of it was lost");
+        const GazeAtEnd gaze{.source = request_.gaze,
+                             .from_device = request_.from_device,
+                             .by_runtime = request_.openxr_gaze.has_value(),
+                             .live = request_.clock == RunClock::Wall && !result_.fixed_in_head,
+                             .fault = tracker_fault_.why(),
+                             .report = report};
+        if (const auto why = why_no_gaze(gaze); why && failure_ != ErrorKind::Interrupted) {
+            fail(ErrorKind::NoDevice, *why);
+        } else if (const std::string warning = no_gaze_warning(gaze); !warning.empty()) {
+            spdlog::warn("{}", warning);
         }
         if (!failure_ && report.frames.rendered == 0) {
             fail(
@@ -563,35 +560,22 @@ class FrameRun {
         if (!request_.snapshot) {
             return;
         }
-        if (!snapshot_->any()) {
-            fail(ErrorKind::GateFailed,
-                 "--snapshot: no frame was rendered (a runtime asks for none at first): use more "
-                 "--frames");
+        const std::string_view full = methods::all_methods().front().name;
+        const auto files = write_run_snapshot({.context = *context_,
+                                               .scene = *scene_,
+                                               .shown = *snapshot_,
+                                               .config = config_,
+                                               .full = values_.render.method != full
+                                                           ? std::optional(make_passes(full))
+                                                           : std::nullopt,
+                                               .folder = *request_.snapshot,
+                                               .mark_fovea = request_.mark_fovea});
+        if (!files) {
+            fail(files.error().kind, files.error().message);
             return;
         }
-        try {
-            std::optional<render::OffScreen> full;
-            const std::string_view full_resolution = methods::all_methods().front().name;
-            if (values_.render.method != full_resolution) {
-                render::RendererConfig config = config_;
-                config.hash = false;
-                config.seen_depth = false;
-                // A frame by itself has no last ones.
-                config.antialiasing = {};
-                config.depth_format = vk::Format::eUndefined;
-                full.emplace(*context_, *scene_, make_passes(full_resolution), config);
-            }
-            const auto files = value_or_throw(snapshot_->write(
-                full ? &*full : nullptr,
-                {.folder = *request_.snapshot, .mark_fovea = request_.mark_fovea}));
-            for (const auto& file : files) {
-                fmt::print(out, "snapshot {}\n", file.string());
-            }
-        } catch (const SetupError& error) {
-            fail(error.kind(), error.what());
-        } catch (const vk::SystemError& error) {
-            fail(ErrorKind::SessionLost,
-                 fmt::format("--snapshot: Vulkan failed ({})", error.what()));
+        for (const auto& file : *files) {
+            fmt::print(out, "snapshot {}\n", file.string());
         }
     }
 

@@ -37,4 +37,30 @@ std::string no_gaze_remedy(std::string_view gaze) {
     return "gazeloop devices says why a tracker gives none";
 }
 
+std::optional<std::string> why_no_gaze(const GazeAtEnd& gaze) {
+    if (gaze.report.gaze.received > 0) {
+        return std::nullopt;
+    }
+    if (!gaze.fault.empty()) {
+        return fmt::format("no gaze came: {}; {}", gaze.fault, no_gaze_remedy(gaze.source));
+    }
+    if (gaze.live && gaze.from_device && !gaze.by_runtime) {
+        return fmt::format("no gaze came from --gaze {}: {}", gaze.source,
+                           no_gaze_remedy(gaze.source));
+    }
+    return std::nullopt;
+}
+
+std::string no_gaze_warning(const GazeAtEnd& gaze) {
+    const auto& counts = gaze.report.gaze;
+    if (!gaze.live || gaze.report.frames.total == 0 ||
+        counts.received > counts.invalid + counts.out_of_order) {
+        return {};
+    }
+    return fmt::format("no gaze in all {} frames: {}", gaze.report.frames.total,
+                       gaze.from_device
+                           ? no_gaze_remedy(gaze.source)
+                           : "the run ended before any had arrived, or all of it was lost");
+}
+
 }  // namespace gazeloop::run

@@ -3,27 +3,12 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/openxr/eye_gaze.h"
+#include "tests/support/small_study.h"
 
 namespace gazeloop::tests {
 namespace {
 
 using ::testing::HasSubstr;
-
-/// Two cells and a validation trial.
-constexpr const char* kPlan = R"(format = "gazeloop-study"
-version = 1
-name = "pressed"
-design = "2afc"
-method = "kfr"
-validation = 0.34
-shown_s = 0.1
-black_s = 0.02
-rest_s = 0.0
-[[factor]]
-name = "sigma"
-key = "kfr.sigma"
-levels = [1.2, 3.2]
-)";
 
 /// A button pressed every 20 frames, whatever is shown then, for as long as any run lasts.
 std::string pressed_again_and_again(const std::string& button) {
@@ -54,7 +39,7 @@ class StudyAnswers : public EyeGaze {
         return folder_.file("answers/pressed.001.001.gaze");
     }
 
-    std::string plan_ = folder_.write("plan.toml", kPlan);
+    std::string plan_ = folder_.write("plan.toml", small_study("pressed"));
 };
 
 TEST_F(StudyAnswers, AreThePressesOfAController) {
@@ -71,7 +56,7 @@ TEST_F(StudyAnswers, AreThePressesOfAController) {
 
 // Both have actions in the one session.
 TEST_F(StudyAnswers, ComeBesideTheEyeGazeOfTheSameRuntime) {
-    plan_ = folder_.write("plan.toml", std::string(kPlan) + "[gaze]\nfollow = true\n");
+    plan_ = folder_.write("plan.toml", small_study("pressed") + "[gaze]\nfollow = true\n");
     const ProgramResult result = sit(pressed_again_and_again("first"), "openxr");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     expect_no_validation_messages(result);

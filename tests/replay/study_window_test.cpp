@@ -8,28 +8,13 @@
 
 #include "tests/support/preload.h"
 #include "tests/support/run_program.h"
+#include "tests/support/small_study.h"
 #include "tests/support/x_display.h"
 
 namespace gazeloop::tests {
 namespace {
 
 using testing::HasSubstr;
-
-/// Two cells and a validation trial.
-constexpr const char* kPlan = R"(format = "gazeloop-study"
-version = 1
-name = "window"
-design = "2afc"
-method = "kfr"
-validation = 0.34
-shown_s = 0.15
-black_s = 0.02
-rest_s = 0.0
-[[factor]]
-name = "sigma"
-key = "kfr.sigma"
-levels = [1.2, 3.2]
-)";
 
 class StudyWindow : public testing::Test {
   protected:
@@ -61,7 +46,7 @@ class StudyWindow : public testing::Test {
 
     XServer server_;
     ScratchFolder folder_;
-    std::string plan_ = folder_.write("plan.toml", kPlan);
+    std::string plan_ = folder_.write("plan.toml", small_study("window"));
 };
 
 TEST_F(StudyWindow, TakesItsKeys) {
