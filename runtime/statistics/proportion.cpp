@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "runtime/statistics/distributions.h"
@@ -35,7 +36,7 @@ double mcnemar_p(std::uint64_t first_alone, std::uint64_t second_alone) {
     for (std::uint64_t k = 0; k <= fewer; ++k) {
         const auto of = static_cast<double>(k);
         sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(of + 1.0) - std::lgamma(n - of + 1.0) -
-                        n * std::log(2.0));
+                        n * std::numbers::ln2);
     }
     return std::min(2.0 * sum, 1.0);
 }

@@ -1,4 +1,5 @@
 // Four views of an application, composited by the layer for Monado, which has two.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -210,7 +211,8 @@ TEST(QuadViews, NeedNoExtensionInTheCore) {
 TEST(QuadViews, GoThroughTheLoader) {
     const std::string ours = "XR_APILAYER_GAZELOOP_gaze";
     const std::string validation = "XR_APILAYER_LUNARG_core_validation";
-    for (const std::string& loaded : {validation + ":" + ours, ours + ":" + validation}) {
+    for (const std::string& loaded :
+         {fmt::format("{}:{}", validation, ours), fmt::format("{}:{}", ours, validation)}) {
         SCOPED_TRACE(loaded);
         const ScratchFolder folder;
         const std::string recorded = folder.file("quad.gaze");

@@ -11,6 +11,7 @@ using testing::HasSubstr;
 
 std::vector<std::string> texts(const std::vector<SweepPoint>& points) {
     std::vector<std::string> list;
+    list.reserve(points.size());
     for (const SweepPoint& point : points) {
         list.push_back(point.method + ": " + point.settings_text());
     }

@@ -176,7 +176,7 @@ TEST(SettingFit, FindsTheLawsThatThePointsFollow) {
 
 TEST(SettingFit, SaysWhyThereIsNoLaw) {
     EXPECT_TRUE(setting_fits({}).empty());
-    const auto notes_of = [](std::vector<SweepRow> rows) {
+    const auto notes_of = [](const std::vector<SweepRow>& rows) {
         const std::vector<MethodFit> fits = setting_fits(rows);
         EXPECT_EQ(fits.size(), 1U);
         EXPECT_TRUE(fits.front().laws.size() < 3U);
