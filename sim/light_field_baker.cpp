@@ -109,7 +109,7 @@ Expected<std::filesystem::path> bake_light_field(
                                          folder.string() + ": interrupted, views are missing"});
         }
     }
-    const std::filesystem::path file = folder / fmt::format("views{}", scene::kLightFieldExtension);
+    std::filesystem::path file = folder / fmt::format("views{}", scene::kLightFieldExtension);
     if (auto written = files::write_text(file, scene::light_field_text(*grid)); !written) {
         return std::unexpected(written.error());
     }

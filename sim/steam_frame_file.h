@@ -58,8 +58,9 @@ class SteamFrameFile {
     ~SteamFrameFile();
 
     /// Counts up by 1 + `skipped` and stores the sample.
-    Expected<void> publish(const SteamFrameRecord& record,
-                           StoreOrder order = StoreOrder::CounterLast, std::uint32_t skipped = 0);
+    [[nodiscard]] Expected<void> publish(const SteamFrameRecord& record,
+                                         StoreOrder order = StoreOrder::CounterLast,
+                                         std::uint32_t skipped = 0);
 
     /// Whether readers may take it for ready.
     Expected<void> set_initialised(bool initialised);

@@ -276,7 +276,7 @@ void GazeSmoothing::add(const GazeSample& sample) {
         lose(now_ns);
         return;
     }
-    const auto saccade = seen_.add(now_ns, *direction);
+    const auto saccade = seen_.add(now_ns, direction);
     if (saccade && saccade->amplitude_deg >= kSmallest_deg &&
         saccade->amplitude_deg <= kLargest_deg) {
         saccades_.push_back(*saccade);

@@ -14,8 +14,8 @@ void EyeEvents::Line::add(std::int64_t time_ns, gaze::EyeEvent event) {
         return;
     }
     // Where nobody looked for long, the event before does not go on.
-    const bool after_gap =
-        !changes_.empty() && static_cast<__int128>(time_ns) - until_ns_ > 2 * kNear_ns;
+    const bool after_gap = !changes_.empty() && static_cast<__int128>(time_ns) - until_ns_ >
+                                                    static_cast<__int128>(2) * kNear_ns;
     if (after_gap && changes_.back().event != gaze::EyeEvent::Lost) {
         changes_.push_back({until_ns_ + kNear_ns, gaze::EyeEvent::Lost});
     }

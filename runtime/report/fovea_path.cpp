@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <numbers>
 
 #include "runtime/gaze/head_limits.h"
 #include "runtime/latency/duration_histogram.h"
@@ -15,7 +16,7 @@
 namespace gazeloop::report {
 namespace {
 
-constexpr double kSameView_rad = 0.01 * 3.141592653589793 / 180.0;
+constexpr double kSameView_rad = 0.01 * std::numbers::pi / 180.0;
 /// The histogram counts in nanoseconds; a nanodegree is as fine.
 constexpr double kNanodegrees = 1e9;
 constexpr double kNsPerMs = 1e6;

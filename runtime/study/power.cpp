@@ -32,6 +32,7 @@ PowerRow power_of(const Plan& plan, const SimulatedPeople& people, unsigned subj
     double rule_sum = 0.0;
     double rules = 0.0;
     std::vector<double> truths;
+    truths.reserve(plan.conditions());
     for (std::size_t condition = 0; condition < plan.conditions(); ++condition) {
         truths.push_back(plan.x_of(true_threshold(plan, people, condition)));
     }

@@ -24,6 +24,8 @@ class Person final : public PersonInput {
             before_.reset();
         }
     }
+    Person(const Person&) = delete;
+    Person& operator=(const Person&) = delete;
     ~Person() override {
         if (before_) {
             tcsetattr(STDIN_FILENO, TCSANOW, &*before_);

@@ -186,6 +186,7 @@ SweepSheet mean_sheet(const std::vector<SweepSheet>& sheets) {
     for (std::size_t at = 0; at < sheets.front().rows.size(); ++at) {
         const auto mean = [&](const auto& of_row) {
             std::vector<double> values;
+            values.reserve(sheets.size());
             for (const SweepSheet& sheet : sheets) {
                 values.push_back(of_row(sheet.rows[at]));
             }

@@ -184,8 +184,8 @@ render::Picture coarser(const render::LinearPicture& fine, std::uint32_t finer) 
         for (std::uint32_t x = 0; x < picture.width; ++x) {
             glm::vec3 sum(0.0F);
             for (std::uint32_t i = 0; i < finer * finer; ++i) {
-                sum += fine.pixels[(std::size_t{y} * finer + i / finer) * fine.width + x * finer +
-                                   i % finer];
+                sum += fine.pixels[(std::size_t{y} * finer + i / finer) * fine.width +
+                                   std::size_t{x} * finer + i % finer];
             }
             const glm::vec3 mean = sum / static_cast<float>(finer * finer);
             auto& pixel = picture.pixels.emplace_back();

@@ -37,8 +37,8 @@ class Publishing {
                       ray.openness = 0.5;
                       ray.covariance = {1e-6, 0.0, 1e-6};
                   }
-                  file.publish(sim::steam_frame_record(
-                      sim::steam_frame_gaze(sample, read_clocks().raw_ns - kAge_ns)));
+                  value_or_throw(file.publish(sim::steam_frame_record(
+                      sim::steam_frame_gaze(sample, read_clocks().raw_ns - kAge_ns))));
               }
           }) {}
 
@@ -112,7 +112,7 @@ TEST_F(SteamFrameDevice, IsReadInBothLayouts) {
 
 TEST_F(SteamFrameDevice, GivesNoOldSampleOfItsFile) {
     sim::SteamFrameFile file = service();
-    file.publish({});
+    value_or_throw(file.publish({}));
     SteamFrameSource source(options());
     until_event(source, "plugged in: Steam Frame's eye service at ");
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -125,8 +125,9 @@ TEST_F(SteamFrameDevice, CountsTheSamplesThatItMissed) {
     const auto tracker = value_or_throw(open_service(options()));
     DeviceFeed feed;
     const auto publish = [&](std::uint32_t skipped) {
-        file.publish(sim::steam_frame_record(sim::steam_frame_gaze({}, read_clocks().raw_ns)),
-                     sim::StoreOrder::CounterLast, skipped);
+        value_or_throw(
+            file.publish(sim::steam_frame_record(sim::steam_frame_gaze({}, read_clocks().raw_ns)),
+                         sim::StoreOrder::CounterLast, skipped));
         const std::uint64_t before = tracker->counts().samples;
         while (tracker->counts().samples == before) {
             value_or_throw(tracker->read(std::chrono::milliseconds(20), feed));

@@ -44,8 +44,8 @@ class Writer {
   public:
     Writer(sim::SteamFrameFile& file, double rate_hz, sim::StoreOrder order)
         : told_(new(mmap(nullptr, sizeof(Told), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
-                         -1, 0)) Told) {
-        child_ = fork();
+                         -1, 0)) Told),
+          child_(fork()) {
         if (child_ == 0) {
             write(file, rate_hz, order);
             _exit(0);
@@ -72,7 +72,7 @@ class Writer {
             time::sleep_until_ns(due_ns);
             const sim::SteamFrameRecord record = record_of(file.counter() + 1);
             const std::int64_t begin_ns = time::monotonic_ns();
-            file.publish(record, order);
+            value_or_throw(file.publish(record, order));
             if (time::monotonic_ns() - begin_ns > kSettle_ns) {
                 told_->stood_still.at(file.counter() % Told::kMost) = true;
             }
@@ -98,7 +98,7 @@ TEST_P(SteamFrameRace, GivesNoTornSample) {
     const tests::TemporaryFolder folder;
     const std::filesystem::path path = folder / "eye-server.mmap";
     sim::SteamFrameFile file = value_or_throw(sim::SteamFrameFile::create(path));
-    file.publish(record_of(1));
+    value_or_throw(file.publish(record_of(1)));
     const auto opened = value_or_throw(SharedFile::open(path.string()));
     ASSERT_TRUE(opened.has_value());
     std::uint64_t taken = 0;

@@ -179,6 +179,7 @@ TEST_F(LayerPrograms, ListTheSameExtensionsInEveryManifest) {
                          one.at("extension_version").get<std::string>());
     }
     std::vector<std::string> provided;
+    provided.reserve(std::size(openxr_layer::kProvidedExtensions));
     for (const auto& [name, version] : openxr_layer::kProvidedExtensions) {
         provided.push_back(std::string(name) + " " + std::to_string(version));
     }

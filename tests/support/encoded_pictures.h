@@ -62,7 +62,7 @@ inline std::vector<std::byte> encoded_jpeg(std::uint32_t width, std::uint32_t he
     jpeg_destroy_compress(&jpeg);
     const auto* const first = reinterpret_cast<const std::byte*>(to);
     std::vector<std::byte> bytes(first, first + size);
-    std::free(to);
+    std::free(to);  // NOLINT(cppcoreguidelines-no-malloc): as libjpeg asks
     return bytes;
 }
 

@@ -77,7 +77,8 @@ struct InterleavedUniforms {
     std::array<glm::vec4, kMaxSamples> pixel_offsets{};
 };
 static_assert(sizeof(InterleavedUniforms) ==
-              16 * std::size_t{5 + 2 * foveation::CellTurns::kMost + 2 * kMaxSamples});
+              16 * (std::size_t{5} + 2 * std::size_t{foveation::CellTurns::kMost} +
+                    2 * std::size_t{kMaxSamples}));
 
 constexpr std::size_t kMapVectors = sizeof(MapUniforms) / sizeof(glm::vec4);
 
@@ -245,7 +246,7 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
                                           cells(e, grid).height * turns(grid).block_height());
                 at.cells.at(grid) = {setup_.context, layers, kKeptFormat,
                                      Usage::eColorAttachment | Usage::eSampled};
-                bands += 2 * (InterleavedPlan::bands(cells(e, grid).height) +
+                bands += 2 * (std::size_t{InterleavedPlan::bands(cells(e, grid).height)} +
                               InterleavedPlan::bands(extent(e, grid).height));
             }
             for (auto& slot : slots_) {

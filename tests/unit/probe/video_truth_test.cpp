@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "runtime/probe/video_result.h"
@@ -127,7 +128,7 @@ TEST(VideoUncertainty, HoldsTheStatedErrorOfTheCamerasRate) {
     const std::vector<double> delays_ms{40.0, 44.0};
     const auto delays =
         probe::delay_statistics(delays_ms, {.frame_ms = 1.0, .rate_percent = 0.5, .fixed_ms = 0.3});
-    const double scatter = 12.706205 * std::sqrt(8.0) / std::sqrt(2.0);
+    const double scatter = 12.706205 * std::sqrt(8.0) / std::numbers::sqrt2;
     EXPECT_NEAR(*delays.uncertain_ms(), scatter + 0.21 + 0.3, 1e-9);
 }
 

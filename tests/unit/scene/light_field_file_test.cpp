@@ -94,8 +94,9 @@ TEST_F(LightFieldFile, ListsViewsOfAnotherSizeAndDamagedOnes) {
 }
 
 TEST_F(LightFieldFile, RefusesMoreThanMayBeTakenAndSaysWhatFits) {
-    EXPECT_EQ(refusal(6 * 4 * 2 * 4), "");
-    EXPECT_THAT(refusal(6 * 4 * 2 * 4 - 1), HasSubstr("5 views, or views of 3 px across"));
+    constexpr std::uint64_t kAllViews_bytes = std::uint64_t{6} * 4 * 2 * 4;
+    EXPECT_EQ(refusal(kAllViews_bytes), "");
+    EXPECT_THAT(refusal(kAllViews_bytes - 1), HasSubstr("5 views, or views of 3 px across"));
 }
 
 TEST_F(LightFieldFile, RefusesAFileThatIsNone) {

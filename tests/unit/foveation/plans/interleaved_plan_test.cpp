@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <numbers>
 #include <set>
 #include <span>
 
@@ -167,7 +168,7 @@ TEST_F(Refill, IsOfWhatWasOutsideTheDisc) {
                     << step << ": " << x << ' ' << y;
             }
         }
-        const double disc = 3.14159 * radius * radius;
+        const double disc = std::numbers::pi * radius * radius;
         if (step < 0.2 * radius) {
             EXPECT_LT(static_cast<double>(refilled), 0.75 * disc) << step;
         }

@@ -20,6 +20,7 @@ using testing::HasSubstr;
 std::vector<glm::vec3> corners_of(const MeshData& data) {
     std::vector<glm::vec3> corners;
     const auto& primitive = data.primitives.at(0);
+    corners.reserve(primitive.index_count);
     for (std::uint32_t i = 0; i < primitive.index_count; ++i) {
         corners.push_back(
             data.vertices.at(primitive.first_vertex + data.indices.at(primitive.first_index + i))
@@ -127,7 +128,7 @@ TEST(GltfGeometry, NormalisedMinimaAreMinusOne) {
 }
 
 TEST(GltfGeometry, IndicesOfEveryWidth) {
-    const auto with = [](auto indices) {
+    const auto with = [](const auto& indices) {
         GltfFile file = one_triangle();
         file.document["meshes"][0]["primitives"][0]["indices"] =
             file.add_accessor("SCALAR", indices);

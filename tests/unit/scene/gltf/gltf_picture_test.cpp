@@ -42,6 +42,7 @@ std::string refusal_of_picture(const std::vector<std::byte>& bytes) {
 
 std::vector<int> codes_of(const Image& image) {
     std::vector<int> codes;
+    codes.reserve(image.texels.size());
     for (const std::byte texel : image.texels) {
         codes.push_back(std::to_integer<int>(texel));
     }
@@ -96,6 +97,7 @@ TEST(GltfPictures, JpegsBecomeRgba) {
 
 TEST(GltfPictures, AJpegThatEndsEarlyIsShownWithANote) {
     std::vector<std::uint8_t> noise;
+    noise.reserve(std::size_t{64} * 64 * 3);
     for (std::uint32_t i = 0; i < 64 * 64 * 3; ++i) {
         noise.push_back(static_cast<std::uint8_t>(i * 2654435761U >> 24U));
     }

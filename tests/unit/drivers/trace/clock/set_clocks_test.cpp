@@ -76,7 +76,7 @@ TEST(DeviceTimes, SayThatAGapsLengthIsNotKnownWhereClockAndNumbersBeginAnew) {
     auto rows = without_sequence(good_rows(300));
     for (std::size_t i = 0; i < rows.size(); ++i) {
         rows[i].sequence = i < 150 ? i : i - 150;
-        rows[i].device_ticks = *rows[i < 150 ? i : i - 150].device_ticks;
+        rows[i].device_ticks = rows[i < 150 ? i : i - 150].device_ticks;
     }
     const DeviceTimes times = device_times(RowsRead{rows}, 1.0);
     const auto sets = of_kind(times.findings, TraceFindingKind::DeviceClockSet);

@@ -267,6 +267,7 @@ gaze::GazeTrace two_eyes(const std::vector<int>& right_ms, double right_rate_hz 
 
 std::vector<int> times_ms(int first, int count) {
     std::vector<int> times;
+    times.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
         times.push_back(first + 4 * i);
     }
