@@ -70,8 +70,8 @@ PreviewFeed::PreviewFeed(const vulkan::Context& context, const Options& options,
 
 PreviewFeed::~PreviewFeed() {
     thread_.request_stop();
-    submitted_ = std::numeric_limits<std::uint64_t>::max();  // wakes it up
-    submitted_.notify_all();
+    known_ = std::numeric_limits<std::uint64_t>::max();  // wakes it up
+    known_.notify_all();
     thread_.join();
     try {
         // The last copy may still be on the GPU.
@@ -81,24 +81,44 @@ PreviewFeed::~PreviewFeed() {
     }
 }
 
-void PreviewFeed::on_rendered(const render::FrameView& view, const gaze::FrameFovea& fovea) {
-    // The window has taken the last picture only when it asks for one more than was given. Every
-    // submitted copy has been given by then.
+bool PreviewFeed::wanted() const {
+    // Every submitted copy has been given by the time that the window asks for one more.
     const std::uint64_t given = memory_->given.load(std::memory_order_acquire);
-    if (given != copies_ || memory_->asked.load(std::memory_order_acquire) == given) {
+    return given == copies_ && memory_->asked.load(std::memory_order_acquire) != given;
+}
+
+void PreviewFeed::submitted() {
+    known_.store(++copies_, std::memory_order_release);
+    known_.notify_one();
+}
+
+void PreviewFeed::on_rendered(const render::FrameView& view, const gaze::FrameFovea& fovea) {
+    if (!wanted()) {
         ++dropped_;
         return;
     }
     const std::uint32_t eyes = memory_->eyes & kBothEyes;
-    describe(view, fovea, eyes);
+    black_ = false;
+    describe(view.index, &fovea, eyes);
     record_copy(view, eyes);
-    submitted_.store(++copies_, std::memory_order_release);
-    submitted_.notify_one();
+    submitted();
 }
 
-void PreviewFeed::describe(const render::FrameView& view, const gaze::FrameFovea& fovea,
-                           std::uint32_t eyes) {
-    next_.index = view.index;
+/// Black frames follow each other alike, so the window is given a new one whenever it asks: that
+/// keeps its title and bars going.
+void PreviewFeed::show_black(std::uint64_t frame) {
+    if (!wanted()) {
+        ++dropped_;
+        return;
+    }
+    black_ = true;
+    describe(frame, nullptr, memory_->eyes & kBothEyes);
+    context_->device().signalSemaphore(vk::SemaphoreSignalInfo(*copied_, copies_ + 1));
+    submitted();
+}
+
+void PreviewFeed::describe(std::uint64_t frame, const gaze::FrameFovea* fovea, std::uint32_t eyes) {
+    next_.index = frame;
     next_.bars = bars_;
     for (const gaze::Eye eye : gaze::kEyes) {
         const std::size_t e = gaze::index(eye);
@@ -107,16 +127,19 @@ void PreviewFeed::describe(const render::FrameView& view, const gaze::FrameFovea
             continue;
         }
         const vk::Extent2D extent = eyes_[e].reduced.extent();
+        next_.pictures[e] = {.width_px = extent.width, .height_px = extent.height};
+        if (fovea == nullptr) {
+            continue;
+        }
         const double radius_px = options_.ring_radius_px(eye);
         const auto in_preview = [this](double px) {
             return static_cast<float>(px / static_cast<double>(reduction_));
         };
-        next_.pictures[e] = {.width_px = extent.width,
-                             .height_px = extent.height,
-                             .fovea_x_px = in_preview(fovea.eyes[e].position.x_px),
-                             .fovea_y_px = in_preview(fovea.eyes[e].position.y_px),
-                             .ring_radius_px = in_preview(
-                                 radius_px > 0.0 ? radius_px : render::kRingWithoutDisc_px)};
+        const gaze::PixelPosition& position = fovea->eyes[e].position;
+        next_.pictures[e].fovea_x_px = in_preview(position.x_px);
+        next_.pictures[e].fovea_y_px = in_preview(position.y_px);
+        next_.pictures[e].ring_radius_px =
+            in_preview(radius_px > 0.0 ? radius_px : render::kRingWithoutDisc_px);
     }
 }
 
@@ -157,6 +180,9 @@ void PreviewFeed::record_copy(const render::FrameView& view, std::uint32_t eyes)
 
 void PreviewFeed::on_frame(const frame::FrameRecord& record) {
     frames_[record.index % frames_.size()] = record;
+    if (!record.should_render) {
+        show_black(record.index);
+    }
 }
 
 void PreviewFeed::on_gpu(const frame::FrameGpuRecord& record) {
@@ -170,7 +196,7 @@ void PreviewFeed::on_gpu(const frame::FrameGpuRecord& record) {
 /// when the loop's thread leaves them alone.
 void PreviewFeed::hand_over(const std::stop_token& stop) {
     for (std::uint64_t copy = 1;; ++copy) {
-        submitted_.wait(copy - 1, std::memory_order_acquire);
+        known_.wait(copy - 1, std::memory_order_acquire);
         if (stop.stop_requested()) {
             return;
         }
@@ -186,8 +212,13 @@ void PreviewFeed::hand_over(const std::stop_token& stop) {
         }
         memory_->frame = next_;
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            if (next_.pictures[e].width_px > 0) {
-                const std::span<const std::byte> pixels = eyes_[e].pixels.mapped();
+            if (next_.pictures[e].width_px == 0) {
+                continue;
+            }
+            const std::span<const std::byte> pixels = eyes_[e].pixels.mapped();
+            if (black_) {
+                std::fill_n(memory_->pixels[e].begin(), pixels.size(), std::byte{0});
+            } else {
                 std::memcpy(memory_->pixels[e].data(), pixels.data(), pixels.size());
             }
         }

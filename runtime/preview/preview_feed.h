@@ -18,7 +18,8 @@ namespace gazeloop::preview {
 /// Copies of the loop's pictures for a preview. The loop's thread only records and submits a copy,
 /// and only when the window has asked for a picture and the last copy is out. The feed's own thread
 /// waits for the GPU and hands the picture over. Frames that meet a busy window are counted and
-/// dropped. The frames themselves are not touched.
+/// dropped. The frames themselves are not touched. A frame that nobody draws is black, as it is on
+/// the display: the window must not go on showing the one before.
 class PreviewFeed final : public frame::FrameObserver {
   public:
     struct Options {
@@ -38,6 +39,7 @@ class PreviewFeed final : public frame::FrameObserver {
     void on_frame(const frame::FrameRecord& record) override;
     void on_gpu(const frame::FrameGpuRecord& record) override;
 
+    /// Drawn or black.
     [[nodiscard]] std::uint64_t frames_shown() const { return copies_; }
     [[nodiscard]] std::uint64_t frames_dropped() const { return dropped_; }
 
@@ -47,7 +49,12 @@ class PreviewFeed final : public frame::FrameObserver {
         vulkan::HostBuffer pixels;
     };
 
-    void describe(const render::FrameView& view, const gaze::FrameFovea& fovea, std::uint32_t eyes);
+    /// Whether the window has taken the last picture and asks for one more.
+    [[nodiscard]] bool wanted() const;
+    /// Null for the fovea: the frame is black, and has none.
+    void describe(std::uint64_t frame, const gaze::FrameFovea* fovea, std::uint32_t eyes);
+    void show_black(std::uint64_t frame);
+    void submitted();
     void record_copy(const render::FrameView& view, std::uint32_t eyes);
     void hand_over(const std::stop_token& stop);
 
@@ -59,12 +66,13 @@ class PreviewFeed final : public frame::FrameObserver {
     vk::raii::CommandPool pool_{nullptr};
     vk::raii::CommandBuffer commands_{nullptr};
     vk::raii::Semaphore copied_{nullptr};
-    std::uint64_t copies_ = 0;  ///< submitted; the timeline's value
+    std::uint64_t copies_ = 0;  ///< submitted, or black; the timeline's value
     std::uint64_t dropped_ = 0;
     PreviewFrame next_;
+    bool black_ = false;                        ///< `next_` is black
     std::array<frame::FrameRecord, 4> frames_;  ///< by index; the GPU is at most 3 behind
     StageBars bars_;
-    std::atomic<std::uint64_t> submitted_{0};  ///< copies, as the thread sees them
+    std::atomic<std::uint64_t> known_{0};  ///< `copies_`, as the thread sees them
     std::jthread thread_;
 };
 

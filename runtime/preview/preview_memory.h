@@ -38,7 +38,7 @@ struct PreviewPicture {
     std::uint32_t height_px = 0;
     float fovea_x_px = 0.0F;
     float fovea_y_px = 0.0F;
-    float ring_radius_px = 0.0F;
+    float ring_radius_px = 0.0F;  ///< 0: no fovea, the picture is black
 };
 
 /// A frame as it is shown.

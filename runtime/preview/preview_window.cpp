@@ -234,7 +234,7 @@ class Window {
             const ImVec2 to(x + w, y + h);
             // NOLINTNEXTLINE(performance-no-int-to-ptr): a texture is a number to OpenGL
             list.AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t{textures_[e]}), from, to);
-            if (show_ring_) {
+            if (show_ring_ && picture.ring_radius_px > 0.0F) {
                 list.PushClipRect(from, to);
                 const ImVec2 fovea(x + picture.fovea_x_px * scale, y + picture.fovea_y_px * scale);
                 list.AddCircle(fovea, picture.ring_radius_px * scale, kRing, 64, 2.0F);

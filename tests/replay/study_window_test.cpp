@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +18,11 @@ namespace gazeloop::tests {
 namespace {
 
 using testing::HasSubstr;
+
+double share_of_black(const Screenshot& shot) {
+    return static_cast<double>(std::ranges::count(shot.pixels, std::array<std::uint8_t, 3>{})) /
+           static_cast<double>(shot.pixels.size());
+}
 
 class StudyWindow : public testing::Test {
   protected:
@@ -53,6 +61,17 @@ TEST_F(StudyWindow, TakesItsKeys) {
     const ProgramResult result = sit({}, [&] {
         SeenWindow window(server_);
         ASSERT_NE(window.wait_for_title("frame"), "");
+        // While the question waits for its answer, the window is as black as the display.
+        double drawn = 0.0;
+        double black = 0.0;
+        for (int i = 0; i < 200 && (drawn < 0.5 || black < 0.5); ++i) {
+            const double now = share_of_black(window.screenshot());
+            drawn = std::max(drawn, 1.0 - now);
+            black = std::max(black, now);
+            poll(nullptr, 0, 20);
+        }
+        EXPECT_GT(drawn, 0.5);
+        EXPECT_GT(black, 0.5);
         // Those that come too early are refused; keys that choose what is shown have no such
         // meaning now, nor does q end the run. A failed validation trial makes a rest, which g
         // ends.
