@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <system_error>
+#include <utility>
 
 #include "runtime/study/session_responses.h"
 
@@ -19,7 +20,12 @@ Expected<Sittings> find_sittings(const Plan& plan, unsigned subject,
             Error{ErrorKind::BadInput,
                   fmt::format("{}: cannot be made ({})", folder.string(), error.message())});
     }
-    Sittings sittings;
+    auto lock = files::FileLock::take(folder / fmt::format("{}.{:03}.lock", plan.name, subject),
+                                      "asks this subject");
+    if (!lock) {
+        return std::unexpected(lock.error());
+    }
+    Sittings sittings{.responses = {}, .next = {}, .lock = std::move(*lock)};
     for (unsigned sitting = 1;; ++sitting) {
         sittings.next = folder / fmt::format("{}.{:03}.{:03}.gaze", plan.name, subject, sitting);
         if (!std::filesystem::exists(sittings.next, error)) {

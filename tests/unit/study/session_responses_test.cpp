@@ -82,12 +82,20 @@ TEST_F(StudySession, HoldsWhatWasShownAndAnswered) {
 }
 
 TEST_F(StudySession, IsNamedBySubjectAndSitting) {
-    const auto at_first = find_sittings(plan, 3, folder / "new");
+    auto at_first = find_sittings(plan, 3, folder / "new");
     ASSERT_TRUE(at_first) << at_first.error().message;
     EXPECT_EQ(at_first->next.filename(), "kfr-final.003.001.gaze");
     EXPECT_EQ(std::filesystem::status(folder / "new").permissions(),
               std::filesystem::perms::owner_all);
     record(at_first->next, 4);
+    // One program at a time asks a subject; another subject is another matter.
+    const auto meanwhile = find_sittings(plan, 3, folder / "new");
+    ASSERT_FALSE(meanwhile);
+    EXPECT_THAT(meanwhile.error().message,
+                testing::HasSubstr("another program asks this subject: wait until it ends"));
+    EXPECT_TRUE(find_sittings(plan, 4, folder / "new"));
+    *at_first = {};
+    EXPECT_FALSE(std::filesystem::exists(folder / "new" / "kfr-final.003.lock"));
     const auto then = find_sittings(plan, 3, folder / "new");
     ASSERT_TRUE(then) << then.error().message;
     EXPECT_EQ(then->next.filename(), "kfr-final.003.002.gaze");
