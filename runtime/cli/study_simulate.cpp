@@ -6,7 +6,7 @@
 #include "runtime/cli/study_commands.h"
 #include "runtime/report/output_file.h"
 #include "runtime/study/plan_file.h"
-#include "runtime/study/responses_file.h"
+#include "runtime/study/study_files.h"
 
 namespace gazeloop::cli {
 
@@ -20,7 +20,9 @@ void add_study_simulate(Command study) {
     const auto options = std::make_shared<Options>();
     Command app = study.command("simulate", "answers of simulated people, for study analyse");
     app.option("plan", options->plan, "the study's plan").required().type("PLAN.toml");
-    app.option("file", options->file, "where the answers go").required().type("FILE.csv");
+    app.option("file", options->file, "where the answers go (must not hold others)")
+        .required()
+        .type("FILE.csv");
     app.option("--subjects", options->subjects, "how many (the plan's)").number_between(1, 10'000);
     options->people.add_to(app);
     app.does([=] {
@@ -30,10 +32,8 @@ void add_study_simulate(Command study) {
         const study::Plan plan = value_or_throw(study::read_plan(options->plan));
         const study::SimulatedPeople people = study::people_of(options->people.question, plan);
         const unsigned subjects = options->subjects > 0 ? options->subjects : plan.subjects;
-        value_or_throw(report::write_text(
-            options->file,
-            study::responses_csv(plan, study::simulate_study(plan, people, subjects)),
-            files::kOwnerOnly));
+        value_or_throw(study::write_simulated_answers(
+            plan, study::simulate_study(plan, people, subjects), options->file));
         return ExitCode::Ok;
     });
 }

@@ -80,6 +80,23 @@ Expected<std::string> forget_session(unsigned subject, const std::filesystem::pa
                        file.string(), subject);
 }
 
+/// What is there already may be somebody's work, or people's answers, which cannot be had again.
+Expected<void> write_where_nothing_else_is(const std::filesystem::path& file, std::string_view text,
+                                           std::string_view what,
+                                           const files::OutputOptions& options) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(file, ignored)) {
+        auto in = open_for_reading(file);
+        const std::string there(in ? std::string(std::istreambuf_iterator<char>(*in), {}) : "");
+        if (!there.empty() && there != text) {
+            return bad(file, fmt::format("is there already and holds something else than {}, which "
+                                         "would be lost: name another file, or remove it",
+                                         what));
+        }
+    }
+    return files::write_text(file, text, options);
+}
+
 }  // namespace
 
 Expected<std::vector<Response>> gather(const Plan& plan,
@@ -123,20 +140,14 @@ Expected<std::vector<Response>> gather(const Plan& plan,
 }
 
 Expected<void> write_published_plan(const Plan& plan, const std::filesystem::path& file) {
-    const std::string text = plan_text(plan);
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(file, ignored)) {
-        auto in = open_for_reading(file);
-        const std::string there(in ? std::string(std::istreambuf_iterator<char>(*in), {}) : "");
-        if (!there.empty() && there != text) {
-            return bad(file,
-                       fmt::format("is there already and holds something else than {} as it was "
-                                   "published, which would be lost: name another file, or "
-                                   "remove it",
-                                   plan.name));
-        }
-    }
-    return files::write_text(file, text);
+    return write_where_nothing_else_is(file, plan_text(plan), plan.name + " as it was published",
+                                       {});
+}
+
+Expected<void> write_simulated_answers(const Plan& plan, std::span<const Response> responses,
+                                       const std::filesystem::path& file) {
+    return write_where_nothing_else_is(file, responses_csv(plan, responses), "these answers",
+                                       files::kOwnerOnly);
 }
 
 Expected<std::vector<std::string>> forget(unsigned subject,

@@ -21,6 +21,12 @@ namespace gazeloop::study {
 [[nodiscard]] Expected<void> write_published_plan(const Plan& plan,
                                                   const std::filesystem::path& file);
 
+/// Writes answers as CSV (responses_file.h), for their owner alone; "-" is stdout. Errors
+/// (BadInput): as write_published_plan(); what is there may be people's own answers.
+[[nodiscard]] Expected<void> write_simulated_answers(const Plan& plan,
+                                                     std::span<const Response> responses,
+                                                     const std::filesystem::path& file);
+
 /// Removes a subject's answers from files: sessions, which go as a whole, and lines of answers
 /// (responses_file.h) or of decisions for R (analysis_report.h). Gives a line per file that says
 /// what was removed; empty where nothing was. Errors (BadInput): a file that cannot be read or

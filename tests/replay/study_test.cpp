@@ -120,8 +120,13 @@ TEST_F(StudyProgram, IsKilledAndHasEveryAnswerThatItTold) {
         const unsigned subject = static_cast<unsigned>(told) + 1;
         const std::string name = std::to_string(subject);
         const ProgramResult killed = run_gazeloop(
-            sitting({"--subject", name}), {.trigger = "trial " + std::to_string(told) + ":",
-                                           .on_trigger = [](int pid) { kill(pid, SIGKILL); }});
+            sitting({"--subject", name}),
+            {.trigger = "trial " + std::to_string(told) + ":", .on_trigger = [&](int pid) {
+                 const ProgramResult second = sit({"--subject", name});
+                 EXPECT_EQ(second.exit_code, 3);
+                 EXPECT_THAT(second.err, HasSubstr("another program asks this subject"));
+                 kill(pid, SIGKILL);
+             }});
         EXPECT_EQ(killed.exit_code, 128 + SIGKILL) << killed.err;
         const ProgramResult rest = sit({"--subject", name});
         ASSERT_EQ(rest.exit_code, 0) << rest.err;
@@ -272,6 +277,13 @@ TEST_F(StudyProgram, PlansSimulatesAndSaysHowMuchItFinds) {
     struct stat status{};
     ASSERT_EQ(stat(answers.c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777U, 0600U);
+    // Answers that are there are not replaced, unless by the same.
+    EXPECT_EQ(run_gazeloop({"study", "simulate", plan, answers, "--threshold", "12"}).exit_code, 0);
+    const ProgramResult other =
+        run_gazeloop({"study", "simulate", plan, answers, "--threshold", "11"});
+    EXPECT_EQ(other.exit_code, 3);
+    EXPECT_THAT(other.err,
+                HasSubstr("holds something else than these answers, which would be lost"));
     const ProgramResult result = run_gazeloop({"study", "analyse", plan, answers});
     EXPECT_THAT(result.out, HasSubstr("15 subjects, 450 answers"));
     const ProgramResult power = run_gazeloop({"study", "power", plan, "--studies", "3", "--json"});
