@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <regex>
 
 #include "runtime/time/clock.h"
 #include "tests/device/hid_device_fixture.h"
@@ -91,7 +90,11 @@ TEST_F(HidDevice, ThatAnswersNothingIsAskedForLittle) {
         told.push_back(std::move(event.text));
     }
     for (std::string& line : told) {  // a busy machine may take longer
-        line = std::regex_replace(line, std::regex("in [0-9]+ s"), "in N s");
+        const std::size_t from = line.find(" in ") + 4;
+        const std::size_t end = line.find_first_not_of("0123456789", from);
+        if (from >= 4 && end != from && end == line.find(" s", from)) {
+            line.replace(from, end - from, "N");
+        }
     }
     EXPECT_EQ(told,
               (std::vector<std::string>{

@@ -9,9 +9,9 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/support/perfetto_trace.h"
@@ -31,9 +31,18 @@ std::string text_of(const std::string& file) {
 
 /// "nan", "-nan", "inf", "NaN" ... as a word of its own: a division by zero that was shown.
 void expect_no_such_number(const std::string& text, const char* what) {
-    static const std::regex kNumber(R"((^|[\s>,:])-?(nan|inf|NaN|Infinity)($|[\s<,]))");
-    std::smatch found;
-    EXPECT_FALSE(std::regex_search(text, found, kNumber)) << what << ": " << found.str();
+    constexpr std::string_view kBefore = " \t\r\n>,:";
+    constexpr std::string_view kAfter = " \t\r\n<,";
+    for (const std::string_view word : {"nan", "inf", "NaN", "Infinity"}) {
+        for (std::size_t at = text.find(word); at != std::string::npos;
+             at = text.find(word, at + 1)) {
+            const std::size_t from = at > 0 && text[at - 1] == '-' ? at - 1 : at;
+            const std::size_t end = at + word.size();
+            EXPECT_FALSE((from == 0 || kBefore.contains(text[from - 1])) &&
+                         (end == text.size() || kAfter.contains(text[end])))
+                << what << ": " << text.substr(from, 20);
+        }
+    }
 }
 
 /// Each quantity: what no frame knows is null, and what is below 0 is flagged.
