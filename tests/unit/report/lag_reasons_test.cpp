@@ -262,9 +262,6 @@ TEST(LagRules, SpeakWhereTheyHold) {
     for (const RuleCase& one : cases()) {
         Made made;
         one.make(made);
-        made.facts.settings = made.facts.settings.empty()
-                                  ? made.facts.settings
-                                  : std::span<const NamedValue>(made.settings);
         const LagReasons reasons = made.reasons();
         const auto said = std::ranges::find(reasons.paragraph, one.rule, &LagSentence::rule);
         ASSERT_NE(said, reasons.paragraph.end()) << one.rule << ": " << made.text();

@@ -112,7 +112,13 @@ struct Made {
         report.frames.total = total;
         facts.use = {};
     }
-    [[nodiscard]] LagReasons reasons() const { return lag_reasons(facts); }
+    [[nodiscard]] LagReasons reasons() const {
+        LagFacts known = facts;
+        if (!known.settings.empty()) {
+            known.settings = settings;  // which may have grown since, and so have moved
+        }
+        return lag_reasons(known);
+    }
     [[nodiscard]] std::string text() const {
         std::string text;
         for (const LagSentence& sentence : reasons().paragraph) {

@@ -131,7 +131,7 @@ TEST(Analysis, TestsConditionsAgainstEachOther) {
                                        same ? Answer::Same : Answer::Different));
         }
     }
-    const LevelTest& test = analyse(plan, answers).tests[3];
+    const LevelTest test = analyse(plan, answers).tests[3];
     EXPECT_EQ(test.level, 1.8);
     EXPECT_EQ(test.blocks, 11U);
     ASSERT_TRUE(test.q);
