@@ -142,8 +142,8 @@ void follow_sync(LayeredInstance& layered, LayeredSession& session, XrResult res
     }
     const std::int64_t now_ns = time::monotonic_ns();
     layered.bindings.active(session.synced, session.active);
-    if (!session.active.empty() && (session.feed == nullptr || !layered.permits_gaze(now_ns) ||
-                                    !session.feed->tracks(now_ns))) {
+    if (!session.active.empty() &&
+        (session.feed == nullptr || !layered.permits_gaze() || !session.feed->tracks(now_ns))) {
         session.active.clear();
     }
 }

@@ -18,7 +18,7 @@ std::optional<FoveatedViews> foveated_views(LayeredInstance& layered, LayeredSes
                                             XrTime display) {
     const std::int64_t now_ns = time::monotonic_ns();
     if (session.feed == nullptr || !session.foveae || session.view_space == XR_NULL_HANDLE ||
-        !layered.permits_foveation(now_ns)) {
+        !layered.permits_foveation()) {
         return std::nullopt;
     }
     auto views = stereo_views(layered.next, session.handle, session.view_space, display);

@@ -1,7 +1,6 @@
 // Frames and views: what a recording is made of, and views as seen from the gaze.
 #include <algorithm>
 #include <array>
-#include <glm/gtc/quaternion.hpp>
 
 #include "runtime/openxr_layer/gaze_reading.h"
 #include "runtime/openxr_layer/quad_views/quad_views.h"
@@ -56,14 +55,20 @@ XrResult begin_frame(Call<&Next::BeginFrame>& call, XrSession session,
     return result;
 }
 
-/// The head that two views belong to: midway between them.
-gaze::Pose head_of(const gaze::StereoView& views) {
-    return {glm::slerp(views[0].pose.orientation, views[1].pose.orientation, 0.5),
-            0.5 * (views[0].pose.position_m + views[1].pose.position_m)};
-}
-
 constexpr XrViewStateFlags kViewsKnown =
     XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
+
+/// Views in a space that stands still, and the samples that came until they were asked for. Under
+/// the instance's lock.
+void tell_located(LayeredInstance& layered, LayeredSession& session, XrTime display,
+                  const gaze::StereoView& views) {
+    const std::int64_t now_ns = time::monotonic_ns();
+    if (session.feed != nullptr) {
+        session.feed->take(
+            now_ns, [&](const GazeHistory& history) { tell_samples(layered, session, history); });
+    }
+    session.tap->located(display, now_ns, views);
+}
 
 /// Recorded views are in a space that stands still: where the application asks in one that is fixed
 /// to its head, they are asked for once more.
@@ -93,10 +98,7 @@ void record_views(LayeredInstance& layered, XrSession session, const XrViewLocat
             return;
         }
         known.views_in = still.space;
-        const auto tell = [&](FrameTap& tap) {
-            tap.located(info.displayTime, time::monotonic_ns(), *stereo, head_of(*stereo));
-        };
-        tell_tap(layered, known, tell);
+        tell_located(layered, known, info.displayTime, *stereo);
     });
 }
 
@@ -171,8 +173,8 @@ XrResult locate_views(Call<&Next::LocateViews>& call, XrSession session,
 
 /// Of the first layer that is a stereo picture. Where all layers are panels, they are seen by views
 /// of the display's size.
-FrameTap::Pictures pictures_of(const XrFrameEndInfo& info, const std::optional<PictureSize>& full) {
-    FrameTap::Pictures pictures;
+FramePictures pictures_of(const XrFrameEndInfo& info, const std::optional<PictureSize>& full) {
+    FramePictures pictures;
     for (std::uint32_t i = 0; i < info.layerCount && info.layers != nullptr; ++i) {
         const XrCompositionLayerBaseHeader* const layer = info.layers[i];
         if (layer == nullptr || layer->type != XR_TYPE_COMPOSITION_LAYER_PROJECTION) {
@@ -210,9 +212,7 @@ void record_views_of_panels(LayeredInstance& layered, XrSession session,
             return;
         }
         known.views_in = known.local_space;
-        tell_tap(layered, known, [&](FrameTap& tap) {
-            tap.located(info.displayTime, time::monotonic_ns(), *views, head_of(*views));
-        });
+        tell_located(layered, known, info.displayTime, *views);
     });
 }
 

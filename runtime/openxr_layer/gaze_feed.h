@@ -28,6 +28,13 @@ class GazeFeed {
         return use(static_cast<const GazeHistory&>(history_));
     }
 
+    /// The same with what has been taken before.
+    template <typename Use>
+    auto look(Use&& use) {
+        const std::lock_guard lock(mutex_);
+        return use(static_cast<const GazeHistory&>(history_));
+    }
+
     /// Whether a tracker tracks, with or without an eye in sight: a sample came within the last
     /// second, and none after it says that the tracker is gone.
     [[nodiscard]] bool tracks(std::int64_t now_ns);

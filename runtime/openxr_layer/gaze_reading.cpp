@@ -25,7 +25,8 @@ std::optional<Locating> locating(LayeredInstance& layered, XrSpace space, XrSpac
             }
             return LocatedSpace{
                 found->second,
-                std::ranges::find(session.active, found->second.action) != session.active.end()};
+                std::ranges::find(session.active, found->second.action) != session.active.end() &&
+                    layered.permits_gaze()};
         };
         const auto found = located(space);
         const auto found_base = located(base);
@@ -111,8 +112,29 @@ void note_gaze_read(LayeredInstance& layered, XrSession session) {
     if (known == nullptr) {
         return;
     }
-    layered.note_gaze_read(*known);
-    tell_tap(layered, *known, [](FrameTap& tap) { tap.read_gaze(time::monotonic_ns()); });
+    const std::int64_t now_ns = time::monotonic_ns();
+    layered.note_gaze_read(*known, now_ns);
+    if (known->tap == nullptr) {
+        return;
+    }
+    if (known->feed != nullptr) {
+        known->feed->look(
+            [&](const GazeHistory& history) { tell_samples(layered, *known, history); });
+    }
+    known->tap->read_gaze(now_ns);
+}
+
+void tell_samples(const LayeredInstance& layered, const LayeredSession& session,
+                  const GazeHistory& history) {
+    session.tap->take(history, [&](std::int64_t time_ns) -> std::optional<gaze::Pose> {
+        const auto time = layered.times.xr_time(time_ns);
+        if (session.views_in == XR_NULL_HANDLE || !time) {
+            return std::nullopt;
+        }
+        const HeadLocated head =
+            head_in(layered.next, session.view_space, session.views_in, *time, *time);
+        return head.valid && head.position_valid ? std::optional(head.head.pose) : std::nullopt;
+    });
 }
 
 }  // namespace gazeloop::openxr_layer

@@ -55,28 +55,9 @@ struct HeadLocated {
 /// The application was given gaze of a session.
 void note_gaze_read(LayeredInstance& layered, XrSession session);
 
-/// Hands the recording of a session, if there is one, the samples that came, and lets
-/// `then(FrameTap&)` tell it more. Under the instance's lock.
-template <typename Then>
-void tell_tap(LayeredInstance& layered, LayeredSession& session, Then&& then) {
-    if (session.tap == nullptr) {
-        return;
-    }
-    if (session.feed != nullptr) {
-        session.feed->take(time::monotonic_ns(), [&](const GazeHistory& history) {
-            session.tap->take(history, [&](std::int64_t time_ns) -> std::optional<gaze::Pose> {
-                const auto time = layered.times.xr_time(time_ns);
-                if (session.views_in == XR_NULL_HANDLE || !time) {
-                    return std::nullopt;
-                }
-                const HeadLocated head =
-                    head_in(layered.next, session.view_space, session.views_in, *time, *time);
-                return head.valid && head.position_valid ? std::optional(head.head.pose)
-                                                         : std::nullopt;
-            });
-        });
-    }
-    then(*session.tap);
-}
+/// Hands the recording of a session the samples that it has not had. Under the instance's lock and
+/// the feed's. Precondition: there is one.
+void tell_samples(const LayeredInstance& layered, const LayeredSession& session,
+                  const GazeHistory& history);
 
 }  // namespace gazeloop::openxr_layer

@@ -232,7 +232,9 @@ void set_up(LayeredInstance& layered, const XrInstanceCreateInfo& info,
                 "no gaze source: set layer.gaze, or use gazeloop layer enable --gaze");
         }
         layered.feed = feed ? *feed : nullptr;
-        layered.permission.emplace(layered.sighting.executable, settings.unknown_applications);
+        if (layered.provides_eye_gaze() || layered.owns.any()) {
+            layered.permission.emplace(layered.sighting.executable, settings.unknown_applications);
+        }
         layered.eyes = path_of(layered, "/user/eyes_ext");
         layered.gaze_pose = path_of(layered, "/user/eyes_ext/input/gaze_ext/pose");
         layered.profile = path_of(layered, "/interaction_profiles/ext/eye_gaze_interaction");

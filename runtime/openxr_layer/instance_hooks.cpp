@@ -19,7 +19,7 @@ XrResult destroy_instance(Call<&Next::DestroyInstance>& call, XrInstance instanc
     const Instances::Pointer layered = call.pointer();
     {
         const std::lock_guard lock(layered->mutex);
-        layered->sessions.clear();  // with the recordings
+        layered->end_sessions();
         layered->feed.reset();
     }
     Instances::all().remove(instance);
@@ -179,13 +179,7 @@ XrResult destroy_session(Call<&Next::DestroySession>& call, XrSession session) {
     LayeredInstance& layered = call.instance();
     {
         const std::lock_guard lock(layered.mutex);
-        if (LayeredSession* const known = layered.session(session);
-            known != nullptr && known->tap != nullptr) {
-            if (const std::string trouble = known->tap->close(); !trouble.empty()) {
-                say(LogLevel::Warning, layered.sighting.recording + ": " + trouble);
-            }
-        }
-        layered.sessions.erase(session);
+        layered.end_session(session);
     }
     Instances::all().remove_session(session);
     return call.down(session);

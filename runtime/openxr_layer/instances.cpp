@@ -1,12 +1,43 @@
 #include "runtime/openxr_layer/instances.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <new>
+
+#include "runtime/openxr_layer/layer_log.h"
 
 namespace gazeloop::openxr_layer {
 
+struct Instances::AtEnd {
+    AtEnd() = default;
+    AtEnd(const AtEnd&) = delete;
+    AtEnd& operator=(const AtEnd&) = delete;
+    ~AtEnd() { all().end(); }
+};
+
+/// Never destroyed: a program that ends may have threads in the layer's functions.
 Instances& Instances::all() {
-    static Instances the_instances;
+    alignas(Instances) static std::array<std::byte, sizeof(Instances)> memory;
+    static Instances& the_instances = *new (memory.data()) Instances;
+    static const AtEnd at_end;
     return the_instances;
+}
+
+void Instances::end() {
+    std::vector<Pointer> left;
+    {
+        const std::lock_guard lock(mutex_);
+        left = instances_;
+        if (left.empty()) {  // the library is unloaded: it leaves no memory behind
+            std::vector<Pointer>().swap(instances_);
+            std::unordered_map<Key, Child, KeyHash>().swap(children_);
+            forget_said();
+        }
+    }
+    for (const Pointer& instance : left) {
+        instance->end_without_the_application();
+    }
 }
 
 void Instances::add(const Pointer& instance) {

@@ -50,6 +50,10 @@ class Instances {
     }
 
   private:
+    struct AtEnd;
+    /// The program ends, or the library is unloaded.
+    void end();
+
     /// Handles of different types may have the same value.
     struct Key {
         std::uint64_t number;

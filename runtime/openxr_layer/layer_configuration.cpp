@@ -9,6 +9,7 @@
 #include "drivers/anatomy/anatomy_source.h"
 #include "drivers/calibrated/calibrated_source.h"
 #include "drivers/device/last_words.h"
+#include "drivers/simulated/ahead_source.h"
 #include "runtime/calibration/calibration_file.h"
 #include "runtime/calibration/calibration_settings.h"
 #include "runtime/environment.h"
@@ -110,6 +111,13 @@ HistoryPolicy policy_of(const gaze::GazeSettings& gaze) {
     policy.motion.tell_events = gaze.events;
     policy.motion.predict = false;  // applications are told what was seen
     return policy;
+}
+
+/// A simulated person takes time that a tracker's driver does not: it is not the application's.
+run::MakeSource computed_ahead(run::MakeSource make) {
+    return [make = std::move(make)](std::int64_t start_ns) {
+        return std::make_unique<drivers::AheadSource>(make(start_ns));
+    };
 }
 
 /// As in a run: live directions are held against anatomy, and corrected where they can be.
@@ -222,6 +230,9 @@ Expected<std::shared_ptr<GazeFeed>> open_feed(const LayerConfiguration& configur
     auto make = source_of(values, configuration.tracker);
     if (!make) {
         return std::unexpected(std::move(make.error()));
+    }
+    if (name == "sim") {
+        *make = computed_ahead(std::move(*make));
     }
     auto feed = std::make_shared<GazeFeed>(
         name, dressed(std::move(*make), run::is_device(name), configuration.calibration),

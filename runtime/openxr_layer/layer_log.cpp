@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <mutex>
+#include <new>
 #include <set>
 #include <string>
 
@@ -24,9 +27,22 @@ struct Said {
     std::set<std::string, std::less<>> texts;
 };
 
+/// Never destroyed: while a program ends, threads of it or of the layer's may still have something
+/// to say.
 Said& said() {
-    static Said the_said;
+    alignas(Said) static std::array<std::byte, sizeof(Said)> memory;
+    static Said& the_said = *new (memory.data()) Said;
     return the_said;
+}
+
+void write_line(std::string_view level, std::string_view text) {
+    if (const auto folder = layer_state()) {
+        const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+        append_private(*folder / "layer.log",
+                       fmt::format("{:%Y-%m-%dT%H:%M:%SZ} {} {}: {}\n", fmt::gmtime(now),
+                                   ::getpid(), level, text),
+                       kMostLogBytes);
+    }
 }
 
 }  // namespace
@@ -44,16 +60,24 @@ void say(LogLevel level, std::string_view text) noexcept {
             [[maybe_unused]] const ssize_t written =
                 ::write(STDERR_FILENO, line.data(), line.size());
         }
-        if (const auto folder = layer_state()) {
-            const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-            append_private(*folder / "layer.log",
-                           fmt::format("{:%Y-%m-%dT%H:%M:%SZ} {} {}: {}\n", fmt::gmtime(now),
-                                       ::getpid(), name, text),
-                           kMostLogBytes);
-        }
+        write_line(name, text);
     } catch (...) {  // NOLINT(bugprone-empty-catch)
         // A line less, in a program that has other things to do.
     }
+}
+
+void note(std::string_view text) noexcept {
+    try {
+        write_line("info", text);
+    } catch (...) {  // NOLINT(bugprone-empty-catch)
+        // As above.
+    }
+}
+
+void forget_said() noexcept {
+    Said& before = said();
+    const std::lock_guard lock(before.mutex);
+    before.texts.clear();
 }
 
 }  // namespace gazeloop::openxr_layer

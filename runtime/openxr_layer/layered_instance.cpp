@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <thread>
+
 #include "runtime/openxr_layer/layer_log.h"
+#include "runtime/time/clock.h"
 
 namespace gazeloop::openxr_layer {
 namespace {
@@ -21,23 +25,29 @@ std::string_view text_of(GazePermission::Verdict verdict) {
     return "";
 }
 
-}  // namespace
-
-bool LayeredInstance::permits_gaze(std::int64_t now_ns) {
-    return verdict(now_ns) == GazePermission::Verdict::Allowed;
+/// In the log, and in the session's recording.
+void tell_reading(LayeredSession& session, std::string_view kind, const std::string& text) {
+    note(text);
+    if (session.tap != nullptr) {
+        session.tap->event(kind, text);
+    }
 }
 
-bool LayeredInstance::permits_foveation(std::int64_t now_ns) {
-    const auto given = verdict(now_ns);
+}  // namespace
+
+bool LayeredInstance::permits_gaze() { return verdict() == GazePermission::Verdict::Allowed; }
+
+bool LayeredInstance::permits_foveation() {
+    const auto given = verdict();
     return given == GazePermission::Verdict::Allowed ||
            given == GazePermission::Verdict::FoveationOnly;
 }
 
-std::optional<GazePermission::Verdict> LayeredInstance::verdict(std::int64_t now_ns) {
+std::optional<GazePermission::Verdict> LayeredInstance::verdict() {
     if (!permission) {
         return std::nullopt;
     }
-    const GazePermission::Verdict verdict = permission->verdict(now_ns);
+    const GazePermission::Verdict verdict = permission->verdict();
     const std::string_view text = text_of(verdict);
     if (sighting.permission != text) {
         sighting.permission = text;
@@ -58,32 +68,57 @@ std::optional<GazePermission::Verdict> LayeredInstance::verdict(std::int64_t now
 }
 
 void LayeredInstance::note_foveation_read(LayeredSession& session) {
-    if (session.foveation_was_read) {
-        return;
-    }
-    session.foveation_was_read = true;
-    const std::string text = fmt::format("{} ({}) follows where it is looked, by {}", application,
-                                         sighting.executable, configuration.values.layer.gaze);
-    say(LogLevel::Info, text);
-    if (session.tap != nullptr) {
-        session.tap->event("foveation-read", text);
+    if (session.foveation_read.note(time::monotonic_ns())) {
+        tell_reading(session, "foveation-read",
+                     fmt::format("{} ({}) follows where it is looked, by {}", application,
+                                 sighting.executable, configuration.values.layer.gaze));
     }
 }
 
-void LayeredInstance::note_gaze_read(LayeredSession& session) {
-    if (session.gaze_was_read) {
+void LayeredInstance::note_gaze_read(LayeredSession& session, std::int64_t now_ns) {
+    if (!session.gaze_read.note(now_ns)) {
         return;
     }
-    session.gaze_was_read = true;
     if (sighting.read_gaze_utc.empty()) {
         sighting.read_gaze_utc = utc_now();
         keep(sighting);
     }
-    const std::string text = fmt::format("{} ({}) reads gaze of {}", application,
-                                         sighting.executable, configuration.values.layer.gaze);
-    say(LogLevel::Info, text);
-    if (session.tap != nullptr) {
-        session.tap->event("gaze-read", text);
+    tell_reading(session, "gaze-read",
+                 fmt::format("{} ({}) reads gaze of {}", application, sighting.executable,
+                             configuration.values.layer.gaze));
+}
+
+void LayeredInstance::end_session(XrSession session) {
+    const auto found = sessions.find(session);
+    if (found == sessions.end()) {
+        return;
+    }
+    if (const std::uint64_t reads = found->second.gaze_read.times(); reads > 0) {
+        note(fmt::format("{} ({}) has read gaze {} times in the session that ends", application,
+                         sighting.executable, reads));
+    }
+    sessions.erase(found);
+}
+
+void LayeredInstance::end_sessions() {
+    while (!sessions.empty()) {
+        end_session(sessions.begin()->first);
+    }
+}
+
+void LayeredInstance::end_without_the_application() {
+    // The program may end in a callback of the runtime's, below a call that holds the lock.
+    constexpr int kLooks = 100;
+    constexpr std::chrono::milliseconds kLook{1};
+    std::unique_lock lock(mutex, std::try_to_lock);
+    for (int look = 0; !lock && look < kLooks; ++look) {
+        std::this_thread::sleep_for(kLook);
+        lock.try_lock();
+    }
+    if (lock) {
+        end_sessions();
+        feed.reset();
+        permission.reset();
     }
 }
 

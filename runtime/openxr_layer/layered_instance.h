@@ -29,6 +29,23 @@ struct GazeSpace {
     gaze::Pose pose_in_gaze;  ///< poseInActionSpace
 };
 
+/// How often an application was given something, in periods without a long pause.
+class Reading {
+  public:
+    /// Whether a period begins with it.
+    [[nodiscard]] bool note(std::int64_t now_ns) {
+        constexpr std::int64_t kLongPause_ns = 10'000'000'000;
+        const bool begins = times_++ == 0 || now_ns - last_ns_ > kLongPause_ns;
+        last_ns_ = now_ns;
+        return begins;
+    }
+    [[nodiscard]] std::uint64_t times() const { return times_; }
+
+  private:
+    std::uint64_t times_ = 0;
+    std::int64_t last_ns_ = 0;
+};
+
 /// What the layer knows of a session.
 struct LayeredSession {
     XrSession handle = XR_NULL_HANDLE;
@@ -48,8 +65,8 @@ struct LayeredSession {
     std::map<XrSpace, GazeSpace> gaze_spaces;
     std::vector<XrSpace> view_spaces;   ///< the application's own that are fixed to the head
     XrSpace views_in = XR_NULL_HANDLE;  ///< the space that the recorded views are in
-    bool gaze_was_read = false;
-    bool foveation_was_read = false;
+    Reading gaze_read;
+    Reading foveation_read;
     std::set<XrFoveationProfileFB> foveation_profiles;
     /// The profile of each of the application's swapchains; null: none was applied.
     std::map<XrSwapchain, XrFoveationProfileFB> foveation;
@@ -112,16 +129,23 @@ struct LayeredInstance {
     [[nodiscard]] bool provides_eye_gaze() const { return eye_gaze == EyeGazeBy::Layer; }
 
     /// Whether the application may have gaze now; tells of what changes. Under `mutex`.
-    [[nodiscard]] bool permits_gaze(std::int64_t now_ns);
+    [[nodiscard]] bool permits_gaze();
     /// Whether its pictures may follow the gaze: who may have gaze may have that too.
-    [[nodiscard]] bool permits_foveation(std::int64_t now_ns);
-    /// The application was given gaze: the first time is told. Under `mutex`.
-    void note_gaze_read(LayeredSession& session);
+    [[nodiscard]] bool permits_foveation();
+    /// The application was given gaze: each time that it begins to read is told. Under `mutex`.
+    void note_gaze_read(LayeredSession& session, std::int64_t now_ns);
     /// It was given where its pictures are to be fine. Under `mutex`.
     void note_foveation_read(LayeredSession& session);
+    /// A session is over: how often it was given gaze is told, and its recording ends. Under
+    /// `mutex`.
+    void end_session(XrSession session);
+    void end_sessions();
+    /// The program ends and has not destroyed the instance: what is recorded is closed, and the
+    /// layer's threads end. Whoever is in a call may go on.
+    void end_without_the_application();
 
   private:
-    [[nodiscard]] std::optional<GazePermission::Verdict> verdict(std::int64_t now_ns);
+    [[nodiscard]] std::optional<GazePermission::Verdict> verdict();
 };
 
 }  // namespace gazeloop::openxr_layer

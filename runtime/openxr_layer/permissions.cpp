@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <exception>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -17,7 +19,7 @@ namespace gazeloop::openxr_layer {
 namespace {
 
 constexpr std::size_t kMostListBytes = 1'000'000;
-constexpr std::int64_t kLookAgain_ns = 1'000'000'000;
+constexpr std::chrono::milliseconds kLookAgain{500};
 
 using Answer = Permissions::Answer;
 constexpr std::array<std::pair<std::string_view, Answer>, 3> kAnswers{
@@ -97,44 +99,46 @@ GazePermission::GazePermission(std::string executable, std::string_view unknown)
                : unknown == "foveation" ? Verdict::FoveationOnly
                : unknown == "ask"       ? Verdict::Asked
                                         : Verdict::Denied),
-      file_(Permissions::file()) {}
-
-GazePermission::Verdict GazePermission::verdict(std::int64_t now_ns) {
-    if (!looked_ns_ || now_ns - *looked_ns_ >= kLookAgain_ns) {
-        look();
-        looked_ns_ = now_ns;
-    }
-    return verdict_;
+      file_(Permissions::file()) {
+    look();
+    thread_.emplace(kLookAgain, [this] { look(); });
 }
 
 void GazePermission::look() {
-    std::error_code absent;
-    const auto changed = file_ ? std::filesystem::last_write_time(*file_, absent)
-                               : std::filesystem::file_time_type::min();
-    if (looked_ns_ && seen_ == changed) {
-        return;
+    try {
+        std::error_code absent;
+        const auto changed = file_ ? std::filesystem::last_write_time(*file_, absent)
+                                   : std::filesystem::file_time_type::min();
+        if (looked_ && seen_ == changed) {
+            return;
+        }
+        seen_ = changed;
+        looked_ = true;
+        verdict_.store(read(), std::memory_order_relaxed);
+    } catch (const std::exception& error) {
+        say(LogLevel::Warning,
+            fmt::format("permissions cannot be read ({}): no application gets gaze", error.what()));
+        verdict_.store(Verdict::Denied, std::memory_order_relaxed);
     }
-    seen_ = changed;
+}
+
+GazePermission::Verdict GazePermission::read() const {
     const auto permissions = file_ ? Permissions::read(*file_) : Permissions{};
     if (!permissions) {
         say(LogLevel::Warning, permissions.error().message + ": no application gets gaze");
-        verdict_ = Verdict::Denied;
-        return;
+        return Verdict::Denied;
     }
     switch (permissions->of(executable_)) {
         case Permissions::Answer::Unknown:
-            verdict_ = unknown_;
-            return;
+            return unknown_;
         case Permissions::Answer::Allowed:
-            verdict_ = Verdict::Allowed;
-            return;
+            return Verdict::Allowed;
         case Permissions::Answer::FoveationOnly:
-            verdict_ = Verdict::FoveationOnly;
-            return;
+            return Verdict::FoveationOnly;
         case Permissions::Answer::Denied:
-            verdict_ = Verdict::Denied;
-            return;
+            return Verdict::Denied;
     }
+    return Verdict::Denied;
 }
 
 }  // namespace gazeloop::openxr_layer

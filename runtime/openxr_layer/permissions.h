@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -8,6 +9,7 @@
 #include <string_view>
 
 #include "runtime/error.h"
+#include "runtime/periodic_thread.h"
 
 namespace gazeloop::openxr_layer {
 
@@ -39,27 +41,32 @@ class Permissions {
     std::map<std::string, Answer, std::less<>> answers_;
 };
 
-/// Whether one application may have gaze, now: the file is looked at again when it has changed, so
-/// that a decision counts in a program that runs.
+/// Whether one application may have gaze, now. A thread of its own looks at the file twice a
+/// second, so that a decision counts within a second in a program that runs, and no call of the
+/// application's waits for a file.
 class GazePermission {
   public:
     enum class Verdict : std::uint8_t { Allowed, FoveationOnly, Denied, Asked };
 
-    /// `unknown`: layer.unknown_applications.
+    /// `unknown`: layer.unknown_applications. Looks at once. Throws std::system_error where there
+    /// is no thread for it.
     GazePermission(std::string executable, std::string_view unknown);
 
-    /// Looks at the file at most once a second. A file that cannot be read denies.
-    [[nodiscard]] Verdict verdict(std::int64_t now_ns);
+    /// A file that cannot be read denies. From any thread.
+    [[nodiscard]] Verdict verdict() const { return verdict_.load(std::memory_order_relaxed); }
 
   private:
+    /// Where the file has changed.
     void look();
+    [[nodiscard]] Verdict read() const;
 
     std::string executable_;
     Verdict unknown_;
-    Verdict verdict_ = Verdict::Denied;
+    std::atomic<Verdict> verdict_{Verdict::Denied};
     std::optional<std::filesystem::path> file_;
     std::optional<std::filesystem::file_time_type> seen_;
-    std::optional<std::int64_t> looked_ns_;
+    bool looked_ = false;
+    std::optional<PeriodicThread> thread_;  // the first to end
 };
 
 }  // namespace gazeloop::openxr_layer

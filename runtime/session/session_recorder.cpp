@@ -6,7 +6,6 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <csignal>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -18,6 +17,7 @@
 #include "runtime/session/record.h"
 #include "runtime/session/record_fields.h"
 #include "runtime/session/session_writer.h"
+#include "runtime/signals_blocked.h"
 #include "runtime/spsc_queue.h"
 
 namespace gazeloop::session {
@@ -29,23 +29,6 @@ constexpr std::size_t kQueueRecords = 32'768;
 /// The longest wait for records, and the longest transaction. Together they are 50 ms, half of the
 /// promised 100 ms, so that a late wake-up of the thread does not break the promise.
 constexpr std::chrono::milliseconds kCommitInterval{25};
-
-/// Threads started in its lifetime take no signals: those are for the loop. Reaching the limit on
-/// file size is then an error to report, and does not kill the process.
-class SignalsBlocked {
-  public:
-    SignalsBlocked() {
-        sigset_t all;
-        sigfillset(&all);
-        pthread_sigmask(SIG_SETMASK, &all, &before_);
-    }
-    SignalsBlocked(const SignalsBlocked&) = delete;
-    SignalsBlocked& operator=(const SignalsBlocked&) = delete;
-    ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-
-  private:
-    sigset_t before_{};
-};
 
 }  // namespace
 
@@ -73,6 +56,8 @@ class SessionRecorder::Impl {
             std::this_thread::sleep_for(kLook);
         }
     }
+
+    void add_lost(std::uint64_t records) { dropped_.fetch_add(records, std::memory_order_relaxed); }
 
     bool wait_until_written(std::chrono::milliseconds patience) {
         std::unique_lock lock(mutex_);
@@ -114,6 +99,7 @@ class SessionRecorder::Impl {
                 write_queued();
                 tell_written(asked);
             }
+            write_count_of_lost();
             writer_->finish();
         } catch (const std::exception&) {
             failure_ = std::current_exception();
@@ -190,6 +176,14 @@ class SessionRecorder::Impl {
             } while (record != nullptr && std::chrono::steady_clock::now() < commit_at);
             writer_->commit(dropped_.load(std::memory_order_relaxed));
             look_for_file();
+        }
+    }
+
+    /// Where nothing came after the last loss, no transaction has told the file of it.
+    void write_count_of_lost() {
+        if (const std::uint64_t lost = dropped_.load(std::memory_order_relaxed); lost > 0) {
+            writer_->begin();
+            writer_->commit(lost);
         }
     }
 
@@ -270,6 +264,8 @@ void SessionRecorder::add(const ResponseRecord& record) { impl_->add(record, Whe
 void SessionRecorder::event(time::Stamp time, std::string_view kind, std::string_view text) {
     impl_->add(EventRecord{time, FixedText<32>(kind), FixedText<240>(text)});
 }
+
+void SessionRecorder::add_lost(std::uint64_t records) { impl_->add_lost(records); }
 
 bool SessionRecorder::wait_until_written(std::chrono::milliseconds patience) {
     return impl_->wait_until_written(patience);

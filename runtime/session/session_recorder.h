@@ -72,6 +72,10 @@ class SessionRecorder {
     /// `text` is cut after 240 bytes, between characters.
     void event(time::Stamp time, std::string_view kind, std::string_view text);
 
+    /// Records that were lost on their way here: they count as dropped, in the file too. From any
+    /// thread.
+    void add_lost(std::uint64_t records);
+
     /// Blocks until everything added so far has been committed, so that a process killed from now
     /// on does not lose it. False: not within `patience`, or writing has ended early. On the thread
     /// that adds.

@@ -2,9 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
 #include <random>
 #include <string>
+#include <system_error>
 
 #include "tests/unit/openxr_layer/any_call.h"
 #include "tests/unit/openxr_layer/mock_home.h"
@@ -15,26 +22,52 @@ namespace {
 /// In a few seconds, under sanitizers too.
 constexpr std::uint64_t kUsualOrders = 20'000;
 
-std::uint64_t wanted_orders() {
+/// None: what the variable says is no number of sequences.
+std::optional<std::uint64_t> wanted_orders() {
     const char* const text = std::getenv("GAZELOOP_CALL_ORDERS");
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : kUsualOrders;
+    if (text == nullptr) {
+        return kUsualOrders;
+    }
+    std::uint64_t orders = 0;
+    const char* const end = text + std::strlen(text);
+    const auto [stop, error] = std::from_chars(text, end, orders);
+    return error == std::errc{} && stop == end && orders > 0 ? std::optional(orders) : std::nullopt;
 }
 
-/// Each sequence has a session of its own; an instance serves a thousand, with other settings than
-/// the one before. A sequence that fails is found again by its number.
+/// What instances are made with, in turns, and how many sequences each serves: a recording is a
+/// file for each session.
+struct Served {
+    std::string settings;
+    std::uint64_t orders = 1'000;
+};
+
+/// Each sequence has a session of its own; an instance serves many, with other settings than the
+/// one before. A sequence that fails is found again by its number.
 TEST(CallOrders, DoNoHarm) {
     const Home home;
-    const std::array<std::string, 5> settings{
-        "layer.gaze=fixed:1,2", "layer.gaze=sim", "",
-        "layer.gaze=fixed:0,0\nlayer.unknown_applications=foveation",
-        "layer.gaze=fixed:0,0\nlayer.eye_gaze=always"};
-    constexpr std::uint64_t kOrdersOfInstance = 1'000;
-    const std::uint64_t orders = wanted_orders();
-    for (std::uint64_t first = 0; first < orders; first += kOrdersOfInstance) {
-        set_settings(settings[first / kOrdersOfInstance % settings.size()]);
+    const std::filesystem::path sessions = home.folder.path() / "sessions";
+    const std::string trace = home.folder.path() / "short.csv";
+    std::ofstream(trace)
+        << "time_s,left_azimuth_deg,left_elevation_deg\n0,1,2\n0.005,2,1\n0.01,3,0\n";
+    const std::array<Served, 7> served{
+        Served{"layer.gaze=fixed:1,2"}, Served{"layer.gaze=sim"}, Served{""},
+        Served{"layer.gaze=fixed:0,0\nlayer.unknown_applications=foveation"},
+        Served{"layer.gaze=fixed:0,0\nlayer.eye_gaze=always"},
+        // One that ends and begins anew.
+        Served{"layer.gaze=trace:" + trace},
+        Served{"layer.gaze=sim\nlayer.record=" + sessions.string(), 5}};
+    const auto wanted = wanted_orders();
+    ASSERT_TRUE(wanted) << "GAZELOOP_CALL_ORDERS: a number of sequences is expected, e.g. 1000000";
+    const std::uint64_t orders = *wanted;
+    std::size_t turn = 0;
+    for (std::uint64_t first = 0; first < orders;) {
+        const Served& by = served[turn++ % served.size()];
+        set_settings(by.settings);
+        std::filesystem::remove_all(sessions);
+        std::filesystem::create_directory(sessions);
         MockApplication application(every_extension());
-        for (std::uint64_t order = first; order < std::min(first + kOrdersOfInstance, orders);
-             ++order) {
+        const std::uint64_t end = std::min(first + by.orders, orders);
+        for (std::uint64_t order = first; order < end; ++order) {
             SCOPED_TRACE(order);
             std::mt19937_64 random(order);
             const auto pick = [&random](std::size_t many) {
@@ -49,6 +82,7 @@ TEST(CallOrders, DoNoHarm) {
             application.call<PFN_xrDestroySession>("xrDestroySession")(application.session);
         }
         ASSERT_FALSE(MockRuntime::the().saw_eyes());
+        first = end;
     }
 }
 

@@ -1,8 +1,6 @@
 // Sources that end or fail under an application that runs.
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -83,8 +81,7 @@ TEST(GazeFeed, HoldsTheGazeOfASourceThatFailsAndThenHasNone) {
     EXPECT_EQ(feed.at(last_ns + policy.stale_ns + policy.hold_ns + 1).seen, nullptr);
     EXPECT_FALSE(feed.feed.tracks(last_ns + 1'000'000'001));
     EXPECT_EQ(feed.made, 1) << "it is left alone";
-    std::ifstream in(home.folder.path() / "gazeloop/layer/layer.log");
-    const std::string log{std::istreambuf_iterator<char>(in), {}};
+    const std::string log = home.log();
     const std::size_t said = log.find("the cable is out");
     ASSERT_NE(said, std::string::npos) << log;
     EXPECT_EQ(log.find("the cable is out", said + 1), std::string::npos) << "once is enough";

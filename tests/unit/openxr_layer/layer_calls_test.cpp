@@ -3,11 +3,20 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <vector>
 
+#include "runtime/openxr_layer/permissions.h"
 #include "runtime/session/session_file.h"
 #include "runtime/time/clock.h"
 #include "tests/support/allocation_counter.h"
@@ -145,6 +154,90 @@ TEST(LayerCalls, RecordFramesOfPanelsAlone) {
         EXPECT_LE(frame.stamps.latch.ns, frame.stamps.submit.ns);
     }
     EXPECT_EQ(session.frames.back().frame.fovea.eyes[0].state, gaze::FoveaState::Tracking);
+}
+
+/// Times that the log says something.
+std::size_t times_said(const Home& home, std::string_view text) {
+    const std::string log = home.log();
+    std::size_t times = 0;
+    for (std::size_t at = log.find(text); at != std::string::npos; at = log.find(text, at + 1)) {
+        ++times;
+    }
+    return times;
+}
+
+TEST(LayerCalls, TellOfEachSessionThatReadsGaze) {
+    const Home home;
+    set_settings("layer.gaze=fixed:0,0");
+    MockApplication application;
+    for (std::size_t session = 1; session <= 3; ++session) {
+        set_up(application);
+        EXPECT_EQ(times_said(home, "reads gaze of fixed:0,0"), session - 1);
+        XrResult result = XR_SUCCESS;
+        for (int read = 0; read < 5; ++read) {
+            ASSERT_NE(application
+                          .locate(application.spaces[0], application.spaces[1], MockRuntime::now(),
+                                  result)
+                          .locationFlags,
+                      0U);
+        }
+        EXPECT_EQ(times_said(home, "reads gaze of fixed:0,0"), session);
+        application.call<PFN_xrDestroySession>("xrDestroySession")(application.session);
+        EXPECT_EQ(times_said(home, "has read gaze 5 times"), session);
+        application.forget();
+    }
+}
+
+/// Whatever the application still calls, and though it never synchronizes its actions again.
+TEST(LayerCalls, GiveNoGazeOnceItIsDenied) {
+    const Home home;
+    set_settings("layer.gaze=fixed:0,0");
+    MockApplication application;
+    set_up(application);
+    const auto gets_gaze = [&application] {
+        auto sample = openxr::typed<XrEyeGazeSampleTimeEXT>(XR_TYPE_EYE_GAZE_SAMPLE_TIME_EXT);
+        auto location = openxr::typed<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
+        location.next = &sample;
+        application.call<PFN_xrLocateSpace>("xrLocateSpace")(
+            application.spaces[0], application.spaces[1], MockRuntime::now(), &location);
+        return sample.time != 0;
+    };
+    ASSERT_TRUE(gets_gaze());
+    Permissions permissions;
+    permissions.set(std::filesystem::read_symlink("/proc/self/exe"), Permissions::Answer::Denied);
+    std::ofstream(Permissions::file().value()) << permissions.text();
+    // A second, as is said, and what a busy machine adds.
+    constexpr std::int64_t kPatience_ns = 20'000'000'000;
+    const std::int64_t until_ns = time::monotonic_ns() + kPatience_ns;
+    while (gets_gaze() && time::monotonic_ns() < until_ns) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_FALSE(gets_gaze());
+    EXPECT_GT(times_said(home, "gets no gaze"), 0U);
+}
+
+/// A program that exits with all it has made, while a thread of it is in the layer.
+TEST(LayerCalls, LetAProgramExitWithoutDestroyingAnything) {
+    const Home home;
+    const std::string file = home.folder.path() / "session.gaze";
+    set_settings("layer.gaze=sim\nlayer.record=" + file);
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        auto& application = *new MockApplication;
+        set_up(application);
+        for (int frame = 0; frame < 20; ++frame) {
+            application.frame(application.spaces[2]);
+        }
+        std::exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+    const session::SessionFile session = value_or_throw(session::read_session(file));
+    EXPECT_EQ(session.frames.size(), 20U);
+    EXPECT_EQ(session.records_dropped, 0U);
 }
 
 TEST(LayerCalls, AllocateNothingInSteadyState) {

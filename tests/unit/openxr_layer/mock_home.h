@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "tests/support/temporary_folder.h"
@@ -18,6 +20,11 @@ struct Home {
         for (const char* const name : {"XDG_CONFIG_HOME", "XDG_STATE_HOME", "XDG_DATA_HOME"}) {
             setenv(name, folder.path().c_str(), 1);
         }
+    }
+    /// What the layer has logged.
+    [[nodiscard]] std::string log() const {
+        std::ifstream in(folder.path() / "gazeloop/layer/layer.log");
+        return {std::istreambuf_iterator<char>(in), {}};
     }
     tests::TemporaryFolder folder;
 };
