@@ -35,12 +35,17 @@ Said& said() {
     return the_said;
 }
 
-void write_line(std::string_view level, std::string_view text) {
+void write_line(LogLevel level, std::string_view text) {
+    const std::string_view name = level == LogLevel::Warning ? "warning" : "info";
+    if (level == LogLevel::Warning) {
+        const std::string line = fmt::format("gazeloop layer: {}: {}\n", name, text);
+        [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+    }
     if (const auto folder = layer_state()) {
         const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
         append_private(*folder / "layer.log",
                        fmt::format("{:%Y-%m-%dT%H:%M:%SZ} {} {}: {}\n", fmt::gmtime(now),
-                                   ::getpid(), level, text),
+                                   ::getpid(), name, text),
                        kMostLogBytes);
     }
 }
@@ -51,24 +56,18 @@ void say(LogLevel level, std::string_view text) noexcept {
     try {
         Said& before = said();
         const std::lock_guard lock(before.mutex);
-        if (before.texts.size() >= kMostLines || !before.texts.emplace(text).second) {
-            return;
+        if (before.texts.size() < kMostLines && before.texts.emplace(text).second) {
+            write_line(level, text);
         }
-        const std::string_view name = level == LogLevel::Warning ? "warning" : "info";
-        if (level == LogLevel::Warning) {
-            const std::string line = fmt::format("gazeloop layer: {}: {}\n", name, text);
-            [[maybe_unused]] const ssize_t written =
-                ::write(STDERR_FILENO, line.data(), line.size());
-        }
-        write_line(name, text);
     } catch (...) {  // NOLINT(bugprone-empty-catch)
         // A line less, in a program that has other things to do.
     }
 }
 
-void note(std::string_view text) noexcept {
+void note(LogLevel level, std::string_view text) noexcept {
     try {
-        write_line("info", text);
+        const std::lock_guard lock(said().mutex);
+        write_line(level, text);
     } catch (...) {  // NOLINT(bugprone-empty-catch)
         // As above.
     }

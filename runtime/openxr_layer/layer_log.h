@@ -12,8 +12,8 @@ enum class LogLevel : std::uint8_t { Info, Warning };
 /// once in a process. Never throws.
 void say(LogLevel level, std::string_view text) noexcept;
 
-/// A line that is to stand there each time, as of a program that begins to read gaze. Never throws.
-void note(std::string_view text) noexcept;
+/// The same each time: that a program begins to read gaze, or may no more. Never throws.
+void note(LogLevel level, std::string_view text) noexcept;
 
 /// What was said is forgotten, with its memory: the library is unloaded.
 void forget_said() noexcept;

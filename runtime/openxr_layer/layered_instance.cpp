@@ -27,7 +27,7 @@ std::string_view text_of(GazePermission::Verdict verdict) {
 
 /// In the log, and in the session's recording.
 void tell_reading(LayeredSession& session, std::string_view kind, const std::string& text) {
-    note(text);
+    note(LogLevel::Info, text);
     if (session.tap != nullptr) {
         session.tap->event(kind, text);
     }
@@ -53,12 +53,13 @@ std::optional<GazePermission::Verdict> LayeredInstance::verdict() {
         sighting.permission = text;
         keep(sighting);
         if (verdict == GazePermission::Verdict::Allowed) {
-            say(LogLevel::Info, fmt::format("{} may have gaze", sighting.executable));
+            note(LogLevel::Info, fmt::format("{} may have gaze", sighting.executable));
         } else if (verdict == GazePermission::Verdict::FoveationOnly) {
-            say(LogLevel::Info,
-                fmt::format("{} may have foveation, and no gaze", sighting.executable));
+            note(LogLevel::Info,
+                 fmt::format("{} may have foveation, and no gaze", sighting.executable));
         } else {
-            say(LogLevel::Warning,
+            note(
+                LogLevel::Warning,
                 fmt::format("{0} gets no gaze ({1}): gazeloop layer allow {0}", sighting.executable,
                             verdict == GazePermission::Verdict::Asked ? "it asks for permission"
                                                                       : "it is denied"));
@@ -94,8 +95,8 @@ void LayeredInstance::end_session(XrSession session) {
         return;
     }
     if (const std::uint64_t reads = found->second.gaze_read.times(); reads > 0) {
-        note(fmt::format("{} ({}) has read gaze {} times in the session that ends", application,
-                         sighting.executable, reads));
+        note(LogLevel::Info, fmt::format("{} ({}) has read gaze {} times in the session that ends",
+                                         application, sighting.executable, reads));
     }
     sessions.erase(found);
 }

@@ -106,14 +106,16 @@ GazePermission::GazePermission(std::string executable, std::string_view unknown)
 
 void GazePermission::look() {
     try {
+        Version now{.time = std::filesystem::file_time_type::min()};
         std::error_code absent;
-        const auto changed = file_ ? std::filesystem::last_write_time(*file_, absent)
-                                   : std::filesystem::file_time_type::min();
-        if (looked_ && seen_ == changed) {
+        if (file_) {
+            now.time = std::filesystem::last_write_time(*file_, absent);
+            now.size = std::filesystem::file_size(*file_, absent);
+        }
+        if (seen_ == now) {
             return;
         }
-        seen_ = changed;
-        looked_ = true;
+        seen_ = now;
         verdict_.store(read(), std::memory_order_relaxed);
     } catch (const std::exception& error) {
         say(LogLevel::Warning,

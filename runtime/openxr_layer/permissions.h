@@ -64,8 +64,12 @@ class GazePermission {
     Verdict unknown_;
     std::atomic<Verdict> verdict_{Verdict::Denied};
     std::optional<std::filesystem::path> file_;
-    std::optional<std::filesystem::file_time_type> seen_;
-    bool looked_ = false;
+    struct Version {
+        std::filesystem::file_time_type time;
+        std::uintmax_t size = 0;  ///< two changes may come within what file times can tell apart
+        friend bool operator==(const Version&, const Version&) = default;
+    };
+    std::optional<Version> seen_;
     std::optional<PeriodicThread> thread_;  // the first to end
 };
 

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "runtime/openxr_layer/permissions.h"
+#include "runtime/openxr_layer/private_file.h"
 #include "runtime/session/session_file.h"
 #include "runtime/time/clock.h"
 #include "tests/support/allocation_counter.h"
@@ -205,7 +205,7 @@ TEST(LayerCalls, GiveNoGazeOnceItIsDenied) {
     ASSERT_TRUE(gets_gaze());
     Permissions permissions;
     permissions.set(std::filesystem::read_symlink("/proc/self/exe"), Permissions::Answer::Denied);
-    std::ofstream(Permissions::file().value()) << permissions.text();
+    ASSERT_TRUE(write_private(Permissions::file().value(), permissions.text()));
     // A second, as is said, and what a busy machine adds.
     constexpr std::int64_t kPatience_ns = 20'000'000'000;
     const std::int64_t until_ns = time::monotonic_ns() + kPatience_ns;
