@@ -67,7 +67,11 @@ void AheadSource::work_ahead() {
     }
     const std::lock_guard lock(mutex_);
     if (over_.empty()) {
-        compute(asked_ns + kAhead_ns);
+        try {
+            compute(asked_ns + kAhead_ns);
+        } catch (...) {
+            return;  // whoever polls it meets the same, and can say so
+        }
     }
     const auto left = std::ranges::find_if_not(
         over_, [this](const gaze::GazeSample& sample) { return ready_.try_push(sample); });

@@ -42,6 +42,10 @@ void GazeFeed::poll(std::int64_t now_ns) {
         say(LogLevel::Warning,
             fmt::format("the gaze source {} failed, there is no gaze from here on: {}", name_,
                         error.what()));
+    } catch (...) {
+        failed_ = true;
+        say(LogLevel::Warning,
+            fmt::format("the gaze source {} failed, there is no gaze from here on", name_));
     }
     for (gaze::GazeSample& sample : samples_) {
         sample.sequence += sequence_offset_;

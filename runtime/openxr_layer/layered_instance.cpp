@@ -1,6 +1,7 @@
 #include "runtime/openxr_layer/layered_instance.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <thread>
@@ -108,6 +109,9 @@ void LayeredInstance::end_sessions() {
 }
 
 void LayeredInstance::end_without_the_application() {
+    if (sighting.pid != ::getpid()) {
+        return;  // a fork: it has none of the threads, and the recording is not its own
+    }
     // The program may end in a callback of the runtime's, below a call that holds the lock.
     constexpr int kLooks = 100;
     constexpr std::chrono::milliseconds kLook{1};

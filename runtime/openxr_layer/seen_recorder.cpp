@@ -77,7 +77,11 @@ void SeenRecorder::record_all() {
     if (const std::uint64_t lost = lost_.exchange(0, std::memory_order_relaxed); lost > 0) {
         recorder_->add_lost(lost);
     }
-    tell_trouble();
+    try {
+        tell_trouble();
+    } catch (...) {  // NOLINT(bugprone-empty-catch)
+        // Out of memory for words: it is said at the end.
+    }
 }
 
 /// Whose recording ends early hears of it while the application runs.

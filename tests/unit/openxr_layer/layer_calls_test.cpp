@@ -44,6 +44,16 @@ void set_up(MockApplication& application) {
     ASSERT_EQ(application.sync(), XR_SUCCESS);
 }
 
+/// Times that the log says something.
+std::size_t times_said(const Home& home, std::string_view text) {
+    const std::string log = home.log();
+    std::size_t times = 0;
+    for (std::size_t at = log.find(text); at != std::string::npos; at = log.find(text, at + 1)) {
+        ++times;
+    }
+    return times;
+}
+
 TEST(LayerCalls, GiveGazeThatTheRuntimeHasNeverHeardOf) {
     const Home home;
     set_settings("layer.gaze=fixed:0,0");
@@ -103,6 +113,40 @@ TEST(LayerCalls, KeepTwoInstancesApart) {
     MockRuntime::through_layer<PFN_xrDestroyInstance>(other, "xrDestroyInstance")(other);
 }
 
+/// Both read gaze of one source and are to be recorded to one file. The end of one is nothing to
+/// the other.
+TEST(LayerCalls, GiveGazeToTwoInstances) {
+    const Home home;
+    const std::string file = home.folder.path() / "session.gaze";
+    set_settings("layer.gaze=fixed:0,0\nlayer.record=" + file);
+    MockApplication one;
+    set_up(one);
+    const auto reads = [](const MockApplication& application) {
+        XrResult result = XR_SUCCESS;
+        const XrSpaceLocation location = application.locate(
+            application.spaces[0], application.spaces[1], MockRuntime::now(), result);
+        return result == XR_SUCCESS && location.locationFlags == kAll;
+    };
+    {
+        MockApplication two;
+        set_up(two);
+        for (int frame = 0; frame < 5; ++frame) {
+            one.frame(one.spaces[2]);
+            two.frame(two.spaces[2]);
+            EXPECT_TRUE(reads(two));
+            EXPECT_TRUE(reads(one));
+        }
+        EXPECT_TRUE(two.active(two.actions[0]));
+    }
+    EXPECT_TRUE(one.active(one.actions[0]));
+    EXPECT_EQ(one.sync(), XR_SUCCESS);
+    EXPECT_TRUE(reads(one));
+    one.frame(one.spaces[2]);
+    one.call<PFN_xrDestroySession>("xrDestroySession")(one.session);
+    EXPECT_EQ(value_or_throw(session::read_session(file)).frames.size(), 6U);
+    EXPECT_EQ(times_said(home, "nothing is recorded"), 1U) << home.log();
+}
+
 /// Of a runtime that has the core of 1.0 alone, the times are the host's once a frame has shown it.
 TEST(LayerCalls, GiveGazeAboveTheOldestRuntime) {
     const Home home;
@@ -154,16 +198,6 @@ TEST(LayerCalls, RecordFramesOfPanelsAlone) {
         EXPECT_LE(frame.stamps.latch.ns, frame.stamps.submit.ns);
     }
     EXPECT_EQ(session.frames.back().frame.fovea.eyes[0].state, gaze::FoveaState::Tracking);
-}
-
-/// Times that the log says something.
-std::size_t times_said(const Home& home, std::string_view text) {
-    const std::string log = home.log();
-    std::size_t times = 0;
-    for (std::size_t at = log.find(text); at != std::string::npos; at = log.find(text, at + 1)) {
-        ++times;
-    }
-    return times;
 }
 
 TEST(LayerCalls, TellOfEachSessionThatReadsGaze) {
@@ -238,6 +272,29 @@ TEST(LayerCalls, LetAProgramExitWithoutDestroyingAnything) {
     const session::SessionFile session = value_or_throw(session::read_session(file));
     EXPECT_EQ(session.frames.size(), 20U);
     EXPECT_EQ(session.records_dropped, 0U);
+}
+
+/// It ends as a program does, with none of the threads that it was forked beside.
+TEST(LayerCalls, LetAForkOfAProgramExit) {
+    const Home home;
+    const std::string file = home.folder.path() / "session.gaze";
+    set_settings("layer.gaze=sim\nlayer.record=" + file);
+    MockApplication application;
+    set_up(application);
+    application.frame(application.spaces[2]);
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        constexpr unsigned kPatience_s = 20;
+        alarm(kPatience_s);
+        std::exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status)) << "it hangs";
+    application.frame(application.spaces[2]);
+    application.call<PFN_xrDestroySession>("xrDestroySession")(application.session);
+    EXPECT_EQ(value_or_throw(session::read_session(file)).frames.size(), 2U);
 }
 
 TEST(LayerCalls, AllocateNothingInSteadyState) {

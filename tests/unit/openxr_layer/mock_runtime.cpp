@@ -39,7 +39,7 @@ bool lives(Handle handle) {
 
 XrResult destroy_instance(XrInstance instance) {
     GAZELOOP_MOCK_CHECK("xrDestroyInstance", instance)
-    mock().reset();
+    mock().end_instance(reinterpret_cast<std::uint64_t>(instance));
     return XR_SUCCESS;
 }
 XrResult get_instance_properties(XrInstance instance, XrInstanceProperties* properties) {
@@ -374,6 +374,7 @@ XrResult make_instance(const XrInstanceCreateInfo* info, const XrApiLayerCreateI
             return XR_ERROR_EXTENSION_NOT_PRESENT;
         }
     }
+    mock().add_instance();
     return make(instance);
 }
 
@@ -384,7 +385,11 @@ MockRuntime& MockRuntime::the() {
     return the_runtime;
 }
 
-void MockRuntime::reset() {
+void MockRuntime::end_instance(std::uint64_t handle) {
+    end(handle);
+    if (--instances_ > 0) {
+        return;
+    }
     live_.clear();
     acquired_.clear();
     view_counts_.clear();

@@ -20,8 +20,7 @@ class MockRuntime {
   public:
     static MockRuntime& the();
 
-    /// As nothing had ever been made. `fail_next`: the next call of a function of that name fails.
-    void reset();
+    /// The next call of a function of that name fails.
     void fail_next(const std::string& function, XrResult result) { failures_[function] = result; }
 
     /// The layer's two functions: those of this program, or of a library that was loaded.
@@ -56,6 +55,9 @@ class MockRuntime {
     // What the functions below use.
 
     std::uint64_t make_handle() { return *live_.insert(++last_).first; }
+    void add_instance() { ++instances_; }
+    /// With the last of them all that was made ends.
+    void end_instance(std::uint64_t handle);
     [[nodiscard]] bool lives(std::uint64_t handle) const { return live_.contains(handle); }
     void end(std::uint64_t handle) { live_.erase(handle); }
     /// None: it is to do its work.
@@ -83,6 +85,7 @@ class MockRuntime {
     bool oldest_ = false;
 
     std::uint64_t last_ = 1000;
+    std::uint64_t instances_ = 0;
     std::set<std::uint64_t> live_;
     std::map<std::uint64_t, Acquired> acquired_;
     std::vector<std::uint32_t> view_counts_;

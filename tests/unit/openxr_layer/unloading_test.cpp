@@ -58,12 +58,14 @@ bool is_loaded() {
     return library != nullptr;
 }
 
-/// With a source that has a thread of its own, and a recording that is written by another.
+/// With sources that have a thread of their own, and a recording that is written by others.
 TEST(LayerLibrary, IsUnloadedAndComesBack) {
     const Home home;
-    set_settings("layer.gaze=steam-frame:" + (home.folder.path() / "none").string() +
-                 "\nlayer.record=" + home.folder.path().string());
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < 4; ++round) {
+        set_settings(
+            "layer.gaze=" +
+            (round % 2 == 0 ? "steam-frame:" + (home.folder.path() / "none").string() : "sim") +
+            "\nlayer.record=" + home.folder.path().string());
         ASSERT_FALSE(is_loaded()) << round;
         const LoadedLayer loaded;
         ASSERT_TRUE(is_loaded());
