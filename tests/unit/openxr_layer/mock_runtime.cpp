@@ -30,6 +30,7 @@ bool lives(Handle handle) {
 }
 
 #define GAZELOOP_MOCK_CHECK(name, handle)                                       \
+    const std::lock_guard lock(mock().mutex());                                 \
     if (!lives(handle)) {                                                       \
         return XR_ERROR_HANDLE_INVALID;                                         \
     }                                                                           \
@@ -364,6 +365,7 @@ XrResult get_proc(XrInstance, const char* name, PFN_xrVoidFunction* function) {
 
 XrResult make_instance(const XrInstanceCreateInfo* info, const XrApiLayerCreateInfo*,
                        XrInstance* instance) {
+    const std::lock_guard lock(mock().mutex());
     if (mock().oldest() && info->enabledExtensionCount > 0) {
         return XR_ERROR_EXTENSION_NOT_PRESENT;
     }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@ namespace gazeloop::openxr_layer {
 
 /// An OpenXR runtime without eyes, display or loader, below the layer in this process. It knows no
 /// eye gaze, gives the handles that are asked for, refuses handles that it did not give, and its
-/// head turns steadily. Not for several threads.
+/// head turns steadily. Its OpenXR functions may be called by several threads.
 class MockRuntime {
   public:
     static MockRuntime& the();
@@ -52,8 +53,9 @@ class MockRuntime {
     [[nodiscard]] bool focused() const { return focused_; }
     void set_focused(bool focused) { focused_ = focused; }
 
-    // What the functions below use.
+    // What the functions below use, under the mutex.
 
+    [[nodiscard]] std::mutex& mutex() { return mutex_; }
     std::uint64_t make_handle() { return *live_.insert(++last_).first; }
     void add_instance() { ++instances_; }
     /// With the last of them all that was made ends.
@@ -81,6 +83,7 @@ class MockRuntime {
 
     static PFN_xrVoidFunction find_through_layer(XrInstance instance, const char* name);
 
+    std::mutex mutex_;
     Layer layer_;
     bool oldest_ = false;
 
