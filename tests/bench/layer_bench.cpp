@@ -512,7 +512,7 @@ void add_case(const Case& at, const Options& options, std::vector<Figure>& figur
 }  // namespace
 
 std::vector<Figure> layer(const Options& options) {
-    // A simulated person takes time of her own, which no tracker does.
+    // The last two have threads of the layer's beside the application's.
     constexpr std::array kCases{Case{"gaze", "fixed:3,4", false},
                                 Case{"gaze, recorded", "fixed:3,4", true},
                                 Case{"simulated gaze", "sim", false}};

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
 
 #include "runtime/session/session_file.h"
 #include "tests/unit/openxr_layer/mock_home.h"
@@ -31,6 +33,21 @@ TEST(SeenRecorder, LosesNothingInSilence) {
     EXPECT_EQ(session.frames.size() + lost, kFrames);
     ASSERT_GT(lost, 0U) << "the queue was never full";
     EXPECT_THAT(home.log(), testing::HasSubstr(std::to_string(lost) + " records were lost"));
+}
+
+TEST(SeenRecorder, SaysInMidRunThatTheRecordingHasGone) {
+    const Home home;
+    const std::filesystem::path file = home.folder.path() / "session.gaze";
+    const auto recorder = value_or_throw(SeenRecorder::open(file, {}, {}));
+    std::filesystem::remove(file);
+    constexpr int kLooks = 2'000;
+    for (int look = 0; look < kLooks && home.log().empty(); ++look) {
+        SeenFrame seen;
+        seen.index = static_cast<std::uint64_t>(look);
+        recorder->add(seen);
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_THAT(home.log(), testing::HasSubstr("moved or removed"));
 }
 
 TEST(SeenRecorder, SaysWhyNothingIsRecorded) {
