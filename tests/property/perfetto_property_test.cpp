@@ -25,6 +25,12 @@ T one_of(std::initializer_list<T> values) {
     return *rc::gen::elementOf(std::vector<T>(values));
 }
 
+/// At the ends of the range, which a disturbed time may lie at, it stays.
+std::int64_t moved(std::int64_t ns, std::int64_t by_ns) {
+    std::int64_t sum = 0;
+    return __builtin_add_overflow(ns, by_ns, &sum) ? ns : sum;
+}
+
 /// Mostly as it should be; else some ms off, or at an end of the range, or unknown.
 time::Stamp disturbed(const time::Stamp& stamp) {
     constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
@@ -40,7 +46,7 @@ time::Stamp disturbed(const time::Stamp& stamp) {
         case 2:
         case 3:
         case 4:
-            return {stamp.ns + *rc::gen::inRange<std::int64_t>(-40, 40) * kMs, kind};
+            return {moved(stamp.ns, *rc::gen::inRange<std::int64_t>(-40, 40) * kMs), kind};
         default:
             return stamp;
     }
