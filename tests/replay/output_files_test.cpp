@@ -97,7 +97,7 @@ TEST_F(OutputFiles, AreNoneOfWhatIsRead) {
 }
 
 TEST_F(OutputFiles, OfAStudyGoThroughLinksAndPipes) {
-    const std::string target = folder_.write("target.csv", "before");
+    const std::string target = folder_.write("target.csv", "");
     const std::string link = folder_.file("link.csv");
     std::filesystem::create_symlink(target, link);
     const Words simulate{"study", "simulate", plan_, link, "--subjects", "1"};
