@@ -161,10 +161,7 @@ void MeshContent::make_textures(const mesh::MeshData& data) {
     white.height = 1;
     white.texels.assign(4, std::byte{255});
     blank_ = texture_of(*context_, white);
-    textures_.reserve(data.images.size());
-    for (const mesh::Image& image : data.images) {
-        textures_.push_back(texture_of(*context_, image));
-    }
+    textures_ = textures_of(*context_, data.images);
 }
 
 vk::Sampler MeshContent::sampler_of(const mesh::TextureUse& use) {

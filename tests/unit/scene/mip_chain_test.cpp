@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 namespace gazeloop::scene::mesh {
@@ -49,6 +50,41 @@ TEST(MipChain, AveragesColoursAsLightAndAlphaAsItIs) {
     EXPECT_EQ(code(levels[0], 0), 188) << "sRGB code of half the light";
     EXPECT_EQ(code(levels[0], 0, 3), 128);
     EXPECT_EQ(code(smaller_levels(image(2, 1, ColorSpace::Linear, {0, 255}))[0], 0), 128);
+}
+
+// The mean of every two codes, of all 65536 pairs, by the formula of IEC 61966-2-1.
+TEST(MipChain, RoundsEveryMeanOfTwoColoursAsTheFormulaDoes) {
+    const auto light = [](float code) {
+        return code <= 0.04045F ? code / 12.92F : std::pow((code + 0.055F) / 1.055F, 2.4F);
+    };
+    for (int a = 0; a < 256; ++a) {
+        std::vector<int> codes;
+        for (int b = 0; b < 256; ++b) {
+            codes.insert(codes.end(), {a, b});
+        }
+        const auto level = smaller_levels(image(512, 1, ColorSpace::Srgb, codes)).front();
+        for (int b = 0; b < 256; ++b) {
+            const float mean = 0.5F * light(static_cast<float>(a) / 255.0F) +
+                               0.5F * light(static_cast<float>(b) / 255.0F);
+            const float wanted =
+                mean <= 0.0031308F ? 12.92F * mean : 1.055F * std::pow(mean, 1.0F / 2.4F) - 0.055F;
+            ASSERT_EQ(code(level, static_cast<std::size_t>(b)), std::lround(255.0F * wanted))
+                << a << " and " << b;
+        }
+    }
+}
+
+TEST(MipChain, TakesSquaresOfFour) {
+    std::vector<int> codes(16);
+    for (int i = 0; i < 16; ++i) {
+        codes[static_cast<std::size_t>(i)] = 4 * i;
+    }
+    const auto levels = smaller_levels(image(4, 4, ColorSpace::Linear, codes));
+    EXPECT_EQ(code(levels[0], 0), 10) << "0, 4, 16, 20";
+    EXPECT_EQ(code(levels[0], 1), 18) << "8, 12, 24, 28";
+    EXPECT_EQ(code(levels[0], 2), 42) << "32, 36, 48, 52";
+    EXPECT_EQ(code(levels[0], 3), 50) << "40, 44, 56, 60";
+    EXPECT_EQ(code(levels[1], 0), 30);
 }
 
 TEST(MipChain, KeepsSixteenBits) {
