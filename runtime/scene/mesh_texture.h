@@ -12,7 +12,7 @@ namespace gazeloop::scene {
 [[nodiscard]] vulkan::LayeredImage texture_of(const vulkan::Context& context,
                                               const mesh::Image& image);
 
-/// The same of several, in their order; all of the machine's processors make smaller levels.
+/// The same of several, in their order; up to four of the processors make smaller levels.
 [[nodiscard]] std::vector<vulkan::LayeredImage> textures_of(const vulkan::Context& context,
                                                             std::span<const mesh::Image> images);
 
