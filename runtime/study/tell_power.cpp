@@ -15,6 +15,7 @@ namespace gazeloop::study {
 void tell_power(const PowerRequest& request, const std::function<bool()>& interrupted) {
     const report::NamedFile output{"--json", request.json};
     std::vector<report::NamedFile> inputs;
+    inputs.reserve(request.plans.size());
     for (const std::string& file : request.plans) {
         inputs.emplace_back("the plan", file);
     }
