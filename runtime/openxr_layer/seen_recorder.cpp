@@ -71,7 +71,11 @@ SeenRecorder::~SeenRecorder() {
 
 void SeenRecorder::record_all() {
     while (const Seen* const seen = queue_.front()) {
-        std::visit([this](const auto& one) { record(one); }, *seen);
+        try {
+            std::visit([this](const auto& one) { record(one); }, *seen);
+        } catch (...) {  // out of memory: the program is not ours, and goes on
+            lost_.fetch_add(1, std::memory_order_relaxed);
+        }
         queue_.pop();
     }
     if (const std::uint64_t lost = lost_.exchange(0, std::memory_order_relaxed); lost > 0) {

@@ -21,6 +21,7 @@
 #include "runtime/time/clock.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/unit/openxr_layer/any_call.h"
+#include "tests/unit/openxr_layer/gaze_reader.h"
 #include "tests/unit/openxr_layer/mock_application.h"
 #include "tests/unit/openxr_layer/mock_home.h"
 #include "tests/unit/openxr_layer/mock_runtime.h"
@@ -29,20 +30,6 @@ namespace gazeloop::openxr_layer {
 namespace {
 
 constexpr XrSpaceLocationFlags kAll = 0xF;
-
-/// An application that reads gaze: one action, its space, VIEW and LOCAL.
-void set_up(MockApplication& application) {
-    ASSERT_EQ(application.make_session(), XR_SUCCESS);
-    ASSERT_EQ(application.make_set(), XR_SUCCESS);
-    ASSERT_EQ(application.make_action(application.sets[0], true), XR_SUCCESS);
-    ASSERT_EQ(application.suggest(application.actions), XR_SUCCESS);
-    ASSERT_EQ(application.attach(), XR_SUCCESS);
-    ASSERT_EQ(application.make_gaze_space(application.actions[0]), XR_SUCCESS);
-    ASSERT_EQ(application.make_reference_space(XR_REFERENCE_SPACE_TYPE_VIEW), XR_SUCCESS);
-    ASSERT_EQ(application.make_reference_space(XR_REFERENCE_SPACE_TYPE_LOCAL), XR_SUCCESS);
-    ASSERT_EQ(application.sync(), XR_SUCCESS);
-    ASSERT_EQ(application.sync(), XR_SUCCESS);
-}
 
 /// Times that the log says something.
 std::size_t times_said(const Home& home, std::string_view text) {
@@ -58,7 +45,7 @@ TEST(LayerCalls, GiveGazeThatTheRuntimeHasNeverHeardOf) {
     const Home home;
     set_settings("layer.gaze=fixed:0,0");
     MockApplication application;
-    set_up(application);
+    make_gaze_reader(application);
     EXPECT_TRUE(application.active(application.actions[0]));
     EXPECT_TRUE(application.active(application.actions[0], application.path("/user/eyes_ext")));
     EXPECT_FALSE(MockRuntime::the().saw_eyes());
@@ -102,7 +89,7 @@ TEST(LayerCalls, KeepTwoInstancesApart) {
     const Home home;
     set_settings("layer.gaze=fixed:0,0");
     MockApplication one;
-    set_up(one);
+    make_gaze_reader(one);
     XrInstance other = XR_NULL_HANDLE;
     ASSERT_EQ(MockRuntime::the().create_through_layer({}, other), XR_SUCCESS);
     ASSERT_NE(other, one.instance);
@@ -120,7 +107,7 @@ TEST(LayerCalls, GiveGazeToTwoInstances) {
     const std::string file = home.folder.path() / "session.gaze";
     set_settings("layer.gaze=fixed:0,0\nlayer.record=" + file);
     MockApplication one;
-    set_up(one);
+    make_gaze_reader(one);
     const auto reads = [](const MockApplication& application) {
         XrResult result = XR_SUCCESS;
         const XrSpaceLocation location = application.locate(
@@ -129,7 +116,7 @@ TEST(LayerCalls, GiveGazeToTwoInstances) {
     };
     {
         MockApplication two;
-        set_up(two);
+        make_gaze_reader(two);
         for (int frame = 0; frame < 5; ++frame) {
             one.frame(one.spaces[2]);
             two.frame(two.spaces[2]);
@@ -154,7 +141,7 @@ TEST(LayerCalls, GiveGazeAboveTheOldestRuntime) {
     MockRuntime::the().set_oldest(true);
     {
         MockApplication application;
-        set_up(application);
+        make_gaze_reader(application);
         application.frame(application.spaces[2]);
         ASSERT_EQ(application.sync(), XR_SUCCESS);
         EXPECT_TRUE(application.active(application.actions[0]));
@@ -178,7 +165,7 @@ TEST(LayerCalls, RecordFramesOfPanelsAlone) {
     set_settings("layer.gaze=fixed:3,4\nlayer.record=" + file);
     {
         MockApplication application;
-        set_up(application);
+        make_gaze_reader(application);
         for (int frame = 0; frame < 10; ++frame) {
             application.frame_of_panels([&](XrTime display) {
                 application.sync();
@@ -205,7 +192,7 @@ TEST(LayerCalls, TellOfEachSessionThatReadsGaze) {
     set_settings("layer.gaze=fixed:0,0");
     MockApplication application;
     for (std::size_t session = 1; session <= 3; ++session) {
-        set_up(application);
+        make_gaze_reader(application);
         EXPECT_EQ(times_said(home, "reads gaze of fixed:0,0"), session - 1);
         XrResult result = XR_SUCCESS;
         for (int read = 0; read < 5; ++read) {
@@ -227,7 +214,7 @@ TEST(LayerCalls, GiveNoGazeOnceItIsDenied) {
     const Home home;
     set_settings("layer.gaze=fixed:0,0");
     MockApplication application;
-    set_up(application);
+    make_gaze_reader(application);
     const auto gets_gaze = [&application] {
         auto sample = openxr::typed<XrEyeGazeSampleTimeEXT>(XR_TYPE_EYE_GAZE_SAMPLE_TIME_EXT);
         auto location = openxr::typed<XrSpaceLocation>(XR_TYPE_SPACE_LOCATION);
@@ -259,7 +246,7 @@ TEST(LayerCalls, LetAProgramExitWithoutDestroyingAnything) {
     ASSERT_GE(child, 0);
     if (child == 0) {
         auto& application = *new MockApplication;
-        set_up(application);
+        make_gaze_reader(application);
         for (int frame = 0; frame < 20; ++frame) {
             application.frame(application.spaces[2]);
         }
@@ -280,7 +267,7 @@ TEST(LayerCalls, LetAForkOfAProgramExit) {
     const std::string file = home.folder.path() / "session.gaze";
     set_settings("layer.gaze=sim\nlayer.record=" + file);
     MockApplication application;
-    set_up(application);
+    make_gaze_reader(application);
     application.frame(application.spaces[2]);
     const pid_t child = fork();
     ASSERT_GE(child, 0);
@@ -302,7 +289,7 @@ TEST(LayerCalls, AllocateNothingInSteadyState) {
     const std::string session = home.folder.path() / "session.gaze";
     set_settings("layer.gaze=fixed:3,4\nlayer.record=" + session);
     MockApplication application;
-    set_up(application);
+    make_gaze_reader(application);
     std::size_t before = 0;
     std::vector<std::int64_t> own_ns;
     own_ns.reserve(600);

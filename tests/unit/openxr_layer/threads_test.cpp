@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/session/session_file.h"
+#include "tests/unit/openxr_layer/gaze_reader.h"
 #include "tests/unit/openxr_layer/mock_application.h"
 #include "tests/unit/openxr_layer/mock_home.h"
 
@@ -22,14 +23,7 @@ TEST(LayerThreads, ShareASession) {
     constexpr int kFrames = 300;
     {
         MockApplication application;
-        ASSERT_EQ(application.make_session(), XR_SUCCESS);
-        ASSERT_EQ(application.make_set(), XR_SUCCESS);
-        ASSERT_EQ(application.make_action(application.sets[0], true), XR_SUCCESS);
-        ASSERT_EQ(application.suggest(application.actions), XR_SUCCESS);
-        ASSERT_EQ(application.attach(), XR_SUCCESS);
-        ASSERT_EQ(application.make_gaze_space(application.actions[0]), XR_SUCCESS);
-        ASSERT_EQ(application.make_reference_space(XR_REFERENCE_SPACE_TYPE_VIEW), XR_SUCCESS);
-        ASSERT_EQ(application.make_reference_space(XR_REFERENCE_SPACE_TYPE_LOCAL), XR_SUCCESS);
+        make_gaze_reader(application);
         std::atomic<bool> over{false};
         std::atomic<int> failed{0};
         const auto until_over = [&over](auto call) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/unit/openxr_layer/gaze_reader.h"
 #include "tests/unit/openxr_layer/mock_application.h"
 #include "tests/unit/openxr_layer/mock_home.h"
 
@@ -70,15 +71,10 @@ TEST(LayerLibrary, IsUnloadedAndComesBack) {
         const LoadedLayer loaded;
         ASSERT_TRUE(is_loaded());
         MockApplication application;
-        ASSERT_EQ(application.make_session(), XR_SUCCESS);
-        ASSERT_EQ(application.make_set(), XR_SUCCESS);
-        ASSERT_EQ(application.make_action(application.sets[0], true), XR_SUCCESS);
-        ASSERT_EQ(application.suggest(application.actions), XR_SUCCESS);
-        ASSERT_EQ(application.attach(), XR_SUCCESS);
-        ASSERT_EQ(application.make_reference_space(XR_REFERENCE_SPACE_TYPE_LOCAL), XR_SUCCESS);
+        make_gaze_reader(application);
         for (int frame = 0; frame < 5; ++frame) {
             EXPECT_EQ(application.sync(), XR_SUCCESS);
-            application.frame(application.spaces[0]);
+            application.frame(application.spaces[2]);
         }
         EXPECT_FALSE(MockRuntime::the().saw_eyes());
         // Whatever its session and instance hold goes with them.
