@@ -4,13 +4,11 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
-#include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "runtime/periodic_thread.h"
 #include "runtime/report/monitor_json.h"
 #include "runtime/report/monitor_panel.h"
 #include "runtime/run/line_writer.h"
@@ -40,7 +38,7 @@ class MonitorOutput::Impl {
             json_.emplace(*options.json_fd);
             json_->write(report::monitor_begin_json(options.budget, options.clock));
         }
-        thread_ = std::thread([this] { run(); });
+        thread_.emplace(kLookInterval, [this] { take_queued(); });
     }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
@@ -53,19 +51,15 @@ class MonitorOutput::Impl {
     }
 
     void close() {
-        if (!thread_.joinable()) {
+        if (!thread_) {
             return;
         }
-        {
-            const std::lock_guard lock(mutex_);
-            closing_ = true;
-        }
-        wake_.notify_one();
-        thread_.join();
+        thread_.reset();
         panel_.reset();
         if (!json_) {
             return;
         }
+        json_->finish(kLastPatience_ms);
         if (json_->broken()) {
             spdlog::warn("--monitor-json {}: {} ({} lines written, {} not)", *options_.json_fd,
                          json_->why_broken(), json_->written(), dropped());
@@ -76,21 +70,6 @@ class MonitorOutput::Impl {
     }
 
   private:
-    void run() {
-        while (!wait_for_close()) {
-            take_queued();
-        }
-        take_queued();
-        if (json_) {
-            json_->finish(kLastPatience_ms);
-        }
-    }
-
-    bool wait_for_close() {
-        std::unique_lock lock(mutex_);
-        return wake_.wait_for(lock, kLookInterval, [this] { return closing_; });
-    }
-
     void take_queued() {
         while (const MonitorRecord* const record = queue_.front()) {
             if (const auto* const message = std::get_if<MonitorMessage>(record)) {
@@ -150,10 +129,7 @@ class MonitorOutput::Impl {
     SpscQueue<MonitorRecord> queue_{kQueueRecords};
     std::atomic<std::uint64_t> lost_{0};
     std::chrono::steady_clock::time_point last_shown_;
-    std::mutex mutex_;
-    std::condition_variable wake_;
-    bool closing_ = false;
-    std::thread thread_;
+    std::optional<PeriodicThread> thread_;  // the first to end
 };
 
 MonitorOutput::MonitorOutput(const MonitorOutputOptions& options)
