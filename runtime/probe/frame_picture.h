@@ -27,6 +27,10 @@ class FramePicture {
     [[nodiscard]] std::uint32_t height() const { return height_; }
     /// Mean luminance, 0 .. 1. Precondition: the region lies inside.
     [[nodiscard]] double brightness(const Region& region) const;
+    /// Whether every pixel is the same.
+    [[nodiscard]] bool same_as(const FramePicture& other) const {
+        return width_ == other.width_ && height_ == other.height_ && pixels_ == other.pixels_;
+    }
 
   private:
     std::uint32_t width_ = 0;

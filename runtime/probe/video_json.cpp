@@ -54,6 +54,7 @@ Json video_json(const VideoResult& result) {
         {"eye_found", delays_json(result.off)},
         {"camera",
          {{"frames", result.frames},
+          {"repeated_frames", result.repeated_frames},
           {"width", result.width},
           {"height", result.height},
           {"fps", question.camera_fps},

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <utility>
 
 #include "runtime/probe/frame_files.h"
 #include "runtime/probe/frame_picture.h"
@@ -13,46 +14,50 @@ namespace {
 /// Below it a frame is as long as what is measured: half of what the instructions ask for.
 constexpr double kLeastFps = 120.0;
 
-struct FrameSize {
+struct FramesRead {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
+    std::uint64_t repeated = 0;
 };
 
-/// Reads every frame; the first one decides the size, which is returned.
-Expected<FrameSize> read_frames(const FrameFiles& files, const VideoQuestion& question,
-                                LightSeries& series,
-                                const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
-    FrameSize size;
+/// Reads every frame; the first one decides the size.
+Expected<FramesRead> read_frames(
+    const FrameFiles& files, const VideoQuestion& question, LightSeries& series,
+    const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+    FramesRead all;
     FramePicture picture;
+    FramePicture before;
     for (std::uint64_t frame = 0; frame < files.count(); ++frame) {
         const std::filesystem::path file = files.file(frame);
         if (const auto read = picture.read(file); !read) {
             return std::unexpected(read.error());
         }
         if (frame == 0) {
-            size = {picture.width(), picture.height()};
+            all = {.width = picture.width(), .height = picture.height()};
             for (const auto& [name, region] :
                  {std::pair{"lamp", &question.lamp}, std::pair{"patch", &question.patch}}) {
-                if (const auto inside = check_inside(name, *region, size.width, size.height);
+                if (const auto inside = check_inside(name, *region, all.width, all.height);
                     !inside) {
                     return std::unexpected(inside.error());
                 }
             }
-        } else if (picture.width() != size.width || picture.height() != size.height) {
+        } else if (picture.width() != all.width || picture.height() != all.height) {
             return std::unexpected(
                 Error{ErrorKind::BadInput,
                       fmt::format("{}: has {}x{} pixels, {} before has {}x{}: the folder may hold "
                                   "the frames of one video alone",
                                   file.string(), picture.width(), picture.height(),
-                                  files.file(0).filename().string(), size.width, size.height)});
+                                  files.file(0).filename().string(), all.width, all.height)});
         }
         series.add(static_cast<float>(picture.brightness(question.lamp)),
                    static_cast<float>(picture.brightness(question.patch)));
         if (progress) {
             progress(frame + 1, files.count());
         }
+        all.repeated += frame > 0 && picture.same_as(before) ? 1 : 0;
+        std::swap(picture, before);
     }
-    return size;
+    return all;
 }
 
 /// Errors (Usage): what no camera and no picture can be.
@@ -143,11 +148,20 @@ Expected<VideoResult> measure_video(
         return std::unexpected(files.error());
     }
     LightSeries series;
-    const auto size = read_frames(*files, question, series, progress);
-    if (!size) {
-        return std::unexpected(size.error());
+    const auto read = read_frames(*files, question, series, progress);
+    if (!read) {
+        return std::unexpected(read.error());
     }
-    return measure_series(question, series, size->width, size->height);
+    auto result = measure_series(question, series, read->width, read->height);
+    if (result && read->repeated > 0) {
+        result->repeated_frames = read->repeated;
+        result->warnings.push_back(fmt::format(
+            "{} of {} frames have every pixel of the one before, which no camera's noise does: a "
+            "tool has filled the video to an even rate, and delays across these are too long; "
+            "extract the frames with -fps_mode passthrough",
+            read->repeated, result->frames));
+    }
+    return result;
 }
 
 }  // namespace gazeloop::probe

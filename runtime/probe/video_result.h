@@ -30,6 +30,9 @@ struct VideoQuestion {
 struct VideoResult {
     VideoQuestion question;
     std::uint64_t frames = 0;
+    /// Of them, those whose every pixel is as in the frame before: no camera's noise does that, but
+    /// tools that fill a video to an even rate do.
+    std::uint64_t repeated_frames = 0;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     LightChanges lamp{};
@@ -58,7 +61,7 @@ struct VideoResult {
     const VideoQuestion& question,
     const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
 
-/// The same for what was read of frames of this size.
+/// The same for what was read of frames of this size, none of them repeated.
 [[nodiscard]] Expected<VideoResult> measure_series(const VideoQuestion& question,
                                                    const LightSeries& series, std::uint32_t width,
                                                    std::uint32_t height);

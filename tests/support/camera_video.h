@@ -23,7 +23,8 @@ inline double encoded_srgb(double linear) {
 }
 
 /// A PNG of 40x20 pixels: the lamp at 4,8,6,4, the patch at 24,8,8,4, both of linear light, the
-/// rest dark.
+/// rest dark. The first row counts the frames in its pixels, so that no two are the same, as a
+/// camera's noise makes sure of.
 class FrameWriter {
   public:
     static constexpr std::uint32_t kWidth = 40;
@@ -36,6 +37,12 @@ class FrameWriter {
     void write(const std::filesystem::path& file, double lamp, double patch) {
         pixels8_.assign(std::size_t{kWidth} * kHeight * 3, 20);
         pixels16_.assign(std::size_t{kWidth} * kHeight, 500);
+        for (std::size_t bit = 0; bit < kWidth; ++bit) {
+            const bool set = (written_ >> bit & 1U) != 0;
+            pixels8_[bit * channels()] = set ? 80 : 20;
+            pixels16_[bit] = set ? 600 : 500;
+        }
+        ++written_;
         fill(4, 6, lamp);
         fill(24, 8, patch);
         png_image image{};
@@ -65,18 +72,20 @@ class FrameWriter {
     void fill(std::uint32_t x0, std::uint32_t width, double light) {
         const auto code8 = static_cast<std::uint8_t>(std::lround(255.0 * encoded_srgb(light)));
         const auto code16 = static_cast<std::uint16_t>(std::lround(65535.0 * light));
-        const std::size_t channels = format_ == FrameFormat::Colour8 ? 3 : 1;
         for (std::uint32_t y = 8; y < 12; ++y) {
             for (std::uint32_t x = x0; x < x0 + width; ++x) {
                 const std::size_t pixel = std::size_t{y} * kWidth + x;
-                std::fill_n(pixels8_.begin() + static_cast<std::ptrdiff_t>(pixel * channels),
-                            channels, code8);
+                std::fill_n(pixels8_.begin() + static_cast<std::ptrdiff_t>(pixel * channels()),
+                            channels(), code8);
                 pixels16_[pixel] = code16;
             }
         }
     }
 
+    [[nodiscard]] std::size_t channels() const { return format_ == FrameFormat::Colour8 ? 3 : 1; }
+
     FrameFormat format_;
+    std::uint64_t written_ = 0;
     std::vector<std::uint8_t> pixels8_;
     std::vector<std::uint16_t> pixels16_;
 };

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "runtime/probe/frame_files.h"
@@ -58,6 +59,26 @@ TEST_P(VideoFormats, AreMeasuredToHalfACameraFrame) {
     EXPECT_NEAR(*result->off.mean_ms, truth.mean_ms(false), 500.0 / fps);
     EXPECT_EQ(result->paired.lamp_alone + result->paired.patch_alone, 0U);
     EXPECT_TRUE(result->warnings.empty());
+    EXPECT_EQ(result->repeated_frames, 0U);
+}
+
+TEST(VideoFiles, FramesThatAToolHasRepeatedAreCounted) {
+    const TemporaryFolder folder;
+    const LampAndDisplay set_up;
+    sim::Random random(7, sim::Stream::Targets);
+    const Truth truth = switch_lamp(set_up, 5, random);
+    const std::size_t frames =
+        film(folder.path(), FrameFormat::Grey8, {.fps = 240.0, .noise = 0.01}, set_up, truth, 7);
+    const auto name = [&](std::size_t frame) { return folder / fmt::format("{:06}.png", frame); };
+    for (const std::size_t frame : {std::size_t{3}, frames / 2, frames}) {
+        fs::copy_file(name(frame - 1), name(frame), fs::copy_options::overwrite_existing);
+    }
+    const auto result = probe::measure_video(question(folder.path(), 240.0));
+    ASSERT_TRUE(result.has_value()) << result.error().message;
+    EXPECT_EQ(result->repeated_frames, 3U);
+    EXPECT_THAT(result->warnings,
+                testing::ElementsAre(HasSubstr(fmt::format("3 of {} frames have every", frames))));
+    EXPECT_EQ(probe::video_json(*result)["camera"]["repeated_frames"], 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, VideoFormats,
