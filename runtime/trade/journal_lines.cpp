@@ -111,8 +111,16 @@ TimedTurn turn_of(const json& line, const SweepRecord& record) {
         .of_case = index_of(line.at("case"), record.cases.size(), "case"),
         .round = static_cast<unsigned>(index_of(line.at("round"), record.subject.rounds, "round")),
         .frame = index_of(line.at("frame"), record.subject.frames, "frame")};
+    // Of sweeps of before there is no energy.
+    const json* const energies = line.contains("joules") ? &line.at("joules") : nullptr;
     for (const json& one : line.at("ms")) {
         PointTime time{.point = index_of(one.at(0), record.points.size(), "point")};
+        if (energies != nullptr) {
+            const json& energy = energies->at(turn.times.size());
+            if (!energy.is_null()) {
+                time.energy_j = finite_not_negative(energy, "a frame's energy");
+            }
+        }
         for (std::size_t pass = 1; pass < one.size(); ++pass) {
             time.pass_ms.push_back(finite_not_negative(one.at(pass), "a pass's time"));
         }
@@ -196,18 +204,25 @@ std::string judged_line(const JudgedPoint& judged) {
 
 std::string turn_line(const TimedTurn& turn) {
     auto times = ordered_json::array();
+    auto energies = ordered_json::array();
+    bool any_energy = false;
     for (const PointTime& time : turn.times) {
+        any_energy |= time.energy_j.has_value();
+        energies.push_back(time.energy_j ? ordered_json(*time.energy_j) : ordered_json());
         auto of_point = ordered_json::array({time.point});
         for (const double ms : time.pass_ms) {
             of_point.push_back(ms);
         }
         times.push_back(std::move(of_point));
     }
-    return ordered_json{{"case", turn.of_case},
-                        {"round", turn.round},
-                        {"frame", turn.frame},
-                        {"ms", std::move(times)}}
-        .dump();
+    ordered_json line{{"case", turn.of_case},
+                      {"round", turn.round},
+                      {"frame", turn.frame},
+                      {"ms", std::move(times)}};
+    if (any_energy) {
+        line["joules"] = std::move(energies);
+    }
+    return line.dump();
 }
 
 void read_header(const json& line, SweepRecord& record) {

@@ -344,6 +344,10 @@ class CaseSweep {
         return {};
     }
 
+    [[nodiscard]] std::optional<double> joules() const {
+        return hooks_.joules ? hooks_.joules() : std::nullopt;
+    }
+
     /// One frame by all points that work.
     Expected<TimedTurn> render_turn(unsigned round, std::size_t frame) {
         TimedTurn turn{.of_case = at_case_, .round = round, .frame = frame};
@@ -354,9 +358,13 @@ class CaseSweep {
             if (!contender.renderer) {
                 continue;
             }
+            const std::optional<double> before = joules();
             const frame::FrameGpuRecord gpu =
                 contender.renderer->render(view(frame), fovea(frame)).gpu;
             PointTime time{.point = contender.point};
+            if (const std::optional<double> after = joules(); before && after) {
+                time.energy_j = *after - *before;
+            }
             for (std::size_t pass = 0; pass < contender.renderer->renderer().passes().size();
                  ++pass) {
                 time.pass_ms.push_back(1e-6 * static_cast<double>(gpu.passes[pass].value_or(0)));

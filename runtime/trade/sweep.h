@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "runtime/settings/settings.h"
@@ -28,6 +29,8 @@ struct SweepHooks {
     /// Errors end the sweep: what cannot be kept is not worth measuring.
     std::function<Expected<void>(const JudgedPoint&)> judged;
     std::function<Expected<void>(const TimedTurn&)> timed;
+    /// What the processor has taken so far, J; none: it cannot be told now. Empty: never.
+    std::function<std::optional<double>()> joules{};
     /// Of each frame that is compared; may be empty.
     std::function<void(const ComparedFrame&)> compared{};
 };

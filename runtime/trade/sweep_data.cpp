@@ -46,6 +46,8 @@ ordered_json row_json(const SweepRow& row, std::uint32_t samples) {
         entry["pass_ms"][pass] = ms;
     }
     entry["speedup"] = finite(row.speedup);
+    entry["energy_mj"] = row.energy_mj ? finite(*row.energy_mj) : ordered_json();
+    entry["less_energy"] = row.less_energy ? finite(*row.less_energy) : ordered_json();
     auto figures = ordered_json::object();
     for (const quality::QualityFigure& figure : row.figures) {
         figures[figure.key] = {{"mean", finite(figure.mean)},
@@ -103,13 +105,18 @@ ordered_json fit_json(const MethodFit& fit) {
     return entry;
 }
 
+/// Empty where it is not known.
+std::string known(const std::optional<double>& value) {
+    return value ? fmt::format("{}", *value) : std::string();
+}
+
 }  // namespace
 
 std::string sweep_csv(const SweepReport& report) {
     std::string text =
         "scene,gaze,method,settings,error,cells_per_frame,rays_per_frame,fewer_cells,"
-        "cells_over_fewest,time_ms,time_least_ms,time_greatest_ms,speedup,on_cells_front,"
-        "on_time_front";
+        "cells_over_fewest,time_ms,time_least_ms,time_greatest_ms,speedup,energy_mj,less_energy,"
+        "on_cells_front,on_time_front";
     std::vector<std::string> keys;
     for (const SweepSheet& sheet : report.sheets) {
         if (const SweepRow* const some = row_with_figures(sheet.rows); some && keys.empty()) {
@@ -126,14 +133,15 @@ std::string sweep_csv(const SweepReport& report) {
                 fmt::format("{},{},{},{},{}", quoted(sheet.of.scene), quoted(sheet.of.gaze),
                             row.point.method, quoted(row.point.settings_text()), quoted(row.error));
             if (!row.error.empty()) {
-                constexpr std::size_t kOther = 10;
+                constexpr std::size_t kOther = 12;
                 text += std::string(kOther + keys.size(), ',') + '\n';
                 continue;
             }
-            text += fmt::format(
-                ",{},{},{},{},{},{},{},{},{:d},{:d}", row.cells, row.cells * report.subject.samples,
-                row.fewer_cells, row.cells_over_fewest, row.time.median_ms, row.time.least_ms,
-                row.time.greatest_ms, row.speedup, row.on_cells_front, row.on_time_front);
+            text += fmt::format(",{},{},{},{},{},{},{},{},{},{},{:d},{:d}", row.cells,
+                                row.cells * report.subject.samples, row.fewer_cells,
+                                row.cells_over_fewest, row.time.median_ms, row.time.least_ms,
+                                row.time.greatest_ms, row.speedup, known(row.energy_mj),
+                                known(row.less_energy), row.on_cells_front, row.on_time_front);
             for (const std::string& key : keys) {
                 text += fmt::format(",{}", find_figure(row, key)->mean);
             }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -71,6 +72,9 @@ struct JudgedPoint {
 struct PointTime {
     std::size_t point = 0;
     std::vector<double> pass_ms{};
+    /// What the processor took meanwhile, J, from the frame's beginning until all is done; none:
+    /// unknown.
+    std::optional<double> energy_j{};
 };
 
 /// One frame by all points in turns, of one machine.

@@ -21,6 +21,10 @@ std::string table_text(const SweepSheet& sheet) {
     const SweepRow* const some = row_with_figures(rows);
     std::string text = fmt::format("{:40} {:>7} {:>7} {:>9} {:>19} {:>7}", "point", "fewer",
                                    "bound", "ms", "(least-most)", "faster");
+    const bool with_energy = any_energy(rows);
+    if (with_energy) {
+        text += fmt::format(" {:>9} {:>7}", "mJ", "less");
+    }
     for (const char* const key : kShown) {
         if (some != nullptr && find_figure(*some, key) != nullptr) {
             text += fmt::format(" {:>16}", key);
@@ -37,6 +41,11 @@ std::string table_text(const SweepSheet& sheet) {
                             row.fewer_cells, row.cells_over_fewest, row.time.median_ms,
                             fmt::format("({:.2f}-{:.2f})", row.time.least_ms, row.time.greatest_ms),
                             row.speedup);
+        if (with_energy) {
+            text += fmt::format(" {:>9} {:>7}",
+                                row.energy_mj ? fmt::format("{:.3g}", *row.energy_mj) : "-",
+                                row.less_energy ? fmt::format("{:.2f}x", *row.less_energy) : "-");
+        }
         for (const char* const key : kShown) {
             if (const quality::QualityFigure* const figure = find_figure(row, key)) {
                 text += fmt::format(" {:>16.4f}", figure->mean);
@@ -81,6 +90,10 @@ std::string meanings_text(const std::vector<SweepRow>& rows) {
         "\nfewer: cells shaded, against full resolution. bound: over the fewest that Guenter's "
         "line asks for. ms: all passes of a frame, both eyes. front: no other point is cheaper and "
         "better by the first figure.\n";
+    text += any_energy(rows)
+                ? "mJ: what the processor's packages took for a frame, whatever else ran on them; "
+                  "less: than full resolution.\n"
+                : "energy: unavailable.\n";
     if (const SweepRow* const some = row_with_figures(rows)) {
         for (const quality::QualityFigure& figure : some->figures) {
             if (std::ranges::find(kShown, figure.key) != kShown.end()) {

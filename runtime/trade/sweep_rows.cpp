@@ -15,6 +15,10 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
+std::optional<double> median_of_any(std::vector<double> values) {
+    return values.empty() ? std::nullopt : std::optional(median(std::move(values)));
+}
+
 double sum(const std::vector<double>& values) {
     double total = 0.0;
     for (const double value : values) {
@@ -29,11 +33,16 @@ struct Round {
     double ms = 0.0;
     double full_ms = 0.0;  ///< of full resolution in the same turns
     std::vector<double> pass_ms{};
+    std::optional<double> energy_j{0.0};  ///< none: of one of the turns it is not known
+    std::optional<double> full_j{0.0};
 
-    void add(const PointTime& time, double full) {
+    void add(const PointTime& time, const PointTime& full) {
         ++frames;
         ms += sum(time.pass_ms);
-        full_ms += full;
+        full_ms += sum(full.pass_ms);
+        energy_j =
+            energy_j && time.energy_j ? std::optional(*energy_j + *time.energy_j) : std::nullopt;
+        full_j = full_j && full.energy_j ? std::optional(*full_j + *full.energy_j) : std::nullopt;
         pass_ms.resize(std::max(pass_ms.size(), time.pass_ms.size()));
         for (std::size_t pass = 0; pass < time.pass_ms.size(); ++pass) {
             pass_ms[pass] += time.pass_ms[pass];
@@ -51,7 +60,7 @@ Rounds rounds_of(const SweepRecord& record, std::size_t at_case) {
             continue;  // without full resolution, there is no ratio
         }
         for (const PointTime& time : turn.times) {
-            rounds[{time.point, turn.round}].add(time, sum(full->pass_ms));
+            rounds[{time.point, turn.round}].add(time, *full);
         }
     }
     return rounds;
@@ -61,6 +70,8 @@ void add_times(SweepRow& row, const JudgedPoint& judged, const Rounds& rounds,
                std::uint64_t frames) {
     std::vector<double> round_ms;
     std::vector<double> ratios;
+    std::vector<double> energies_mj;
+    std::vector<double> energy_ratios;
     std::vector<std::vector<double>> pass_ms(judged.passes.size());
     for (auto found = rounds.lower_bound({judged.point, 0});
          found != rounds.end() && found->first.first == judged.point; ++found) {
@@ -71,6 +82,13 @@ void add_times(SweepRow& row, const JudgedPoint& judged, const Rounds& rounds,
         const auto count = static_cast<double>(round.frames);
         round_ms.push_back(round.ms / count);
         ratios.push_back(round.ms > 0.0 ? round.full_ms / round.ms : 0.0);
+        if (round.energy_j) {
+            energies_mj.push_back(1e3 * *round.energy_j / count);
+        }
+        // A round that is over before the counter moves tells no ratio.
+        if (round.energy_j && round.full_j && *round.energy_j > 0.0) {
+            energy_ratios.push_back(*round.full_j / *round.energy_j);
+        }
         for (std::size_t pass = 0; pass < pass_ms.size(); ++pass) {
             pass_ms[pass].push_back(pass < round.pass_ms.size() ? round.pass_ms[pass] / count
                                                                 : 0.0);
@@ -82,6 +100,8 @@ void add_times(SweepRow& row, const JudgedPoint& judged, const Rounds& rounds,
     }
     row.time = {median(round_ms), std::ranges::min(round_ms), std::ranges::max(round_ms)};
     row.speedup = median(ratios);
+    row.energy_mj = median_of_any(std::move(energies_mj));
+    row.less_energy = median_of_any(std::move(energy_ratios));
     for (std::size_t pass = 0; pass < pass_ms.size(); ++pass) {
         // One that never ran took no time that could be told.
         if (std::ranges::max(pass_ms[pass]) > 0.0) {
@@ -172,6 +192,10 @@ const quality::QualityFigure* find_figure(const SweepRow& row, std::string_view 
     return found == row.figures.end() ? nullptr : &*found;
 }
 
+bool any_energy(const std::vector<SweepRow>& rows) {
+    return std::ranges::any_of(rows, [](const SweepRow& row) { return row.energy_mj.has_value(); });
+}
+
 const SweepRow* row_with_figures(const std::vector<SweepRow>& rows) {
     const auto found =
         std::ranges::find_if(rows, [](const SweepRow& row) { return !row.figures.empty(); });
@@ -206,6 +230,16 @@ SweepSheet mean_sheet(const std::vector<SweepSheet>& sheets) {
         row.time = {mean([](const SweepRow& one) { return one.time.median_ms; }),
                     mean([](const SweepRow& one) { return one.time.least_ms; }),
                     mean([](const SweepRow& one) { return one.time.greatest_ms; })};
+        const auto mean_of_known = [&](std::optional<double> SweepRow::* known) {
+            const bool all_known = std::ranges::all_of(sheets, [&](const SweepSheet& sheet) {
+                return (sheet.rows[at].*known).has_value();
+            });
+            return all_known
+                       ? std::optional(mean([&](const SweepRow& one) { return *(one.*known); }))
+                       : std::nullopt;
+        };
+        row.energy_mj = mean_of_known(&SweepRow::energy_mj);
+        row.less_energy = mean_of_known(&SweepRow::less_energy);
         row.figures = sheets.front().rows[at].figures;
         for (std::size_t i = 1; i < sheets.size(); ++i) {
             for (quality::QualityFigure& figure : row.figures) {

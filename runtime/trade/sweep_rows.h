@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,10 @@ struct SweepRow {
     /// How much faster than full resolution with as many samples per pixel: median of the rounds'
     /// ratios, each of one machine.
     double speedup = 0.0;
+    /// What the processor takes for a frame, mJ (ProcessorEnergy), and how much less that is than
+    /// for full resolution: medians of the rounds. None: no whole round has it.
+    std::optional<double> energy_mj{};
+    std::optional<double> less_energy{};
     double fewer_cells = 0.0;  ///< than full resolution; not a number where that failed
     /// Cells over the fewest that the comparison's acuity line asks for.
     double cells_over_fewest = 0.0;
@@ -49,6 +54,8 @@ struct SweepSheet {
 
 /// The figure of a row; null where there is none.
 [[nodiscard]] const quality::QualityFigure* find_figure(const SweepRow& row, std::string_view key);
+/// Whether any row has an energy.
+[[nodiscard]] bool any_energy(const std::vector<SweepRow>& rows);
 /// The first row that has figures tells which there are; null: none has.
 [[nodiscard]] const SweepRow* row_with_figures(const std::vector<SweepRow>& rows);
 

@@ -14,6 +14,7 @@
 #include "runtime/quality/figure_keys.h"
 #include "runtime/settings/nearest_name.h"
 #include "runtime/trade/measured_sweep.h"
+#include "runtime/trade/processor_energy.h"
 #include "runtime/trade/published_grid.h"
 #include "runtime/trade/settings_of_point.h"
 
@@ -145,7 +146,7 @@ void check_scenes(const SweepQuestion& question, settings::Settings& settings) {
 }
 
 SweepRecord record_of(const TradeRequest& request, const TradeScene& scene,
-                      settings::Settings& settings, const SweepHooks& hooks) {
+                      settings::Settings& settings, SweepHooks hooks) {
     if (!request.merge.empty()) {
         return value_or_throw(merged_sweep(request.merge, hooks.progress));
     }
@@ -165,10 +166,16 @@ SweepRecord record_of(const TradeRequest& request, const TradeScene& scene,
                                    .device = scene.vulkan.device,
                                    .device_origin = settings.origin("vulkan.device")},
                                   nullptr);
+    ProcessorEnergy energy;
+    if (energy.unavailable().empty()) {
+        hooks.joules = [&energy] { return energy.joules(); };
+    } else {
+        hooks.progress("energy per frame is unavailable: " + energy.unavailable());
+    }
     return value_or_throw(measured_sweep(
         context, question, points,
         {.methods = scene.methods, .render = scene.render, .light_field = scene.light_field},
-        settings, request.journal, hooks));
+        settings, request.journal, std::move(hooks)));
 }
 
 }  // namespace

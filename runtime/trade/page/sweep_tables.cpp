@@ -65,6 +65,11 @@ Table time_table(const std::vector<SweepRow>& rows) {
         table.heads.push_back({some->figures.front().key});
     }
     table.heads.push_back({"on the front"});
+    const bool with_energy = any_energy(rows);
+    if (with_energy) {
+        table.heads.push_back({"mJ of the processor"});
+        table.heads.push_back({"times less"});
+    }
     for (const SweepRow* const row :
          sorted(rows, [](const auto& one) { return one.time.median_ms; })) {
         TableRow line = row_of(*row);
@@ -74,6 +79,10 @@ Table time_table(const std::vector<SweepRow>& rows) {
                       fmt::format("{:.2f}", row->speedup),
                       fmt::format("{:.4f}", row->figures.front().mean),
                       yes(row->on_time_front)};
+        if (with_energy) {
+            line.cells.push_back(row->energy_mj ? fmt::format("{:.3g}", *row->energy_mj) : "-");
+            line.cells.push_back(row->less_energy ? fmt::format("{:.2f}", *row->less_energy) : "-");
+        }
         table.rows.push_back(std::move(line));
     }
     return table;

@@ -42,6 +42,12 @@ TEST(SweepJournal, GivesBackAllThatItWasTold) {
     record.judged[1].figures[0].mean = std::numeric_limits<double>::infinity();
     record.judged[1].picture = "aGVsbG8=";
     record.judged[2] = {.of_case = 0, .point = 2, .error = "cannot be\nrendered"};
+    for (std::size_t turn = 0; turn < 4; ++turn) {  // of the first case, all but one
+        for (PointTime& time : record.turns[turn].times) {
+            time.energy_j = 0.1 + 0.01 * static_cast<double>(time.point);
+        }
+    }
+    record.turns[2].times[1].energy_j.reset();
     {
         SweepRecord nothing = record;
         nothing.judged.clear();
@@ -128,6 +134,9 @@ TEST(SweepJournal, NamesTheLineThatIsDamaged) {
              {good + "{\"case\":0,\"point\":1,\"cells\":1,\"passes\":[],\"figures\":[]}\n",
               "figures"},
              {good + "{\"case\":0,\"round\":0,\"frame\":0,\"ms\":[[0,-1]]}\n", "-1"},
+             {good + "{\"case\":0,\"round\":0,\"frame\":0,\"ms\":[[0,1]],\"joules\":[]}\n", "j:9"},
+             {good + "{\"case\":0,\"round\":0,\"frame\":0,\"ms\":[[0,1]],\"joules\":[-2]}\n",
+              "energy is -2"},
              {good + "{\"case\":0,\"round\":9,\"frame\":0,\"ms\":[]}\n", "no round 9"}}) {
         const auto read = parse_journal(bad, "j");
         ASSERT_FALSE(read) << why;

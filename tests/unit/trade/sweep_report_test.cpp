@@ -26,8 +26,8 @@ TEST(SweepReport, WritesALinePerPointAndNoInfinityAsJson) {
     EXPECT_THAT(csv, HasSubstr("on_time_front,contrast\n"));
     EXPECT_THAT(
         csv,
-        HasSubstr("\"scene0\",\"0,0\",kfr,\"kfr.sigma=2\",\"\",50,200,4,10,2,2,2,4,1,1,inf\n"));
-    EXPECT_THAT(csv, HasSubstr("kfr,\"kfr.sigma=4\",\"said \"\"no\"\", twice\",,,,,,,,,,,\n"));
+        HasSubstr("\"scene0\",\"0,0\",kfr,\"kfr.sigma=2\",\"\",50,200,4,10,2,2,2,4,,,1,1,inf\n"));
+    EXPECT_THAT(csv, HasSubstr("kfr,\"kfr.sigma=4\",\"said \"\"no\"\", twice\",,,,,,,,,,,,,\n"));
     const auto json = sweep_json(report);
     EXPECT_EQ(json.at("points")[1].at("settings").at("kfr.sigma"), "2");
     EXPECT_EQ(json.at("points")[1].at("pass_ms").at("two"), 1.5);
@@ -36,6 +36,24 @@ TEST(SweepReport, WritesALinePerPointAndNoInfinityAsJson) {
     EXPECT_FALSE(json.contains("means"));
     EXPECT_THAT(sweep_text(report), HasSubstr("failed: said"));
     EXPECT_THAT(failures(report), testing::ElementsAre(HasSubstr("twice")));
+}
+
+TEST(SweepReport, TellsEnergyWhereItIsKnown) {
+    SweepRecord record = made_sweep();
+    SweepReport report = report_of(record);
+    EXPECT_THAT(sweep_text(report), HasSubstr("energy: unavailable"));
+    EXPECT_THAT(sweep_json(report).at("points")[1].at("energy_mj").dump(), "null");
+    for (TimedTurn& turn : record.turns) {
+        for (PointTime& time : turn.times) {
+            time.energy_j = time.point == 0 ? 0.5 : 0.125;
+        }
+    }
+    report = report_of(record);
+    EXPECT_THAT(sweep_text(report), HasSubstr("     125   4.00x"));
+    EXPECT_THAT(sweep_text(report), Not(HasSubstr("unavailable")));
+    EXPECT_EQ(sweep_json(report).at("points")[1].at("energy_mj"), 125.0);
+    EXPECT_THAT(sweep_csv(report), HasSubstr(",4,125,4,1,1,"));
+    EXPECT_THAT(sweep_page(report), HasSubstr("mJ of the processor"));
 }
 
 TEST(SweepReport, GivesEveryCaseTheMeanAndWhatIsRecommended) {

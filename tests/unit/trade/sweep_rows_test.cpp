@@ -42,6 +42,34 @@ TEST(SweepRows, SayWhatWasMeasured) {
     }
 }
 
+TEST(SweepRows, TellEnergyOfRoundsThatAreKnownWhole) {
+    SweepRecord record = made_sweep(2);
+    EXPECT_FALSE(sheets_of(record).front().rows[1].energy_mj);
+    EXPECT_FALSE(any_energy(sheets_of(record).front().rows));
+    for (TimedTurn& turn : record.turns) {
+        for (PointTime& time : turn.times) {
+            time.energy_j = (time.point == 0 ? 0.8 : 0.1) * (turn.round == 1 ? 3.0 : 1.0);
+        }
+    }
+    std::vector<SweepRow> rows = sheets_of(record).front().rows;
+    EXPECT_DOUBLE_EQ(rows[1].energy_mj.value(), 200.0);
+    EXPECT_DOUBLE_EQ(rows[1].less_energy.value(), 8.0);
+    EXPECT_DOUBLE_EQ(rows[0].less_energy.value(), 1.0);
+    EXPECT_NEAR(mean_sheet(sheets_of(record)).rows[1].energy_mj.value(), 200.0, 1e-9);
+    // A turn of the second round without: that round tells nothing of the point.
+    record.turns[3].times[1].energy_j.reset();
+    rows = sheets_of(record).front().rows;
+    EXPECT_DOUBLE_EQ(rows[1].energy_mj.value(), 100.0);
+    EXPECT_DOUBLE_EQ(rows[2].energy_mj.value(), 200.0);
+    // Over before the counter moved: no ratio.
+    for (TimedTurn& turn : record.turns) {
+        turn.times[2].energy_j = 0.0;
+    }
+    rows = sheets_of(record).front().rows;
+    EXPECT_EQ(rows[2].energy_mj, 0.0);
+    EXPECT_FALSE(rows[2].less_energy);
+}
+
 // The other eye's picture may be as small as can be.
 TEST(SweepRows, HoldSamplesAgainstThoseOfFullResolution) {
     SweepRecord record = made_sweep();
