@@ -28,6 +28,16 @@ void TradeOptions::add_to(Command command) {
                 "values of any setting of a method, or filter of render.*; may be repeated: all "
                 "combinations are rendered")
             .type("KEY=V1,V2,..."));
+    Option worth = command
+                       .option("--worth", asked.worth,
+                               "what each part of this method costs and is worth: its settings and "
+                               "the filters, each changed alone")
+                       .type("METHOD")
+                       .not_empty();
+    for (std::size_t other = 1; other < measured.size(); ++other) {  // all but --scenes
+        worth.not_with(measured[other]);
+    }
+    measured.push_back(worth);
     measured.push_back(
         command.flag("--published-grid", asked.published,
                      "also every sigma and alpha of the KFR paper's pilot study (58 points)"));

@@ -78,10 +78,25 @@ quality::QualityFigure figure_of(const json& line) {
             .worst_frame = line.at("worst_frame")};
 }
 
+quality::ContrastShares shares_of(const json& line) {
+    quality::ContrastShares shares{
+        .kept = finite_not_negative(line.at("kept"), "a share"),
+        .between = finite_not_negative(line.at("between"), "a share"),
+        .beyond = finite_not_negative(line.at("beyond"), "a share"),
+        .contrast = finite_not_negative(line.at("contrast"), "the reference's contrast")};
+    if (shares.kept + shares.between + shares.beyond > 1.0 + 1e-9) {
+        throw std::runtime_error("shares of contrast are over 1 together");
+    }
+    return shares;
+}
+
 JudgedPoint judged_of(const json& line, const SweepRecord& record) {
     JudgedPoint judged{.of_case = index_of(line.at("case"), record.cases.size(), "case"),
                        .point = index_of(line.at("point"), record.points.size(), "point"),
                        .error = line.value("error", "")};
+    if (line.contains("contrast_shares")) {  // of sweeps of before there are none
+        judged.shares = shares_of(line.at("contrast_shares"));
+    }
     if (!judged.error.empty()) {
         return judged;
     }
@@ -177,6 +192,12 @@ std::string header_line(const SweepRecord& record) {
 
 std::string judged_line(const JudgedPoint& judged) {
     ordered_json line{{"case", judged.of_case}, {"point", judged.point}};
+    if (judged.shares) {
+        line["contrast_shares"] = {{"kept", judged.shares->kept},
+                                   {"between", judged.shares->between},
+                                   {"beyond", judged.shares->beyond},
+                                   {"contrast", judged.shares->contrast}};
+    }
     if (!judged.error.empty()) {
         line["error"] = judged.error;
     } else {

@@ -16,6 +16,7 @@
 #include "runtime/foveation/eye/fovea_widening.h"
 #include "runtime/foveation/eye/geisler_perry_acuity.h"
 #include "runtime/foveation/eye/guenter_acuity.h"
+#include "runtime/foveation/eye/resolution_limit.h"
 #include "runtime/foveation/eye/stela_acuity.h"
 #include "runtime/gaze/direction.h"
 #include "runtime/methods/registry.h"
@@ -38,6 +39,7 @@ Models acuity_models(const methods::AcuitySettings& set) {
         foveation::StelaAcuity::create({.luminance_cd_m2 = set.luminance_cd_m2},
                                        set.nasal ? foveation::StelaField::Directional
                                                  : foveation::StelaField::TemporalEverywhere)));
+    models.push_back(std::make_unique<foveation::ResolutionLimit>());
     return models;
 }
 

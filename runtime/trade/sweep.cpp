@@ -174,9 +174,34 @@ class CaseSweep {
         return {};
     }
 
+    /// Of the reference's frames that are judged.
+    [[nodiscard]] Expected<quality::ContrastShares> reference_shares() const {
+        const quality::RowWork work(question_.comparison.contrast.threads);
+        const auto count = static_cast<double>(frames() - question_.first_judged);
+        quality::ContrastShares mean;
+        for (std::size_t frame = question_.first_judged; frame < frames(); ++frame) {
+            const auto shares = quality::contrast_shares(
+                reference_[frame], question_.comparison.view,
+                case_.directions[frame][gaze::index(eye())], question_.comparison.line,
+                question_.comparison.contrast.light, work);
+            if (!shares) {
+                return shares;
+            }
+            mean.kept += shares->kept / count;
+            mean.between += shares->between / count;
+            mean.beyond += shares->beyond / count;
+            mean.contrast += shares->contrast / count;
+        }
+        return mean;
+    }
+
     Expected<void> judge_all() {
         if (auto rendered = render_reference(); !rendered) {
             return rendered;
+        }
+        const auto shares = reference_shares();
+        if (!shares) {
+            return std::unexpected(shares.error());
         }
         quality::ComparisonQuestion asked = question_.comparison;
         asked.with_maps = question_.with_pictures;
@@ -201,6 +226,9 @@ class CaseSweep {
                 contender.failed = true;
                 judged = JudgedPoint{
                     .of_case = at_case_, .point = contender.point, .error = judged.error().message};
+            }
+            if (contender.point == 0) {
+                judged->shares = *shares;
             }
             if (auto kept = hooks_.judged(*judged); !kept) {
                 return kept;
@@ -348,10 +376,13 @@ class CaseSweep {
         return hooks_.joules ? hooks_.joules() : std::nullopt;
     }
 
-    /// One frame by all points that work.
+    /// One frame by all points that work, to and fro, so that none always comes after the same one:
+    /// whoever follows full resolution finds its caches full of that.
     Expected<TimedTurn> render_turn(unsigned round, std::size_t frame) {
         TimedTurn turn{.of_case = at_case_, .round = round, .frame = frame};
-        for (const Contender& contender : contenders_) {
+        for (std::size_t i = 0; i < contenders_.size(); ++i) {
+            const bool fro = (round + frame) % 2 == 1;
+            const Contender& contender = contenders_[fro ? contenders_.size() - 1 - i : i];
             if (auto stopped = stop_if_interrupted(); !stopped) {
                 return std::unexpected(stopped.error());
             }

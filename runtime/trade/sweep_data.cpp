@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/trade/equal_quality.h"
+#include "runtime/trade/part_worth.h"
 #include "runtime/trade/sweep_report.h"
 
 namespace gazeloop::trade {
@@ -169,9 +170,17 @@ ordered_json sweep_json(const SweepReport& report) {
     auto cases = ordered_json::array();
     auto points = ordered_json::array();
     for (const SweepSheet& sheet : report.sheets) {
-        cases.push_back({{"scene", sheet.of.scene},
-                         {"gaze", sheet.of.gaze},
-                         {"fewest_cells", finite(sheet.of.fewest_cells)}});
+        ordered_json of_case{{"scene", sheet.of.scene},
+                             {"gaze", sheet.of.gaze},
+                             {"fewest_cells", finite(sheet.of.fewest_cells)},
+                             {"contrast_shares", nullptr}};
+        if (sheet.shares) {
+            of_case["contrast_shares"] = {{"kept", sheet.shares->kept},
+                                          {"between", sheet.shares->between},
+                                          {"beyond", sheet.shares->beyond},
+                                          {"contrast", sheet.shares->contrast}};
+        }
+        cases.push_back(std::move(of_case));
         for (const SweepRow& row : sheet.rows) {
             ordered_json entry{{"scene", sheet.of.scene}, {"gaze", sheet.of.gaze}};
             entry.update(row_json(row, subject.samples));
@@ -189,6 +198,9 @@ ordered_json sweep_json(const SweepReport& report) {
     }
     const std::vector<SweepRow>& rows = report.summed_rows();
     json["equal_quality"] = levels_json(rows);
+    if (const auto worth = method_worth(rows)) {
+        json["worth"] = worth_json(*worth);
+    }
     if (report.with_fits) {
         auto fits = ordered_json::array();
         for (const MethodFit& fit : setting_fits(rows)) {

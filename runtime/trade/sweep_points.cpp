@@ -30,7 +30,7 @@ bool is_of_group(const std::string& key, const std::string& method) {
 /// acuity.mar), or a filter.
 bool is_of(const std::string& key, const std::string& method,
            const std::vector<std::string>& methods) {
-    if (std::ranges::find(kFilters, std::string_view(key)) != kFilters.end()) {
+    if (is_filter(key)) {
         return true;
     }
     const bool of_one = std::ranges::any_of(
@@ -39,6 +39,8 @@ bool is_of(const std::string& key, const std::string& method,
 }
 
 }  // namespace
+
+bool is_filter(std::string_view key) { return std::ranges::find(kFilters, key) != kFilters.end(); }
 
 std::string SweepPoint::settings_text() const {
     std::string text;

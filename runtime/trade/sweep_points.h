@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -36,5 +37,8 @@ inline constexpr std::size_t kMostSweepPoints = 1000;
 /// a key varied twice, a key that is no method's here, more than kMostSweepPoints.
 Expected<std::vector<SweepPoint>> sweep_points(const std::vector<std::string>& methods,
                                                const std::vector<Varied>& varied);
+
+/// Whether a key is one of the filters of render.* that any method's pictures may pass through.
+[[nodiscard]] bool is_filter(std::string_view key);
 
 }  // namespace gazeloop::trade

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/error.h"
+#include "runtime/quality/contrast_shares.h"
 #include "runtime/quality/quality_totals.h"
 #include "runtime/trade/sweep_points.h"
 
@@ -66,6 +67,8 @@ struct JudgedPoint {
     std::vector<quality::QualityFigure> figures{};
     std::string picture{};   ///< the last frame, small, a PNG in base64; empty: none kept
     std::string heat_map{};  ///< where it differs from the reference, likewise
+    /// Of the reference, mean of the frames that were judged; with full resolution's point alone.
+    std::optional<quality::ContrastShares> shares{};
 };
 
 /// What each pass of a point took in one frame, ms, in the order of its passes; 0: did not run.

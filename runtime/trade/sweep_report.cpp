@@ -6,6 +6,7 @@
 #include <array>
 
 #include "runtime/trade/equal_quality.h"
+#include "runtime/trade/part_worth.h"
 #include "runtime/trade/published_grid.h"
 
 namespace gazeloop::trade {
@@ -136,6 +137,22 @@ std::string case_text(const SweepCase& of_case) {
     return fmt::format("scene {}, gaze {}", of_case.scene, of_case.gaze);
 }
 
+std::string shares_text(const SweepSheet& sheet) {
+    if (!sheet.shares) {
+        return {};
+    }
+    if (sheet.shares->contrast <= 0.0) {
+        return "The scene has no contrast there.";
+    }
+    return fmt::format(
+        "Of its contrast there (mean square of luminance), {:.1f} % is coarser than Guenter's "
+        "line, "
+        "{:.1f} % lies between that and the limit of resolution of 2025: seen, though not "
+        "resolved, "
+        "where it is left out; {:.1f} % is finer than both.",
+        100.0 * sheet.shares->kept, 100.0 * sheet.shares->between, 100.0 * sheet.shares->beyond);
+}
+
 std::string point_text(const SweepPoint& point) {
     return point.settings.empty() ? point.method
                                   : fmt::format("{} {}", point.method, point.settings_text());
@@ -175,6 +192,9 @@ std::string sweep_text(const SweepReport& report) {
         subject.device);
     for (const SweepSheet& sheet : report.sheets) {
         text += fmt::format("\n{}\n{}", case_text(sheet.of), table_text(sheet));
+        if (const std::string shares = shares_text(sheet); !shares.empty()) {
+            text += shares + '\n';
+        }
     }
     if (!report.mean.rows.empty()) {
         text += fmt::format(
@@ -184,6 +204,9 @@ std::string sweep_text(const SweepReport& report) {
     }
     const std::vector<SweepRow>& rows = report.summed_rows();
     text += levels_text(rows);
+    if (const auto worth = method_worth(rows)) {
+        text += worth_text(*worth);
+    }
     if (report.with_fits) {
         text += "\nFits\n";
         for (const MethodFit& fit : setting_fits(rows)) {

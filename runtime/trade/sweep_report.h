@@ -44,6 +44,8 @@ struct SweepReport {
 
 /// "scene raymarch, gaze 0,0".
 [[nodiscard]] std::string case_text(const SweepCase& of_case);
+/// What of a scene's contrast lies where (quality::ContrastShares), as a sentence; empty: unknown.
+[[nodiscard]] std::string shares_text(const SweepSheet& sheet);
 /// "kfr kfr.sigma=1.8"; "full".
 [[nodiscard]] std::string point_text(const SweepPoint& point);
 /// "ms = 0.2 + cells * 31 ns; within 3 % (worst 5 % at ...)" and its likes, one line each.

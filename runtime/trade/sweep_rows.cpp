@@ -181,6 +181,11 @@ std::vector<SweepSheet> sheets_of(const SweepRecord& record) {
             }
             sheet.rows.push_back(row_of(record, at_case, point, rounds));
         }
+        for (const JudgedPoint& judged : record.judged) {
+            if (judged.of_case == at_case && judged.shares) {
+                sheet.shares = judged.shares;
+            }
+        }
         mark_fronts(sheet.rows);
         sheets.push_back(std::move(sheet));
     }

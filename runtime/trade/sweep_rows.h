@@ -46,6 +46,7 @@ struct SweepRow {
 struct SweepSheet {
     SweepCase of;
     std::vector<SweepRow> rows;
+    std::optional<quality::ContrastShares> shares{};  ///< of the scene; none: unknown
 };
 
 /// What a record says, case by case, with every point of its shard: one that was not judged, or

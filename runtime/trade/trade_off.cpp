@@ -17,6 +17,7 @@
 #include "runtime/trade/processor_energy.h"
 #include "runtime/trade/published_grid.h"
 #include "runtime/trade/settings_of_point.h"
+#include "runtime/trade/worth_points.h"
 
 namespace gazeloop::trade {
 namespace {
@@ -145,15 +146,60 @@ void check_scenes(const SweepQuestion& question, settings::Settings& settings) {
     }
 }
 
+/// Why a method cannot render pictures of these sizes by a point's settings.
+Expected<void> check_point(const SweepPoint& point, const SweepQuestion& question,
+                           const methods::MethodSettings& values, settings::Settings& settings) {
+    const methods::Method& method = *methods::find_method(point.method);
+    SettingsOfPoint of_point(settings);
+    if (auto set = of_point.set(point); !set) {
+        return set;
+    }
+    if (const auto passes = method.passes(values, settings); !passes) {
+        return std::unexpected(passes.error());
+    }
+    for (const gaze::EyeView& view : question.views) {
+        if (method.check_picture != nullptr) {
+            if (auto checked =
+                    method.check_picture(values, settings, {view.width_px, view.height_px});
+                !checked) {
+                return checked;
+            }
+        }
+    }
+    return {};
+}
+
+/// Nobody asked for each change by itself: one that cannot be is said, and not measured.
+void leave_out_impossible(std::vector<SweepPoint>& points, const SweepQuestion& question,
+                          const methods::MethodSettings& values, settings::Settings& settings,
+                          const SweepHooks& hooks) {
+    std::erase_if(points, [&](const SweepPoint& point) {
+        if (point.settings.empty()) {
+            return false;
+        }
+        const auto possible = check_point(point, question, values, settings);
+        if (!possible) {
+            hooks.progress(
+                fmt::format("{} is left out: {}", point.settings_text(), possible.error().message));
+        }
+        return !possible;
+    });
+}
+
 SweepRecord record_of(const TradeRequest& request, const TradeScene& scene,
                       settings::Settings& settings, SweepHooks hooks) {
     if (!request.merge.empty()) {
         return value_or_throw(merged_sweep(request.merge, hooks.progress));
     }
-    const std::vector<std::string> methods = chosen_methods(request.methods);
-    const std::vector<Varied> varied = chosen_variation(request, methods);
-    std::vector<SweepPoint> points = value_or_throw(sweep_points(methods, varied));
-    check_values(varied, settings);
+    std::vector<SweepPoint> points;
+    if (request.worth.empty()) {
+        const std::vector<std::string> methods = chosen_methods(request.methods);
+        const std::vector<Varied> varied = chosen_variation(request, methods);
+        points = value_or_throw(sweep_points(methods, varied));
+        check_values(varied, settings);
+    } else {
+        points = value_or_throw(worth_points(request.worth, settings));
+    }
     if (request.published) {
         std::ranges::copy_if(published_grid(), std::back_inserter(points),
                              [&](const SweepPoint& point) {
@@ -162,6 +208,9 @@ SweepRecord record_of(const TradeRequest& request, const TradeScene& scene,
     }
     const SweepQuestion question = question_of(request, scene);
     check_scenes(question, settings);
+    if (!request.worth.empty()) {
+        leave_out_impossible(points, question, scene.methods, settings, hooks);
+    }
     const vulkan::Context context({.validation = scene.vulkan.validation,
                                    .device = scene.vulkan.device,
                                    .device_origin = settings.origin("vulkan.device")},

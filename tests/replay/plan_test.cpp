@@ -48,6 +48,7 @@ TEST(Plan, SaysWhatEyesNeedAndMethodsTake) {
     EXPECT_NEAR(fewest("guenter"), 105.5e3, 0.5e3);
     EXPECT_NEAR(fewest("geisler-perry"), 280.6e3, 1e3);
     EXPECT_NEAR(fewest("stelacsf"), 238.8e3, 1e3);
+    EXPECT_GT(fewest("ashraf2025"), 1.7e6);  // this display's pixels are coarser nearly everywhere
     for (const char* const method : {"full", "kfr", "layers", "rings", "sparse"}) {
         const json entry = by_name(report.at("methods"), "method", method);
         const double samples = entry.at("samples").get<double>();

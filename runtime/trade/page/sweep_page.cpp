@@ -159,6 +159,9 @@ data sheet_data(const SweepReport& report, const SweepSheet& sheet, std::size_t 
                  "Geometric means of ratios, times and cells over the cases, plain means of the "
                  "figures.");
     }
+    if (const std::string shares = shares_text(sheet); !shares.empty()) {
+        item.set("note", shares);
+    }
     std::vector<std::string> failures;
     for (const SweepRow& row : sheet.rows) {
         if (!row.error.empty()) {
@@ -220,6 +223,9 @@ data links(const SweepReport& report, bool is_recommended) {
     for (std::size_t i = 0; i < shown.size(); ++i) {
         add(fmt::format("case-{}", i), title_of(*shown[i], report));
     }
+    if (method_worth(report.summed_rows())) {
+        add("worth", "What each part is worth");
+    }
     add("equal", "At equal quality");
     add("passes", "Where the time goes");
     if (report.with_fits) {
@@ -268,6 +274,14 @@ std::string sweep_page(const SweepReport& report) {
     }
     page.set("sheets", sheets);
     page.set("pass_tables", pass_tables);
+    if (const auto worth = method_worth(rows)) {
+        data item("note",
+                  fmt::format("Each setting of {} changed alone: time and cells over those "
+                              "without the change. Same: no figure changes in its last bit.",
+                              worth->method));
+        item.set("table", table_data(worth_table(*worth)));
+        page.set("worth", item);
+    }
     const EqualQuality equal = equal_quality(rows);
     page.set(
         "equal_note",

@@ -139,6 +139,23 @@ Table equal_table(const EqualQuality& equal) {
     return table;
 }
 
+Table worth_table(const MethodWorth& worth) {
+    Table table{.heads = {{"change"}, {"time"}, {"cells"}, {worth.figure + ", worse by"}, {"so"}},
+                .rows = {},
+                .text = true};
+    for (const PartWorth& part : worth.parts) {
+        TableRow line{.label = part.change, .cells = {}, .show_s = {}};
+        if (part.error.empty()) {
+            line.cells = {fmt::format("{:.2f}x", part.time), fmt::format("{:.2f}x", part.cells),
+                          part.same ? "same" : fmt::format("{:+.4f}", part.loss), part.verdict()};
+        } else {
+            line.cells = {"-", "-", "-", part.verdict()};
+        }
+        table.rows.push_back(std::move(line));
+    }
+    return table;
+}
+
 Table fits_table(const std::vector<MethodFit>& fits) {
     Table table{.heads = {{"method"}, {"points"}, {"what"}}, .rows = {}, .text = true};
     for (const MethodFit& fit : fits) {

@@ -4,6 +4,7 @@
 
 #include "runtime/report/page/table.h"
 #include "runtime/trade/equal_quality.h"
+#include "runtime/trade/part_worth.h"
 #include "runtime/trade/setting_fit.h"
 #include "runtime/trade/sweep_rows.h"
 
@@ -18,6 +19,8 @@ namespace gazeloop::trade {
 /// Each pass of the points on a front.
 [[nodiscard]] report::page::Table pass_table(const std::vector<SweepRow>& rows);
 [[nodiscard]] report::page::Table equal_table(const EqualQuality& equal);
+/// What one changed setting does, change by change.
+[[nodiscard]] report::page::Table worth_table(const MethodWorth& worth);
 [[nodiscard]] report::page::Table fits_table(const std::vector<MethodFit>& fits);
 /// What each figure means.
 [[nodiscard]] report::page::Table figure_table(const std::vector<SweepRow>& rows);

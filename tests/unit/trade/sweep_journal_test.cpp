@@ -48,6 +48,7 @@ TEST(SweepJournal, GivesBackAllThatItWasTold) {
         }
     }
     record.turns[2].times[1].energy_j.reset();
+    record.judged[0].shares = {.kept = 0.25, .between = 0.5, .beyond = 0.25, .contrast = 0.125};
     {
         SweepRecord nothing = record;
         nothing.judged.clear();
@@ -137,6 +138,9 @@ TEST(SweepJournal, NamesTheLineThatIsDamaged) {
              {good + "{\"case\":0,\"round\":0,\"frame\":0,\"ms\":[[0,1]],\"joules\":[]}\n", "j:9"},
              {good + "{\"case\":0,\"round\":0,\"frame\":0,\"ms\":[[0,1]],\"joules\":[-2]}\n",
               "energy is -2"},
+             {good + "{\"case\":0,\"point\":0,\"contrast_shares\":{\"kept\":0.7,\"between\":0.7,"
+                     "\"beyond\":0,\"contrast\":1}}\n",
+              "over 1"},
              {good + "{\"case\":0,\"round\":9,\"frame\":0,\"ms\":[]}\n", "no round 9"}}) {
         const auto read = parse_journal(bad, "j");
         ASSERT_FALSE(read) << why;

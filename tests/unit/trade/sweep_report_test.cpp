@@ -56,6 +56,18 @@ TEST(SweepReport, TellsEnergyWhereItIsKnown) {
     EXPECT_THAT(sweep_page(report), HasSubstr("mJ of the processor"));
 }
 
+TEST(SweepReport, TellsWhereTheScenesContrastLies) {
+    SweepRecord record = made_sweep();
+    EXPECT_TRUE(sweep_json(report_of(record)).at("cases")[0].at("contrast_shares").is_null());
+    record.judged[0].shares = {.kept = 0.25, .between = 0.6, .beyond = 0.15, .contrast = 0.125};
+    const SweepReport report = report_of(record);
+    EXPECT_THAT(sweep_text(report), HasSubstr("60.0 % lies between"));
+    EXPECT_THAT(sweep_page(report), HasSubstr("60.0 % lies between"));
+    EXPECT_EQ(sweep_json(report).at("cases")[0].at("contrast_shares").at("between"), 0.6);
+    record.judged[0].shares = quality::ContrastShares{};
+    EXPECT_THAT(sweep_text(report_of(record)), HasSubstr("no contrast"));
+}
+
 TEST(SweepReport, GivesEveryCaseTheMeanAndWhatIsRecommended) {
     SweepReport report = report_of(made_sweep(2));
     report.question = {.budget_ms = 2.0};

@@ -9,6 +9,7 @@
 
 #include "runtime/foveation/eye/geisler_perry_acuity.h"
 #include "runtime/foveation/eye/guenter_acuity.h"
+#include "runtime/foveation/eye/resolution_limit.h"
 #include "runtime/foveation/eye/stela_acuity.h"
 
 namespace gazeloop::foveation {
@@ -46,6 +47,18 @@ TEST(GeislerPerry, IsWhereFullContrastIsTheThreshold) {
         EXPECT_NEAR(std::exp(0.106 * f * (eccentricity + 2.3) / 2.3) / 64.0, 1.0, 1e-12);
     }
     EXPECT_NEAR(model.cutoff_cpd(0.0, 0.0), 39.23, 0.01);
+}
+
+TEST(ResolutionLimit, HasThePublishedPixelsPerDegree) {
+    const ResolutionLimit model;
+    EXPECT_DOUBLE_EQ(required_per_deg(model, 0.0, 0.0), 94.0);
+    EXPECT_NEAR(required_per_deg(model, 20.0, 1.0), 94.0 / 2.3, 1e-12);
+    EXPECT_GT(model.cutoff_cpd(180.0, 0.0), 0.0);
+    // Nowhere does it ask for less than Guenter's line.
+    const auto line = GuenterAcuity::create({}).value();
+    for (double e = 0.5; e <= 180.0; e *= 1.3) {
+        EXPECT_GT(model.cutoff_cpd(e, 0.0), line->cutoff_cpd(e, 0.0)) << e;
+    }
 }
 
 TEST(StelaAcuity, HasTheReferenceCutOffs) {
