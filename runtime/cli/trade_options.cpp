@@ -38,6 +38,22 @@ void TradeOptions::add_to(Command command) {
         worth.not_with(measured[other]);
     }
     measured.push_back(worth);
+    Option fitted =
+        command
+            .option("--fitted", asked.outputs.fitted,
+                    "of --methods kfr or interleaved alone, look for the shape of the buffer that "
+                    "loses least, and write it as settings (.toml)")
+            .type("FILE")
+            .not_empty();
+    for (std::size_t other = 2; other < measured.size(); ++other) {  // all but these and --methods
+        fitted.not_with(measured[other]);
+    }
+    measured.push_back(fitted);
+    measured.push_back(command
+                           .option("--fewer", asked.fewer,
+                                   "with --fitted: so many times fewer samples than pixels (12)")
+                           .number_between(1.5, 1000)
+                           .only_with(fitted));
     measured.push_back(
         command.flag("--published-grid", asked.published,
                      "also every sigma and alpha of the KFR paper's pilot study (58 points)"));

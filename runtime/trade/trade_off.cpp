@@ -7,12 +7,14 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "runtime/methods/registry.h"
 #include "runtime/present/scaled_extent.h"
 #include "runtime/quality/figure_keys.h"
 #include "runtime/settings/nearest_name.h"
+#include "runtime/trade/fitted_shape.h"
 #include "runtime/trade/measured_sweep.h"
 #include "runtime/trade/processor_energy.h"
 #include "runtime/trade/published_grid.h"
@@ -186,19 +188,51 @@ void leave_out_impossible(std::vector<SweepPoint>& points, const SweepQuestion& 
     });
 }
 
+/// The shape in force and the fitted one, which is written first: whoever stops what follows has
+/// it.
+std::vector<SweepPoint> fitted_points(const vulkan::Context& context, const TradeRequest& request,
+                                      const SweepQuestion& question, const SweptValues& values,
+                                      settings::Settings& settings, const SweepHooks& hooks) {
+    const FitQuestion fit{.method = request.methods, .fewer = request.fewer};
+    const FittedShape fitted =
+        value_or_throw(fitted_shape(context, question, values, settings, hooks, fit));
+    value_or_throw(report::write_text(request.outputs.fitted,
+                                      fitted_toml(fitted, fit, question, request.command_line)));
+    hooks.progress(fmt::format("{}: {} shapes tried; {:.4g} lost in place of {:.4g}",
+                               request.outputs.fitted, fitted.tried, fitted.loss_after,
+                               fitted.loss_before));
+    std::vector<SweepPoint> points{fitted.before};
+    if (fitted.after != fitted.before) {
+        points.push_back(fitted.after);
+    }
+    return points;
+}
+
 SweepRecord record_of(const TradeRequest& request, const TradeScene& scene,
                       settings::Settings& settings, SweepHooks hooks) {
     if (!request.merge.empty()) {
         return value_or_throw(merged_sweep(request.merge, hooks.progress));
     }
+    const SweptValues values{
+        .methods = scene.methods, .render = scene.render, .light_field = scene.light_field};
+    const SweepQuestion question = question_of(request, scene);
+    check_scenes(question, settings);
+    const vulkan::ContextOptions device{.validation = scene.vulkan.validation,
+                                        .device = scene.vulkan.device,
+                                        .device_origin = settings.origin("vulkan.device")};
+    std::optional<vulkan::Context> context;
     std::vector<SweepPoint> points;
-    if (request.worth.empty()) {
+    if (!request.worth.empty()) {
+        points = value_or_throw(worth_points(request.worth, settings));
+        leave_out_impossible(points, question, scene.methods, settings, hooks);
+    } else if (!request.outputs.fitted.empty()) {
+        context.emplace(device, nullptr);
+        points = fitted_points(*context, request, question, values, settings, hooks);
+    } else {
         const std::vector<std::string> methods = chosen_methods(request.methods);
         const std::vector<Varied> varied = chosen_variation(request, methods);
         points = value_or_throw(sweep_points(methods, varied));
         check_values(varied, settings);
-    } else {
-        points = value_or_throw(worth_points(request.worth, settings));
     }
     if (request.published) {
         std::ranges::copy_if(published_grid(), std::back_inserter(points),
@@ -206,25 +240,17 @@ SweepRecord record_of(const TradeRequest& request, const TradeScene& scene,
                                  return std::ranges::find(points, point) == points.end();
                              });
     }
-    const SweepQuestion question = question_of(request, scene);
-    check_scenes(question, settings);
-    if (!request.worth.empty()) {
-        leave_out_impossible(points, question, scene.methods, settings, hooks);
+    if (!context) {
+        context.emplace(device, nullptr);
     }
-    const vulkan::Context context({.validation = scene.vulkan.validation,
-                                   .device = scene.vulkan.device,
-                                   .device_origin = settings.origin("vulkan.device")},
-                                  nullptr);
     ProcessorEnergy energy;
     if (energy.unavailable().empty()) {
         hooks.joules = [&energy] { return energy.joules(); };
     } else {
         hooks.progress("energy per frame is unavailable: " + energy.unavailable());
     }
-    return value_or_throw(measured_sweep(
-        context, question, points,
-        {.methods = scene.methods, .render = scene.render, .light_field = scene.light_field},
-        settings, request.journal, std::move(hooks)));
+    return value_or_throw(measured_sweep(*context, question, points, values, settings,
+                                         request.journal, std::move(hooks)));
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ struct TradeRequest {
     std::string slopes{};                ///< of acuity.mar
     std::vector<std::string> varied{};   ///< see parse_varied
     std::string worth{};                 ///< a method: see worth_points(); empty: no such points
+    double fewer = 12.0;                 ///< see FitQuestion
     bool published = false;              ///< also what published_grid() has
     std::string scenes{};                ///< with commas between; empty: the settings' scene
     std::vector<LookedAt> gazes{};       ///< each scene along each of them; not empty

@@ -200,6 +200,68 @@ TEST(Trade, RendersByTheFiltersThatAreSet) {
     EXPECT_EQ(varied[2], set[1]);
 }
 
+TEST(Trade, TellsWhatEachPartIsWorth) {
+    const ScratchFolder folder;
+    const std::string json_file = folder.file("worth.json");
+    const ProgramResult result =
+        trade({"--worth", "kfr", "--scene", "gallery", "--frames", "1", "--rounds", "1",
+               "--reference-spp", "4", "--metric", "contrast", "--json", json_file});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("lies between that and the limit of resolution of 2025"));
+    // What cannot be is said, and fails nothing.
+    EXPECT_THAT(result.err, HasSubstr("kfr.kernel=table is left out"));
+    const json report = json::parse(std::ifstream(json_file));
+    const auto part = [&](const char* change) {
+        for (const json& one : report.at("worth").at("parts")) {
+            if (one.at("change") == change) {
+                return one;
+            }
+        }
+        ADD_FAILURE() << change;
+        return json();
+    };
+    // What the scene does not need changes no bit of it, and takes its time.
+    EXPECT_TRUE(part("render.require=all").at("same_pictures").get<bool>());
+    EXPECT_GT(part("render.require=all").at("time").get<double>(), 1.0);
+    EXPECT_FALSE(part("kfr.disc=false").at("same_pictures").get<bool>());
+    EXPECT_LT(part("kfr.kernel=polynomial").at("cells").get<double>(), 0.9);
+    const json& shares = report.at("cases")[0].at("contrast_shares");
+    EXPECT_NEAR(shares.at("kept").get<double>() + shares.at("between").get<double>() +
+                    shares.at("beyond").get<double>(),
+                1.0, 1e-9);
+    EXPECT_EQ(trade({"--worth", "kfrr"}).exit_code, 2);
+    EXPECT_EQ(trade({"--worth", "kfr", "--sigma", "2"}).exit_code, 2);
+}
+
+TEST(Trade, FitsABuffersShapeThatRunsTake) {
+    const ScratchFolder folder;
+    const std::string toml = folder.file("fitted.toml");
+    const std::string json_file = folder.file("trade.json");
+    const ProgramResult result = trade(
+        {"--methods", "kfr", "--fitted", toml, "--fewer", "4", "--frames", "1", "--rounds", "1",
+         "--spp", "2", "--reference-spp", "4", "--metric", "contrast", "--json", json_file});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json points = json::parse(std::ifstream(json_file)).at("points");
+    ASSERT_EQ(points.size(), 3U);  // full, as it was, fitted
+    const auto contrast = [&](std::size_t point) {
+        return points[point].at("figures").at("contrast").at("mean").get<double>();
+    };
+    EXPECT_LT(contrast(2), contrast(1));
+    EXPECT_NEAR(points[2].at("cells_per_frame").get<double>() /
+                    points[1].at("cells_per_frame").get<double>(),
+                1.0, 0.05);
+    const ProgramResult run = run_gazeloop(
+        {"run", "--config", toml, "--gaze", "fixed:0,0", "--target", "headless", "--clock",
+         "virtual", "--frames", "2", "--set", "render.scale=0.08", "--print-config"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("kfr.kernel                   = 'table'"));
+    EXPECT_THAT(trade({"--fitted", toml}).err, HasSubstr("no log-polar buffer"));
+    EXPECT_EQ(trade({"--fewer", "4"}).exit_code, 2);
+    const ProgramResult none = trade({"--methods", "kfr", "--fitted", toml, "--fewer", "900"});
+    EXPECT_EQ(none.exit_code, 2) << none.err;
+    EXPECT_THAT(none.err, HasSubstr("no kfr.sigma gives 900 times fewer"));
+}
+
 TEST(Trade, GivesTheSameQualityTwice) {
     const std::vector<std::string> asked{"--methods", "acuity", "--mar",  "0.022", "--frames", "2",
                                          "--rounds",  "1",      "--gaze", "5,3",   "--json",   "-"};

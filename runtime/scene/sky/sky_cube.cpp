@@ -77,12 +77,12 @@ struct Pyramid {
         for (std::uint32_t face = SkyCube::kFace / 2; face >= 4; face /= 2) {
             const std::vector<glm::vec3>& fine = levels.back();
             std::vector<glm::vec3> coarse(std::size_t{kFaces} * face * face);
+            const std::size_t below = std::size_t{2} * face;  // a row of the finer level
             for (std::uint32_t row = 0; row < kFaces * face; ++row) {
                 for (std::uint32_t column = 0; column < face; ++column) {
-                    const std::size_t at = std::size_t{4} * row * face + 2 * column;
+                    const std::size_t at = std::size_t{4} * row * face + std::size_t{2} * column;
                     coarse[std::size_t{row} * face + column] =
-                        0.25F *
-                        (fine[at] + fine[at + 1] + fine[at + 2 * face] + fine[at + 2 * face + 1]);
+                        0.25F * (fine[at] + fine[at + 1] + fine[at + below] + fine[at + below + 1]);
                 }
             }
             levels.push_back(std::move(coarse));

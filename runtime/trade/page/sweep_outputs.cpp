@@ -14,9 +14,10 @@ namespace gazeloop::trade {
 
 Expected<void> check_outputs(const SweepOutputs& outputs,
                              std::span<const report::NamedFile> inputs) {
-    const std::array<report::NamedFile, 4> files{{{"--csv", outputs.csv},
+    const std::array<report::NamedFile, 5> files{{{"--csv", outputs.csv},
                                                   {"--json", outputs.json},
                                                   {"--html", outputs.html},
+                                                  {"--fitted", outputs.fitted},
                                                   {"--front", outputs.front}}};
     return report::check_outputs(files, inputs);
 }

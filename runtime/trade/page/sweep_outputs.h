@@ -13,6 +13,7 @@ struct SweepOutputs {
     std::string csv{};
     std::string json{};
     std::string html{};
+    std::string fitted{};  ///< fitted_toml(); written before anything is measured
     std::string front{};  ///< a governor's levels
     bool text = true;
 };
