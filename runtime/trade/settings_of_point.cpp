@@ -1,10 +1,15 @@
 #include "runtime/trade/settings_of_point.h"
 
+#include <cassert>
+#include <ranges>
+
 namespace gazeloop::trade {
 
 SettingsOfPoint::~SettingsOfPoint() {
-    for (auto kept = before_.rbegin(); kept != before_.rend(); ++kept) {
-        (void)settings_.set(kept->key, kept->text, kept->origin);
+    for (const Kept& kept : before_ | std::views::reverse) {
+        // What it was is a value that it takes.
+        [[maybe_unused]] const auto done = settings_.set(kept.key, kept.text, kept.origin);
+        assert(done);
     }
 }
 
