@@ -2,9 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <vector>
 
 namespace gazeloop::light_field {
+
+std::uint32_t most_views(const LightField& field) {
+    const CameraGrid& cameras = field.cameras;
+    // In spacings. Wider by what rounding of distances may do.
+    const double radius = (field.lens.aperture_m / cameras.spacing_m + 1.0) * (1.0 + 1e-9);
+    if (field.lens.every_view || radius > std::hypot(cameras.columns, cameras.rows)) {
+        return cameras.count();
+    }
+    // The lens's middle lies between two rows, in one of these steps. A row's chord of the length L
+    // holds no more than ceil(L) cameras, wherever it begins.
+    constexpr int kSteps = 32;
+    const int reach = static_cast<int>(std::ceil(radius));
+    std::uint32_t most = 0;
+    for (int step = 0; step < kSteps; ++step) {
+        std::vector<std::uint32_t> by_row;
+        for (int row = -reach; row <= reach + 1; ++row) {
+            const double above = static_cast<double>(step) / kSteps - row;
+            const double below = row - static_cast<double>(step + 1) / kSteps;
+            const double apart = std::max({above, below, 0.0});
+            if (apart < radius) {
+                const double chord = 2.0 * std::sqrt(radius * radius - apart * apart);
+                by_row.push_back(
+                    std::min(cameras.columns, static_cast<std::uint32_t>(std::ceil(chord))));
+            }
+        }
+        std::ranges::sort(by_row, std::greater{});
+        by_row.resize(std::min<std::size_t>(by_row.size(), cameras.rows));
+        most = std::max(most, std::reduce(by_row.begin(), by_row.end()));
+    }
+    return std::min(most, cameras.count());
+}
 
 ViewsInLens::ViewsInLens(const LightField& field, const glm::dvec3& eye_m) : field_(field) {
     const glm::dvec2 half_m = field.cameras.half_extent_m();

@@ -23,6 +23,10 @@ struct LightField {
     Lens lens;
 };
 
+/// No fewer than the views that one eye's picture may be made of, wherever the eye is: at most a
+/// tenth more for a lens that is wider than three spacings. Precondition: check(cameras).
+[[nodiscard]] std::uint32_t most_views(const LightField& field);
+
 /// A view that a picture is made of.
 struct WeightedView {
     std::uint32_t view = 0;

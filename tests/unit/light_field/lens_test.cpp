@@ -99,5 +99,35 @@ TEST(Lens, RefusesGridsThatAreNone) {
     }
 }
 
+// No lens takes more views than most_views() says, wherever it is, and not many fewer.
+TEST(Lens, NeverTakesMoreViewsThanItsMost) {
+    for (const double aperture_m : {0.0, 0.001, 0.005, 0.0099, 0.0151, 0.025, 0.05, 0.2}) {
+        for (const auto& [columns, rows] : {std::pair{25U, 25U}, {9U, 3U}, {1U, 40U}}) {
+            const LightField field{.cameras = {.columns = columns, .rows = rows},
+                                   .lens = {.aperture_m = aperture_m}};
+            const std::uint32_t most = most_views(field);
+            std::size_t taken = 0;
+            constexpr int kPlaces = 20;
+            for (int i = 0; i <= kPlaces; ++i) {
+                for (int j = 0; j <= kPlaces; ++j) {
+                    // A spacing, around the middle.
+                    const glm::dvec3 eye_m{0.005 * (static_cast<double>(i) / kPlaces),
+                                           0.005 * (static_cast<double>(j) / kPlaces), 0.0};
+                    taken = std::max(taken, views_of(field, eye_m).size());
+                }
+            }
+            EXPECT_LE(taken, most) << aperture_m << ' ' << columns;
+            if (aperture_m > 3 * 0.005) {
+                EXPECT_GE(1.1 * static_cast<double>(taken), most) << aperture_m << ' ' << columns;
+            }
+        }
+    }
+    EXPECT_EQ(most_views({.cameras = {.columns = 25, .rows = 25}, .lens = {.aperture_m = 1e3}}),
+              625U);
+    EXPECT_EQ(most_views({.cameras = {.columns = 25, .rows = 25},
+                          .lens = {.aperture_m = 0.0, .every_view = true}}),
+              625U);
+}
+
 }  // namespace
 }  // namespace gazeloop::light_field
