@@ -22,7 +22,7 @@ struct LightFieldBake {
 };
 
 /// Renders the scene from every camera at full resolution and writes what
-/// scene::load_light_field reads: `views.lightfield` and the views, into a folder that is made. Its
+/// scene::open_light_field reads: `views.lightfield` and the views, into a folder that is made. Its
 /// name is returned. `go_on(done, total)` is asked after every pair of views; false ends it
 /// (Interrupted). Errors: a value out of range (Usage); a folder that holds something already, or
 /// cannot be written (BadInput).

@@ -36,6 +36,9 @@ inline constexpr EventKind kAxesEvent{"axes", EventWeight::Warning};
 inline constexpr EventKind kTraceEvent{"trace", EventWeight::Routine};  ///< a block of its own
 /// What a scene's work lacks, since nothing shown needs it: of the whole run, without a time.
 inline constexpr EventKind kLeftOutEvent{"left-out", EventWeight::Notice};
+/// How a light field's frames waited for views, the one that nobody sees among them: of the whole
+/// run, without a time.
+inline constexpr EventKind kViewsEvent{"views", EventWeight::Notice};
 inline constexpr EventKind kClockEvent{"clock", EventWeight::Warning};
 inline constexpr EventKind kDisplayEvent{"display", EventWeight::Warning};
 inline constexpr EventKind kBudgetBrokenEvent{"budget-broken", EventWeight::Warning};
@@ -71,7 +74,7 @@ inline constexpr std::array kEventKinds{
     kPeriodOddEvent,    kFrameDiscardedEvent, kFrameRefusedEvent,
     kEventsLostEvent,   kSessionOddEvent,     kTrackerFaultEvent,
     kQualityLevelEvent, kQualityFloorEvent,   kLeftOutEvent,
-    kUnplacedGazeEvent};
+    kUnplacedGazeEvent, kViewsEvent};
 
 /// A kind that is not known (of a later version's recording) is worth a line.
 [[nodiscard]] constexpr EventWeight weight_of(std::string_view kind) {

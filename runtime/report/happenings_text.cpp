@@ -21,7 +21,8 @@ std::optional<double> seconds(const time::Stamp& began, const time::Stamp& at) {
 }
 
 std::string when(const latency::Happening& happening, const time::Stamp& began) {
-    if (happening.kind.view() == frame::kLeftOutEvent.name) {
+    if (happening.kind.view() == frame::kLeftOutEvent.name ||
+        happening.kind.view() == frame::kViewsEvent.name) {
         return " all along";
     }
     const auto first = seconds(began, happening.first);

@@ -350,6 +350,7 @@ class FrameRun {
                              preview_->frames_dropped());
             }
             compare_with_profile(summary);
+            tell_account(summary);
             if (recorder_ != nullptr) {
                 recorder_->event(time::measured_now(), frame::kGpuClockEvent.name,
                                  fmt::format("related to CLOCK_MONOTONIC within {} ns",
@@ -438,6 +439,19 @@ class FrameRun {
         }
     }
 
+    /// What the scene did over the run.
+    void tell_account(latency::LatencySummary& summary) {
+        const std::optional<std::string> text = scene_->account();
+        if (!text) {
+            return;
+        }
+        spdlog::info("{}: {}", values_.render.scene, *text);
+        summary.add_event(time::Stamp{}, frame::kViewsEvent.name, *text);
+        if (recorder_ != nullptr) {
+            recorder_->event(time::Stamp{}, frame::kViewsEvent.name, *text);
+        }
+    }
+
     /// With the calibration in force, if there is one. A recorded session's gaze has been corrected
     /// already, and gaze that is fixed in the head is no tracker's.
     std::unique_ptr<drivers::GazeSource> calibrated(std::unique_ptr<drivers::GazeSource> source) {
@@ -456,8 +470,8 @@ class FrameRun {
         session::EventCursor events(*request_.recording->session);
         while (value_or_throw(events.next())) {
             const session::RecordedEvent& event = *events.row();
-            if (event.kind == frame::kLeftOutEvent.name) {
-                continue;  // the replay's own scene says what it leaves out
+            if (event.kind == frame::kLeftOutEvent.name || event.kind == frame::kViewsEvent.name) {
+                continue;  // the replay's own scene says what it leaves out, and loads
             }
             summary.add_event(event.time, event.kind, event.text);
             lag_.on_event(event.time, event.kind, event.text);

@@ -9,12 +9,15 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <deque>
 #include <fstream>
+#include <future>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <span>
+#include <thread>
 #include <utility>
 
 #include "runtime/open_for_reading.h"
@@ -117,16 +120,12 @@ std::map<Place, std::filesystem::path> find_views(const std::filesystem::path& f
                 fmt::format("{} and {} are of one place", at->second.filename().string(), name));
         }
     }
-    std::vector<std::string> missing;
     for (std::uint32_t row = 0; row < grid.rows; ++row) {
         for (std::uint32_t column = 0; column < grid.columns; ++column) {
             if (!views.contains({row, column})) {
-                missing.push_back(view_file_name(row, column));
+                problems.add(view_file_name(row, column) + " is missing");
             }
         }
-    }
-    for (std::size_t i = 0; i < missing.size(); ++i) {
-        problems.add(missing[i] + " is missing");
     }
     return views;
 }
@@ -142,10 +141,33 @@ std::vector<std::byte> bytes_of(const std::filesystem::path& file) {
     return bytes;
 }
 
+using Views = std::map<Place, std::filesystem::path>;
+
+/// The size of the first view that has one.
+struct Size {
+    std::uint32_t width_px = 0;
+    std::uint32_t height_px = 0;
+};
+Size size_of(const Views& views, Problems& problems) {
+    for (const auto& [place, view] : views) {
+        try {
+            const gltf::PictureHeader header = gltf::read_picture_header(bytes_of(view), "", {});
+            return {header.width, header.height};
+        } catch (const gltf::Refusal& refusal) {
+            problems.add(fmt::format("{}: {}", view.filename().string(), refusal.what()));
+        }
+    }
+    return {};
+}
+
 /// Decodes one view. Throws gltf::Refusal.
-mesh::Image decode(const std::filesystem::path& file) {
+LightFieldSource::Texels decode(const std::filesystem::path& file, const Size& expected) {
     const std::vector<std::byte> bytes = bytes_of(file);
     const gltf::PictureHeader header = gltf::read_picture_header(bytes, "", {});
+    if (header.width != expected.width_px || header.height != expected.height_px) {
+        gltf::refuse("", fmt::format("it has {}x{} px, those before it {}x{}", header.width,
+                                     header.height, expected.width_px, expected.height_px));
+    }
     if (header.format != mesh::TexelFormat::Rgba8) {
         gltf::refuse("", "it has 16 bits per channel: 8 are expected");
     }
@@ -155,32 +177,56 @@ mesh::Image decode(const std::filesystem::path& file) {
     if (!notes.all().empty()) {
         gltf::refuse("", notes.all().front().text);
     }
-    return image;
+    return std::move(image.texels);
 }
 
-/// More than fits, told by the first view, before anything is decoded.
-Expected<void> check_memory(const std::filesystem::path& file, const light_field::CameraGrid& grid,
-                            const std::filesystem::path& first, std::uint64_t most_bytes) {
-    std::uint64_t bytes = 0;
-    std::uint32_t width_px = 0;
-    try {
-        const gltf::PictureHeader header = gltf::read_picture_header(bytes_of(first), "", {});
-        bytes = std::uint64_t{4} * header.width * header.height * grid.count();
-        width_px = header.width;
-    } catch (const gltf::Refusal&) {
-        return {};  // which decoding names
+/// Decodes as many views at once as there are processors. After the first one that is damaged they
+/// are only looked at.
+Expected<void> read_views(const std::filesystem::path& file, const Views& views, const Size& size,
+                          const LightFieldSource::Prepare& prepare,
+                          const LightFieldSource::Take& take) {
+    Problems problems;
+    const std::size_t at_once = std::max(1U, std::thread::hardware_concurrency());
+    std::deque<std::pair<std::string, std::future<LightFieldSource::Texels>>> under_way;
+    std::uint32_t taken = 0;
+    const auto take_first = [&]() -> Expected<void> {
+        auto [name, texels] = std::move(under_way.front());
+        under_way.pop_front();
+        try {
+            const LightFieldSource::Texels prepared = texels.get();
+            if (problems.any()) {
+                return {};
+            }
+            return take(taken++, prepared);
+        } catch (const gltf::Refusal& refusal) {
+            problems.add(fmt::format("{}: {}", name, refusal.what()));
+            return {};
+        }
+    };
+    for (const auto& [place, view] : views) {
+        under_way.emplace_back(view.filename().string(),
+                               std::async(std::launch::async, [&, at = view] {
+                                   LightFieldSource::Texels texels = decode(at, size);
+                                   if (prepare) {
+                                       texels = prepare(std::move(texels));
+                                   }
+                                   return texels;
+                               }));
+        if (under_way.size() >= at_once) {
+            if (auto done = take_first(); !done) {
+                return done;
+            }
+        }
     }
-    if (bytes <= most_bytes) {
-        return {};
+    while (!under_way.empty()) {
+        if (auto done = take_first(); !done) {
+            return done;
+        }
     }
-    const double shrink = std::sqrt(static_cast<double>(most_bytes) / static_cast<double>(bytes));
-    return refuse(fmt::format(
-        "{}: {} views take {} MiB of the GPU's memory, and they may take {}: {} views, or views of "
-        "{} px across, would fit (gazeloop simulate light-field --views, --size), or allow more by "
-        "lightfield.memory_mib",
-        file.string(), grid.count(), (bytes >> 20U) + 1, most_bytes >> 20U,
-        static_cast<std::uint64_t>(static_cast<double>(grid.count()) * shrink * shrink),
-        static_cast<std::uint32_t>(width_px * shrink)));
+    if (problems.any()) {
+        return std::unexpected(problems.error(file));
+    }
+    return {};
 }
 
 }  // namespace
@@ -262,8 +308,7 @@ std::string view_file_name(std::uint32_t row, std::uint32_t column) {
     return fmt::format("view_{:02}_{:02}.png", row, column);
 }
 
-Expected<LightFieldPictures> load_light_field(const std::filesystem::path& file,
-                                              std::uint64_t most_bytes) {
+Expected<LightFieldSource> open_light_field(const std::filesystem::path& file) {
     auto in = open_for_reading(file);
     if (!in) {
         return refuse(
@@ -279,32 +324,18 @@ Expected<LightFieldPictures> load_light_field(const std::filesystem::path& file,
     if (problems.any()) {
         return std::unexpected(problems.error(file));
     }
-    if (auto fits = check_memory(file, *grid, views.begin()->second, most_bytes); !fits) {
-        return std::unexpected(fits.error());
-    }
-    LightFieldPictures pictures{.cameras = *grid, .views = {}};
-    for (const auto& [place, view] : views) {
-        const std::string name = view.filename().string();
-        try {
-            mesh::Image image = decode(view);
-            if (pictures.width_px == 0) {
-                pictures.width_px = image.width;
-                pictures.height_px = image.height;
-            }
-            if (image.width != pictures.width_px || image.height != pictures.height_px) {
-                problems.add(fmt::format("{} has {}x{} px, those before it {}x{}", name,
-                                         image.width, image.height, pictures.width_px,
-                                         pictures.height_px));
-            }
-            pictures.views.push_back(std::move(image.texels));
-        } catch (const gltf::Refusal& refusal) {
-            problems.add(fmt::format("{}: {}", name, refusal.what()));
-        }
-    }
-    if (problems.any()) {
+    const Size size = size_of(views, problems);
+    if (size.width_px == 0) {
         return std::unexpected(problems.error(file));
     }
-    return pictures;
+    return LightFieldSource{.name = file.string(),
+                            .cameras = *grid,
+                            .width_px = size.width_px,
+                            .height_px = size.height_px,
+                            .read = [file, views, size](const LightFieldSource::Prepare& prepare,
+                                                        const LightFieldSource::Take& take) {
+                                return read_views(file, views, size, prepare, take);
+                            }};
 }
 
 }  // namespace gazeloop::scene

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <istream>
 #include <string>
 #include <string_view>
@@ -31,21 +32,27 @@ inline constexpr std::string_view kLightFieldExtension = ".lightfield";
 /// "view_03_07.png": row 3, column 7.
 [[nodiscard]] std::string view_file_name(std::uint32_t row, std::uint32_t column);
 
-/// A light field in memory.
-struct LightFieldPictures {
+/// A light field that can be read, view by view.
+struct LightFieldSource {
+    /// RGBA, 8 bits, sRGB-encoded, top row first.
+    using Texels = std::vector<std::byte>;
+    /// What becomes of a view's texels before it is taken; called by several threads at once.
+    using Prepare = std::function<Texels(Texels)>;
+    using Take = std::function<Expected<void>(std::uint32_t view, const Texels& prepared)>;
+
+    std::string name;
     light_field::CameraGrid cameras;
     std::uint32_t width_px = 0;  ///< of every view
     std::uint32_t height_px = 0;
-    /// RGBA, 8 bits, sRGB-encoded; view by view (CameraGrid), top row first.
-    std::vector<std::vector<std::byte>> views;
+    /// Hands over all views in their order (CameraGrid), a few of them in memory at a time. Errors:
+    /// those of `take`; (BadInput) of the views, all in one list.
+    std::function<Expected<void>(const Prepare&, const Take&)> read;
 };
 
-/// Loads the views that lie beside a light field's file: PNG or JPEG pictures of 8 bits per channel
-/// and one size, whose names end in row and column ("view_03_07.png", "3-7.jpg"). Errors
-/// (BadInput): as read_light_field; views that are missing, there twice, beyond the grid, of
-/// another size or damaged, and names without row and column, in one list; more than `most_bytes`
-/// (4 bytes per texel), with what would fit.
-[[nodiscard]] Expected<LightFieldPictures> load_light_field(const std::filesystem::path& file,
-                                                            std::uint64_t most_bytes);
+/// The views that lie beside a light field's file: PNG or JPEG pictures of 8 bits per channel and
+/// one size, whose names end in row and column ("view_03_07.png", "3-7.jpg"). Errors (BadInput): as
+/// read_light_field; views that are missing, there twice, or beyond the grid, and names without row
+/// and column, in one list. Reading it finds those that are damaged or of another size.
+[[nodiscard]] Expected<LightFieldSource> open_light_field(const std::filesystem::path& file);
 
 }  // namespace gazeloop::scene

@@ -1,7 +1,5 @@
 #include "runtime/scene/light_field_scene.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cstring>
 #include <glm/vec2.hpp>
@@ -10,17 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/error.h"
-#include "runtime/vulkan/layered_image.h"
 #include "runtime/vulkan/memory.h"
 
 namespace gazeloop::scene {
 namespace {
 
 using Type = vk::DescriptorType;
-
-constexpr vk::Format kFormat = vk::Format::eR8G8B8A8Srgb;
-constexpr auto kUsage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst;
 
 /// Set 1 (shaders/scenes/lightfield.glsl).
 constexpr std::array kBindings{Type::eCombinedImageSampler, Type::eStorageBuffer};
@@ -37,41 +30,13 @@ struct LensView {
 };
 static_assert(sizeof(LensHeader) == 32 && sizeof(LensView) == 16);
 
-vulkan::LayeredImage upload_views(const vulkan::Context& context, LightFieldPictures pictures) {
-    const vk::Extent2D extent(pictures.width_px, pictures.height_px);
-    const std::uint32_t layers = pictures.cameras.count();
-    const vk::ImageFormatProperties most = context.physical().getImageFormatProperties(
-        kFormat, vk::ImageType::e2D, vk::ImageTiling::eOptimal, kUsage);
-    const std::uint64_t bytes = std::uint64_t{4} * extent.width * extent.height * layers;
-    if (layers > most.maxArrayLayers || extent.width > most.maxExtent.width ||
-        extent.height > most.maxExtent.height || bytes > most.maxResourceSize) {
-        throw SetupError(
-            ErrorKind::BadInput,
-            fmt::format("a light field of {} views of {}x{} px is more than this device holds as "
-                        "one image: at most {} views, {} px a side and {} MiB",
-                        layers, extent.width, extent.height, most.maxArrayLayers,
-                        most.maxExtent.width, most.maxResourceSize >> 20U));
-    }
-    std::vector<vulkan::LevelTexels> texels;
-    texels.reserve(layers);
-    for (std::uint32_t layer = 0; layer < layers; ++layer) {
-        texels.push_back({0, layer, extent, std::move(pictures.views[layer])});
-    }
-    vulkan::LayeredImage image(context, {.extent = extent,
-                                         .format = kFormat,
-                                         .usage = kUsage,
-                                         .layers = layers,
-                                         .view = vk::ImageViewType::e2DArray});
-    vulkan::upload(context, image, texels);
-    return image;
-}
-
 /// What all renderers share.
 struct Content {
-    Content(const vulkan::Context& of, LightFieldPictures pictures, const light_field::Lens& lens)
+    Content(const vulkan::Context& of, const LightFieldSource& source,
+            const light_field::Lens& lens, const LightFieldMemory& memory)
         : context(of),
-          field{.cameras = pictures.cameras, .lens = lens},
-          views(upload_views(of, std::move(pictures))) {
+          field{.cameras = source.cameras, .lens = lens},
+          views(of, source, lens, memory) {
         layout =
             vulkan::make_set_layout(of.device(), kBindings, vk::ShaderStageFlagBits::eFragment);
         // Beyond what a view shows it is black.
@@ -86,35 +51,40 @@ struct Content {
 
     const vulkan::Context& context;
     light_field::LightField field;
-    vulkan::LayeredImage views;
+    LightFieldViews views;  ///< brought as renderers ask for them
     vk::raii::Sampler sampler{nullptr};
     vk::raii::DescriptorSetLayout layout{nullptr};
 };
 
 class LightFieldScene : public Scene {
   public:
-    explicit LightFieldScene(std::shared_ptr<const Content> content)
-        : content_(std::move(content)) {}
+    explicit LightFieldScene(std::shared_ptr<Content> content) : content_(std::move(content)) {}
 
     [[nodiscard]] std::string_view shader() const override { return kLightFieldShader; }
     [[nodiscard]] bool is_point_sampled() const override { return true; }
     [[nodiscard]] const light_field::LightField* light_field() const override {
         return &content_->field;
     }
+    [[nodiscard]] std::uint32_t layer_of_view(std::uint32_t view) const override {
+        return content_->views.layer_of(view);
+    }
+    [[nodiscard]] std::optional<std::string> account() const override {
+        return content_->views.account();
+    }
     [[nodiscard]] vk::DescriptorSetLayout inputs() const override { return *content_->layout; }
     [[nodiscard]] std::unique_ptr<Scene> for_renderer(const RendererPictures& pictures) override;
 
   protected:
-    [[nodiscard]] const Content& content() const { return *content_; }
+    [[nodiscard]] Content& content() const { return *content_; }
 
   private:
-    std::shared_ptr<const Content> content_;
+    std::shared_ptr<Content> content_;
 };
 
 /// With the lenses of one renderer's frames.
 class LightFieldOfRenderer final : public LightFieldScene {
   public:
-    LightFieldOfRenderer(const std::shared_ptr<const Content>& shared, std::uint32_t slots)
+    LightFieldOfRenderer(const std::shared_ptr<Content>& shared, std::uint32_t slots)
         : LightFieldScene(shared) {
         const vk::raii::Device& device = content().context.device();
         const std::uint32_t sets = slots * static_cast<std::uint32_t>(gaze::kEyeCount);
@@ -124,6 +94,7 @@ class LightFieldOfRenderer final : public LightFieldScene {
             device, vk::DescriptorPoolCreateInfo(
                         vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, sets, sizes));
         slots_.resize(slots);
+        wanted_.reserve(gaze::kEyeCount * content().field.cameras.count());
         for (auto& slot : slots_) {
             for (EyeSlot& at : slot) {
                 make_slot(at);
@@ -143,21 +114,29 @@ class LightFieldOfRenderer final : public LightFieldScene {
     void record_geometry(vulkan::PassRecorder& /*recorder*/, const gaze::StereoView& views,
                          double /*time_s*/, std::size_t slot) override {
         const light_field::LightField& field = content().field;
+        const auto lens_of = [&](std::size_t e) {
+            return light_field::ViewsInLens(field, views[e].pose.position_m);
+        };
+        wanted_.clear();
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            lens_of(e).for_each(
+                [&](const light_field::WeightedView& view) { wanted_.push_back(view.view); });
+        }
+        content().views.bring(wanted_);
         const double focus_m = field.lens.focus_m;
         const glm::dvec2 shares = 0.5 / (focus_m * field.cameras.half_tangents);
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
             const vulkan::HostBuffer& lens = slots_[slot][e].lens;
             LensHeader header{.focal_plane = glm::vec4(glm::dvec4(focus_m, shares, 0.0))};
             std::size_t at = sizeof header;
-            light_field::ViewsInLens(field, views[e].pose.position_m)
-                .for_each([&](const light_field::WeightedView& view) {
-                    const LensView one{.camera_m = glm::vec2(view.camera_m),
-                                       .layer = static_cast<float>(view.view),
-                                       .weight = static_cast<float>(view.weight)};
-                    std::memcpy(lens.mapped().subspan(at).data(), &one, sizeof one);
-                    at += sizeof one;
-                    ++header.count[0];
-                });
+            lens_of(e).for_each([&](const light_field::WeightedView& view) {
+                const LensView one{.camera_m = glm::vec2(view.camera_m),
+                                   .layer = static_cast<float>(layer_of_view(view.view)),
+                                   .weight = static_cast<float>(view.weight)};
+                std::memcpy(lens.mapped().subspan(at).data(), &one, sizeof one);
+                at += sizeof one;
+                ++header.count[0];
+            });
             std::memcpy(lens.mapped().data(), &header, sizeof header);
         }
     }
@@ -176,7 +155,7 @@ class LightFieldOfRenderer final : public LightFieldScene {
             vk::BufferUsageFlagBits::eStorageBuffer);
         at.set = std::move(vk::raii::DescriptorSets(
             device, vk::DescriptorSetAllocateInfo(*pool_, *content().layout))[0]);
-        const vk::DescriptorImageInfo image(*content().sampler, content().views.view(),
+        const vk::DescriptorImageInfo image(*content().sampler, content().views.image(),
                                             vk::ImageLayout::eShaderReadOnlyOptimal);
         const vk::DescriptorBufferInfo buffer(at.lens.buffer(), 0, VK_WHOLE_SIZE);
         device.updateDescriptorSets(
@@ -187,6 +166,7 @@ class LightFieldOfRenderer final : public LightFieldScene {
 
     vk::raii::DescriptorPool pool_{nullptr};
     std::vector<gaze::PerEye<EyeSlot>> slots_;
+    std::vector<std::uint32_t> wanted_;  ///< views of the frame
 };
 
 std::unique_ptr<Scene> LightFieldScene::for_renderer(const RendererPictures& pictures) {
@@ -196,10 +176,11 @@ std::unique_ptr<Scene> LightFieldScene::for_renderer(const RendererPictures& pic
 }  // namespace
 
 std::unique_ptr<Scene> make_light_field_scene(const vulkan::Context& context,
-                                              LightFieldPictures pictures,
-                                              const light_field::Lens& lens) {
+                                              const LightFieldSource& source,
+                                              const light_field::Lens& lens,
+                                              const LightFieldMemory& memory) {
     return std::make_unique<LightFieldScene>(
-        std::make_shared<const Content>(context, std::move(pictures), lens));
+        std::make_shared<Content>(context, source, lens, memory));
 }
 
 }  // namespace gazeloop::scene

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,6 +44,12 @@ class Scene {
     /// Its cameras and the lens that they are seen through, if it is a light field: its shader then
     /// also answers view by view (SCENE_OF_VIEWS). Null: it is none.
     [[nodiscard]] virtual const light_field::LightField* light_field() const { return nullptr; }
+
+    /// Where its shader finds a view of the light field that the frame recorded last is made of.
+    [[nodiscard]] virtual std::uint32_t layer_of_view(std::uint32_t view) const { return view; }
+
+    /// What it did from frame to frame that a user should know of, for people; none: nothing.
+    [[nodiscard]] virtual std::optional<std::string> account() const { return std::nullopt; }
 
     /// The same scene for the pictures of one renderer, which asks it instead. Null: this one
     /// serves all. It must not outlive this.

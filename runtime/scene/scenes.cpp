@@ -47,10 +47,8 @@ std::unique_ptr<Scene> make_scene(const vulkan::Context& context, std::string_vi
         const LightFieldSettings& set = options.light_field;
         light_field::Lens lens = set.lens();
         lens.every_view = options.require_all;
-        return make_light_field_scene(context,
-                                      value_or_throw(load_light_field(
-                                          name, static_cast<std::uint64_t>(set.memory_mib) << 20U)),
-                                      lens);
+        return make_light_field_scene(context, value_or_throw(open_light_field(name)), lens,
+                                      set.memory());
     }
     const auto names = scene_names();
     if (std::ranges::find(names, name) == names.end()) {

@@ -192,12 +192,15 @@ void Context::create_device(Factory* factory) {
     }
     const float priority = 1.0F;
     const vk::DeviceQueueCreateInfo queue({}, queue_family_, 1, &priority);
+    vk::PhysicalDeviceFeatures features;
+    features.textureCompressionBC = physical_.getFeatures().textureCompressionBC;
+    bc_textures_ = features.textureCompressionBC == VK_TRUE;
     // The structures of single features: a runtime may chain its own, and the aggregate ones for
     // 1.2 and 1.3 must not meet them.
     vk::StructureChain<vk::DeviceCreateInfo, vk::PhysicalDeviceTimelineSemaphoreFeatures,
                        vk::PhysicalDeviceSynchronization2Features,
                        vk::PhysicalDeviceDynamicRenderingFeatures>
-        chain(vk::DeviceCreateInfo({}, queue, {}, extensions),
+        chain(vk::DeviceCreateInfo({}, queue, {}, extensions, &features),
               vk::PhysicalDeviceTimelineSemaphoreFeatures(VK_TRUE),
               vk::PhysicalDeviceSynchronization2Features(VK_TRUE),
               vk::PhysicalDeviceDynamicRenderingFeatures(VK_TRUE));

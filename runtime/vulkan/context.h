@@ -38,6 +38,8 @@ class Context {
     [[nodiscard]] const vk::raii::Queue& queue() const { return queue_; }
     [[nodiscard]] std::uint32_t queue_family() const { return queue_family_; }
     [[nodiscard]] bool has_calibrated_timestamps() const { return calibrated_timestamps_; }
+    /// Whether shaders may read textures in BC1 to BC7.
+    [[nodiscard]] bool has_bc_textures() const { return bc_textures_; }
     [[nodiscard]] double timestamp_period_ns() const { return timestamp_period_ns_; }
     /// Valid bits of the queue's timestamps, 36 to 64.
     [[nodiscard]] std::uint32_t timestamp_bits() const { return timestamp_bits_; }
@@ -68,6 +70,7 @@ class Context {
     vk::PhysicalDeviceMemoryProperties memory_;
     std::uint32_t queue_family_ = 0;
     bool calibrated_timestamps_ = false;
+    bool bc_textures_ = false;
     double timestamp_period_ns_ = 1.0;
     std::uint32_t timestamp_bits_ = 64;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
@@ -29,6 +30,8 @@ class LayeredImage {
 
     [[nodiscard]] vk::Image image() const { return *image_; }
     [[nodiscard]] vk::Extent2D extent() const { return form_.extent; }
+    /// What it takes of the device's memory.
+    [[nodiscard]] vk::DeviceSize memory_bytes() const { return memory_bytes_; }
     /// All levels and layers.
     [[nodiscard]] vk::ImageView view() const { return *view_; }
     /// Level 0 of one layer, to draw into.
@@ -39,6 +42,7 @@ class LayeredImage {
 
   private:
     Form form_;
+    vk::DeviceSize memory_bytes_ = 0;
     vk::raii::DeviceMemory memory_{nullptr};
     vk::raii::Image image_{nullptr};
     vk::raii::ImageView view_{nullptr};
@@ -57,5 +61,26 @@ struct LevelTexels {
 /// device. Precondition: its usage has TransferDst.
 void upload(const Context& context, const LayeredImage& image,
             const std::vector<LevelTexels>& texels);
+
+/// What an image of this form takes of the device's memory.
+[[nodiscard]] vk::DeviceSize memory_needed(const Context& context, const LayeredImage::Form& form);
+
+/// What an image may take at most: one allocation, of the device's own memory.
+[[nodiscard]] vk::DeviceSize most_memory(const Context& context);
+
+/// Lets shaders read an image of which nothing has been written. Waits for the device.
+void make_readable(const Context& context, const LayeredImage& image);
+
+/// One layer to fill, and where its texels begin in a buffer.
+struct LayerSource {
+    std::uint32_t layer = 0;
+    vk::DeviceSize offset = 0;
+};
+
+/// Fills some layers of an image of one level that shaders read: frames that were submitted before
+/// still see what was there, later ones what is now. Waits for the device. Precondition: its usage
+/// has TransferDst, the buffer's TransferSrc.
+void replace_layers(const Context& context, const LayeredImage& image, vk::Buffer from,
+                    std::span<const LayerSource> layers);
 
 }  // namespace gazeloop::vulkan

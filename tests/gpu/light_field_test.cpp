@@ -1,9 +1,11 @@
 // Light fields: what a lens shows of one whose content is known, one that was baked, and 3D-KFR of
 // both.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 
 #include "runtime/error.h"
@@ -28,14 +30,16 @@ double content(const glm::dvec2& point_m) {
 }
 
 /// Views of the plane from 5 x 5 cameras.
-scene::LightFieldPictures known_views() {
-    scene::LightFieldPictures pictures{.cameras = {.columns = 5, .rows = 5, .spacing_m = 0.05},
-                                       .width_px = kViewSize,
-                                       .height_px = kViewSize,
-                                       .views = {}};
-    for (std::uint32_t view = 0; view < pictures.cameras.count(); ++view) {
-        const glm::dvec2 camera_m = pictures.cameras.camera_m(view % 5, view / 5);
-        std::vector<std::byte>& texels = pictures.views.emplace_back();
+scene::LightFieldSource known_views() {
+    scene::LightFieldSource field{.name = "the plane",
+                                  .cameras = {.columns = 5, .rows = 5, .spacing_m = 0.05},
+                                  .width_px = kViewSize,
+                                  .height_px = kViewSize,
+                                  .read = {}};
+    std::vector<scene::LightFieldSource::Texels> views;
+    for (std::uint32_t view = 0; view < field.cameras.count(); ++view) {
+        const glm::dvec2 camera_m = field.cameras.camera_m(view % 5, view / 5);
+        scene::LightFieldSource::Texels& texels = views.emplace_back();
         for (std::uint32_t y = 0; y < kViewSize; ++y) {
             for (std::uint32_t x = 0; x < kViewSize; ++x) {
                 const glm::dvec2 tangents{(x + 0.5) / kViewSize * 2.0 - 1.0,
@@ -46,7 +50,16 @@ scene::LightFieldPictures known_views() {
             }
         }
     }
-    return pictures;
+    field.read = [views](const scene::LightFieldSource::Prepare& prepare,
+                         const scene::LightFieldSource::Take& take) -> Expected<void> {
+        for (std::uint32_t view = 0; view < views.size(); ++view) {
+            if (auto taken = take(view, prepare ? prepare(views[view]) : views[view]); !taken) {
+                return taken;
+            }
+        }
+        return {};
+    };
+    return field;
 }
 
 class LightField : public FrameRendererTest {
@@ -87,8 +100,9 @@ class LightField : public FrameRendererTest {
                 done.gpu.pixel_hash.value_or(0), done.counts};
     }
 
-    static std::unique_ptr<scene::Scene> known(const light_field::Lens& lens) {
-        return scene::make_light_field_scene(context(), known_views(), lens);
+    static std::unique_ptr<scene::Scene> known(const light_field::Lens& lens,
+                                               const scene::LightFieldMemory& memory = {}) {
+        return scene::make_light_field_scene(context(), known_views(), lens, memory);
     }
 
     /// The greatest difference from the plane itself.
@@ -243,6 +257,126 @@ TEST_F(LightField, By3dKfrReadsNothingThatWasNotShadedAndIsExactInTheDisc) {
             }
         }
     }
+}
+
+/// What so many views of the plane take, with the four that they are loaded through.
+constexpr std::uint64_t room_for(std::uint32_t views) {
+    return (views + 4) * std::uint64_t{4} * kViewSize * kViewSize;
+}
+
+/// Eyes that wander over the cameras, and jump back.
+std::vector<glm::dvec3> wandering() {
+    std::vector<glm::dvec3> eyes;
+    for (int i = 0; i < 24; ++i) {
+        eyes.emplace_back(0.11 * std::sin(0.7 * i), 0.11 * std::cos(0.5 * i), 0.0);
+        if (i % 6 == 5) {
+            eyes.emplace_back(-0.1, 0.1, 0.0);
+        }
+    }
+    return eyes;
+}
+
+// Views that come and go change no pixel, whoever draws; and what was promised of memory holds.
+TEST_F(LightField, ThatDoesNotFitIsShownTheSame) {
+    const RendererConfig config = pictures(48, 40);
+    const light_field::Lens lens{.focus_m = 1.0, .aperture_m = 0.02};
+    const std::uint32_t needed =
+        light_field::most_views({.cameras = known_views().cameras, .lens = lens});
+    ASSERT_LT(2 * needed, 25U) << "or nothing would have to go";
+    const scene::LightFieldMemory memory{.most_bytes = room_for(2 * needed)};
+    for (const char* const method : {"full", "kfr", "kfr3d"}) {
+        const auto whole = known(lens);
+        const auto part = known(lens, memory);
+        EXPECT_FALSE(whole->account().has_value());
+        OffScreen of_whole(context(), *whole, tests::passes_by(method), config);
+        OffScreen of_part(context(), *part, tests::passes_by(method), config);
+        for (const glm::dvec3& eye_m : wandering()) {
+            FrameRequest at = look(config, eye_m, {30, 20});
+            at.views[1].pose.position_m = -eye_m;
+            const auto hash_of = [&](OffScreen& renderer) {
+                return renderer.render(at.frame_view(), at.fovea()).gpu.pixel_hash.value();
+            };
+            ASSERT_EQ(hash_of(of_part), hash_of(of_whole)) << method << ' ' << eye_m.x;
+        }
+        const std::string account = part->account().value();
+        EXPECT_THAT(account, testing::HasSubstr(fmt::format("{} of 25 views", 2 * needed)));
+        unsigned frames = 0;
+        unsigned loaded = 0;
+        ASSERT_EQ(std::sscanf(account.substr(account.find(": ")).c_str(),
+                              ": %u frames waited for %u views", &frames, &loaded),
+                  2)
+            << account;
+        EXPECT_GT(loaded, 2 * needed) << "some must have come again";
+        EXPECT_GT(frames, 1U);
+    }
+}
+
+// Frames in flight still see the views that they were recorded with, though later ones replace
+// them.
+TEST_F(LightField, ReplacesNoViewsThatFramesInFlightRead) {
+    RendererConfig config = pictures(48, 40);
+    config.frames_in_flight = 3;
+    const light_field::Lens lens{.focus_m = 1.0, .aperture_m = 0.0};
+    const auto whole = known(lens);
+    const auto part = known(lens, {.most_bytes = room_for(10)});
+    const auto hashes = [&](scene::Scene& scene) {
+        const OffScreenTargets targets(context(), config.extents, config.format);
+        FrameRenderer renderer(context(), scene, tests::passes_by("full"), config);
+        std::vector<std::uint64_t> all;
+        const auto collect = [&] {
+            while (const auto done = renderer.next_finished()) {
+                all.push_back(done->pixel_hash.value());
+            }
+        };
+        std::uint64_t index = 0;
+        for (const glm::dvec3& eye_m : wandering()) {
+            FrameRequest at = look(config, eye_m, {30, 20});
+            FrameView view = at.frame_view();
+            view.index = index++;
+            view.targets = targets.targets();
+            renderer.wait_for_slot();
+            collect();
+            renderer.begin(view);
+            renderer.finish(at.fovea());
+        }
+        renderer.wait_idle();
+        collect();
+        return all;
+    };
+    const auto of_whole = hashes(*whole);
+    EXPECT_EQ(of_whole.size(), wandering().size());
+    EXPECT_EQ(hashes(*part), of_whole);
+}
+
+TEST_F(LightField, ThatCannotFitIsRefusedWithWhatWould) {
+    const light_field::Lens lens{.focus_m = 1.0, .aperture_m = 0.02};
+    try {
+        (void)known(lens, {.most_bytes = room_for(12)});
+        FAIL() << "twelve views are not enough for two lenses";
+    } catch (const SetupError& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::BadInput);
+        EXPECT_THAT(error.what(), testing::HasSubstr("the plane: two eyes' pictures"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("lightfield.compression = bc1"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("a lens of lightfield.aperture_m = 0"));
+    }
+}
+
+// Of BC1, a picture loses at most half a step between the colours of a block of 4 x 4 texels, a
+// sixth of what light changes across one, and a quantisation; through a lens of many views less.
+TEST_F(LightField, AsBc1LosesLittle) {
+    const RendererConfig config = pictures(48, 40);
+    const FrameRequest at = look(config, {}, {24, 20});
+    constexpr double kAcrossBlock = (0.2 * 4.0 + 0.15 * 3.0) * 3.0 / 16.0;  ///< of content()
+    const std::uint64_t eighth = room_for(25 - 4) / 8;
+    const auto loss = [&](double aperture_m) {
+        const light_field::Lens lens{.focus_m = kPlane_m, .aperture_m = aperture_m};
+        const auto packed = known(lens, {.most_bytes = eighth, .compressed = true});
+        EXPECT_FALSE(packed->account().has_value()) << "an eighth holds them all";
+        return error(show(*packed, "full", {}, config, at).linear, at);
+    };
+    const double of_few = loss(0.0);
+    EXPECT_LT(of_few, kAcrossBlock / 6.0 + 2.0 * kCodes);
+    EXPECT_LT(loss(1.0), of_few);
 }
 
 // From where a camera stood, a baked light field shows the scene as it is.

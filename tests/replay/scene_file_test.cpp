@@ -121,6 +121,116 @@ TEST(SceneFiles, OfLightFieldsAreMadeAndShown) {
     EXPECT_THAT(again.err, HasSubstr("it holds something already"));
 }
 
+/// A light field of 225 views, 14 MiB, of which a viewer who goes past it sees 15 in a row.
+std::string light_field_to_pass(const TemporaryFolder& folder) {
+    const std::string out = (folder / "field").string();
+    const ProgramResult made =
+        run_gazeloop({"simulate", "light-field", out, "--views", "15", "--size", "128", "--scene",
+                      "raymarch", "--spacing", "6"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return (folder / "field" / "views.lightfield").string();
+}
+
+// What a frame waited for depends on the viewer's path alone: a replay waits for the same, and one
+// with room for all views shows the same.
+TEST(SceneFiles, OfLightFieldsThatDoNotFitAreReplayedBitByBit) {
+    const TemporaryFolder folder;
+    const std::string field = light_field_to_pass(folder);
+    for (const std::string method : {"full", "kfr3d"}) {
+        const std::string session = (folder / (method + ".gaze")).string();
+        const ProgramResult run = run_gazeloop({"run",
+                                                "--scene",
+                                                field,
+                                                "--method",
+                                                method,
+                                                "--gaze",
+                                                "sim",
+                                                "--target",
+                                                "headless",
+                                                "--clock",
+                                                "virtual",
+                                                "--frames",
+                                                "120",
+                                                "--spp",
+                                                "1",
+                                                "--set",
+                                                "render.scale=0.05",
+                                                "--set",
+                                                "render.camera=fly-6",
+                                                "--set",
+                                                "lightfield.aperture_m=0",
+                                                "--set",
+                                                "lightfield.memory_mib=1",
+                                                "--hash",
+                                                "--record",
+                                                session});
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_THAT(run.err, HasSubstr("225 views take 14 MiB, more than they may"));
+        const auto account = [](const std::string& said) {
+            const std::size_t at = said.find("12 of 225 views at a time");
+            return at == std::string::npos ? "" : said.substr(at, said.find('\n', at) - at);
+        };
+        EXPECT_THAT(account(run.err), HasSubstr("frames waited for")) << run.err;
+
+        const ProgramResult again =
+            run_gazeloop({"replay", session, "--hash", "--set", "lightfield.memory_mib=1"});
+        ASSERT_EQ(again.exit_code, 0) << again.err;
+        EXPECT_THAT(again.out, HasSubstr("pictures equal in 120 of 120 frames")) << method;
+        EXPECT_EQ(account(again.err), account(run.err));
+
+        // What may be taken of memory is the machine's, and not recorded.
+        const ProgramResult whole = run_gazeloop({"replay", session, "--hash"});
+        ASSERT_EQ(whole.exit_code, 0) << whole.err;
+        EXPECT_THAT(whole.out, HasSubstr("pictures equal in 120 of 120 frames")) << method;
+        EXPECT_EQ(account(whole.err), "");
+
+        const ProgramResult report = run_gazeloop({"report", session, "--json", "-"});
+        ASSERT_EQ(report.exit_code, 0) << report.err;
+        EXPECT_THAT(report.out, HasSubstr(account(run.err)));
+    }
+}
+
+// Where the views wait must have room for them all, before any is decoded.
+TEST(SceneFiles, OfLightFieldsThatDoNotFitNeedRoomOnADisk) {
+    const TemporaryFolder folder;
+    const std::string field = light_field_to_pass(folder);
+    const std::vector<std::string> run{"run",
+                                       "--scene",
+                                       field,
+                                       "--gaze",
+                                       "fixed:0,0",
+                                       "--target",
+                                       "headless",
+                                       "--frames",
+                                       "2",
+                                       "--set",
+                                       "render.scale=0.05",
+                                       "--set",
+                                       "lightfield.aperture_m=0",
+                                       "--set",
+                                       "lightfield.memory_mib=1"};
+    const std::string nowhere = (folder / "none").string();
+    ProgramResult result = run_gazeloop(run, {.environment = {{"TMPDIR", nowhere}}});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr(nowhere + ": a scratch file cannot be made"));
+    EXPECT_THAT(result.err, HasSubstr("TMPDIR"));
+
+    std::filesystem::create_directory(nowhere);
+    result = run_gazeloop(
+        run,
+        {.environment = {{"TMPDIR", nowhere}},
+         .wrapper = {"unshare", "--user", "--map-root-user", "--mount", "sh", "-c",
+                     "mount -t tmpfs -o size=4m none '" + nowhere + "' && exec \"$@\"", "sh"}});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err,
+                HasSubstr(nowhere + ": a scratch file of 15 MiB finds no room (No space left"));
+
+    std::filesystem::resize_file(folder / "field" / "view_07_03.png", 900);
+    result = run_gazeloop(run);
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr("view_07_03.png: "));
+}
+
 TEST(SceneFiles, NamesThatAreNeitherAreRefused) {
     const ProgramResult result = run_scene("galery");
     EXPECT_EQ(result.exit_code, 2);

@@ -111,7 +111,7 @@ void Kfr3dPlan::list_views(const gaze::EyeView& view, const gaze::FoveaPoint& fo
         };
         table[at] = word(of.camera_m.x);
         table[at + 1] = word(of.camera_m.y);
-        table[at + 2] = word(of.view);
+        table[at + kViewNumber] = word(of.view);
         table[at + 3] = word(of.weight);
     });
 }

@@ -42,11 +42,12 @@ Expected<std::array<LpSize, Kfr3dParameters::kMostRegions>> region_sizes(
 ///
 /// EyePlan::table holds, as 32-bit words: where the views of region 0, 1, 2, 3 begin and where the
 /// last one's end; at kViewsBegin, four floats for each view: its camera's place in the cameras'
-/// plane (x, y, m), its layer, its weight.
+/// plane (x, y, m), its number, its weight.
 class Kfr3dPlan final : public MethodPlan {
   public:
     static constexpr std::size_t kViewsBegin = 8;
     static constexpr std::size_t kViewWords = 4;
+    static constexpr std::size_t kViewNumber = 2;  ///< which of these words
 
     /// `field`: the scene's; one camera with a lens of no opening where it is no light field.
     Kfr3dPlan(const Kfr3dParameters& parameters, const light_field::LightField& field);

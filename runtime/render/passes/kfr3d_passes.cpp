@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <numbers>
 #include <vector>
 
@@ -281,9 +283,20 @@ class Kfr3dPasses final : public PlannedPasses<Kfr3dPlan> {
         });
     }
 
+    /// The views of the plan, by where the scene keeps them.
+    void write_views(vulkan::HostBuffer& views, std::span<const std::uint32_t> table) const {
+        views.write(table);
+        for (std::size_t at = Kfr3dPlan::kViewsBegin + Kfr3dPlan::kViewNumber; at < table.size();
+             at += Kfr3dPlan::kViewWords) {
+            const auto view = static_cast<std::uint32_t>(std::bit_cast<float>(table[at]));
+            const std::array layer{static_cast<float>(setup_.scene.layer_of_view(view))};
+            views.write(std::span<const float>(layer), at * sizeof(std::uint32_t));
+        }
+    }
+
     void write_plan(EyeSlot& at, gaze::Eye eye, const foveation::EyePlan& made) const {
         auto uniforms = foveation::map_uniforms_of(made);
-        at.views.write(std::span<const std::uint32_t>(made.table));
+        write_views(at.views, made.table);
         for (std::uint32_t region = 0; region < regions_; ++region) {
             const std::vector<foveation::Columns>& bands = made.grids[region].bands;
             const foveation::LpSize lp = plan().lp(eye, region);

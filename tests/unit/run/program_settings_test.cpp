@@ -96,6 +96,7 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
       "layers.s2_fixed",
       "layers.temporal",
       "lightfield.aperture_m",
+      "lightfield.compression",
       "lightfield.focus_m",
       "quad.blend",
       "quad.periphery",

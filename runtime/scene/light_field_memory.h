@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+
+namespace gazeloop::scene {
+
+/// What a light field's views may take, and how they are kept.
+struct LightFieldMemory {
+    std::uint64_t most_bytes = std::uint64_t{1} << 30U;  ///< of the GPU's memory
+    bool compressed = false;                             ///< BC1
+};
+
+}  // namespace gazeloop::scene
