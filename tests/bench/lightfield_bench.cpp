@@ -1,14 +1,17 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "runtime/error.h"
 #include "runtime/foveation/plans/kfr3d_plan.h"
+#include "runtime/quality/psnr.h"
 #include "runtime/scene/light_field_file.h"
 #include "runtime/scene/scenes.h"
 #include "sim/light_field_baker.h"
@@ -52,7 +55,7 @@ std::filesystem::path light_field(const vulkan::Context& context, const Sizes& s
     const std::filesystem::path folder =
         std::filesystem::path(GAZELOOP_BINARY_DIR) /
         fmt::format("light-field-{}-{}", sizes.views, sizes.view_px);
-    const std::filesystem::path file = folder / fmt::format("views{}", scene::kLightFieldExtension);
+    std::filesystem::path file = folder / fmt::format("views{}", scene::kLightFieldExtension);
     if (!std::filesystem::exists(file)) {
         std::filesystem::remove_all(folder);
         const auto scene = scene::make_scene(context, "raymarch");
@@ -99,19 +102,37 @@ double difference(const render::LinearPicture& a, const render::LinearPicture& b
     return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
+/// Both eyes at one place, `across_m` to the right of the cameras' middle.
+render::FrameView frame_at(double across_m, const render::RendererConfig& config) {
+    render::FrameView frame;
+    const double half_rad = std::atan(1.0) * kField_deg / 90.0;
+    for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+        frame.views[e] = {.pose = {.position_m = {across_m, 0.0, 0.0}},
+                          .fov = {-half_rad, half_rad, half_rad, -half_rad},
+                          .width_px = config.extents[e].width,
+                          .height_px = config.extents[e].height};
+    }
+    return frame;
+}
+
+render::RendererConfig config_of(const Sizes& sizes) {
+    render::RendererConfig config;
+    config.extents = {vk::Extent2D(sizes.picture_px, sizes.picture_px),
+                      vk::Extent2D(kOtherEyePicture_px, kOtherEyePicture_px)};
+    return config;
+}
+
 /// One lens: full resolution of all views, and what KFR and 3D-KFR make of it.
 class Measurement {
   public:
     Measurement(const vulkan::Context& context, const std::filesystem::path& file,
                 double aperture_m, const Sizes& sizes, const Case& at)
-        : context_(context), sizes_(sizes), case_(at) {
+        : context_(context), sizes_(sizes), case_(at), config_(config_of(sizes)) {
         scene::SceneOptions options;
         options.light_field.aperture_m = aperture_m;
         needed_ = scene::make_scene(context, file.string(), options);
         options.require_all = true;
         all_ = scene::make_scene(context, file.string(), options);
-        config_.extents = {vk::Extent2D(sizes.picture_px, sizes.picture_px),
-                           vk::Extent2D(kOtherEyePicture_px, kOtherEyePicture_px)};
         add("full", *all_, "full");
         add("full, needed views", *needed_, "full");
         add("kfr", *needed_, "kfr");
@@ -120,7 +141,7 @@ class Measurement {
     }
 
     void run(unsigned rounds) {
-        const render::FrameView view = frame();
+        const render::FrameView view = frame_at(0.0, config_);
         gaze::FrameFovea fovea = render::fovea_ahead(view.views);
         for (const auto& method : methods_) {
             method->warm_up(context_, view.views);
@@ -177,17 +198,6 @@ class Measurement {
             context_, name, scene, tests::passes_by(method, set), config_, 1));
     }
 
-    [[nodiscard]] render::FrameView frame() const {
-        render::FrameView frame;
-        const double half_rad = std::atan(1.0) * kField_deg / 90.0;
-        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
-            frame.views[e] = {.fov = {-half_rad, half_rad, half_rad, -half_rad},
-                              .width_px = config_.extents[e].width,
-                              .height_px = config_.extents[e].height};
-        }
-        return frame;
-    }
-
     const vulkan::Context& context_;
     const Sizes& sizes_;
     const Case& case_;
@@ -196,6 +206,82 @@ class Measurement {
     render::RendererConfig config_;
     std::vector<std::unique_ptr<TimedMethod>> methods_;
 };
+
+/// What it costs to keep no more views than two lenses can ask for, and those of one frame at a
+/// time: a head that goes past the cameras, half a spacing a frame. And what BC1 loses.
+void add_memory_figures(const vulkan::Context& context, const std::filesystem::path& file,
+                        const Sizes& sizes, unsigned rounds, std::vector<Figure>& figures) {
+    const light_field::CameraGrid cameras = value_or_throw(scene::open_light_field(file)).cameras;
+    scene::SceneOptions options;
+    options.light_field.aperture_m = kNarrowLens_m;
+    const auto whole = scene::make_scene(context, file.string(), options);
+    options.light_field.compression = "bc1";
+    const auto packed = scene::make_scene(context, file.string(), options);
+    options.light_field.compression = "none";
+    const std::uint64_t view_bytes = std::uint64_t{4} * sizes.view_px * sizes.view_px;
+    constexpr std::uint32_t kStagedViews = 5;  // and what the image takes beside its views
+    const std::uint32_t needed =
+        2 * light_field::most_views({cameras, {.aperture_m = kNarrowLens_m}});
+    options.light_field.memory_mib =
+        static_cast<std::int64_t>(((needed + kStagedViews) * view_bytes >> 20U) + 1);
+    const auto streamed = scene::make_scene(context, file.string(), options);
+
+    const render::RendererConfig config = config_of(sizes);
+    const double reach_m = cameras.half_extent_m().x;
+    const double step_m = cameras.spacing_m / 2.0;
+    std::vector<double> across_m;
+    for (double at_m = -reach_m; at_m < reach_m; at_m += step_m) {
+        across_m.push_back(at_m);
+    }
+    const auto put = [&](const std::string& metric, double value, const char* unit,
+                         const char* better) {
+        figures.push_back({"lightfield", "memory", metric, value, unit, better});
+    };
+    for (const char* const name : {"full", "kfr3d"}) {
+        const auto timed = [&](scene::Scene& scene) {
+            return TimedMethod(context, name, scene, tests::passes_by(name, {{"kfr.sigma", "2.0"}}),
+                               config, across_m.size());
+        };
+        TimedMethod of_whole = timed(*whole);
+        TimedMethod of_streamed = timed(*streamed);
+        TimedMethod of_packed = timed(*packed);
+        const gaze::FrameFovea fovea = render::fovea_ahead(frame_at(0.0, config).views);
+        double worst_db = std::numeric_limits<double>::max();
+        for (TimedMethod* const method : {&of_whole, &of_streamed, &of_packed}) {
+            method->warm_up(context, frame_at(0.0, config).views);
+        }
+        for (unsigned round = 0; round < rounds; ++round) {
+            for (std::size_t i = 0; i < across_m.size(); ++i) {
+                for (TimedMethod* const method : {&of_whole, &of_streamed, &of_packed}) {
+                    method->frame(i, frame_at(across_m[i], config), fovea);
+                }
+                if (round == 0) {
+                    const auto picture = of_whole.picture(context, gaze::Eye::Left);
+                    quality::Plane equal(picture.width, picture.height);
+                    std::ranges::fill(equal.values, 1.0F / static_cast<float>(equal.values.size()));
+                    worst_db = std::min(
+                        worst_db,
+                        quality::psnr_db(picture, of_packed.picture(context, gaze::Eye::Left),
+                                         equal, quality::RowWork()));
+                }
+            }
+        }
+        const std::vector<double> resident_ms = of_whole.frame_elapsed_ms();
+        const std::vector<double> streamed_ms = of_streamed.frame_elapsed_ms();
+        const std::vector<double> packed_ms = of_packed.frame_elapsed_ms();
+        double longest_wait_ms = 0.0;
+        for (std::size_t i = 0; i < resident_ms.size(); ++i) {
+            longest_wait_ms = std::max(longest_wait_ms, streamed_ms[i] - resident_ms[i]);
+        }
+        const std::string of = fmt::format("{} ", name);
+        put(of + "resident", median(resident_ms), "ms", "lower");
+        put(of + "streamed over resident", median(streamed_ms) / median(resident_ms), "x", "lower");
+        put(of + "streamed, longest wait", longest_wait_ms, "ms", "lower");
+        put(of + "bc1 over resident", median(packed_ms) / median(resident_ms), "x", "lower");
+        put(of + "bc1, worst picture", worst_db, "dB", "higher");
+    }
+    fmt::print(stderr, "lightfield: {}\n", streamed->account().value_or("all views fit"));
+}
 
 }  // namespace
 
@@ -214,6 +300,9 @@ std::vector<Figure> lightfield(const Options& options) {
         Measurement narrow(context, file, kNarrowLens_m, sizes, at);
         narrow.run(options.rounds);
         narrow.add_figures("lens ", at.narrow_target, figures);
+    }
+    if (options.wants("memory")) {
+        add_memory_figures(context, file, sizes, options.rounds, figures);
     }
     return figures;
 }

@@ -1,5 +1,6 @@
 #include "tests/bench/timed_method.h"
 
+#include <chrono>
 #include <numeric>
 #include <utility>
 
@@ -31,7 +32,8 @@ TimedMethod::TimedMethod(const vulkan::Context& context, std::string name, scene
       targets_(context, config.extents, config.format),
       renderer_(std::make_unique<render::FrameRenderer>(context, scene, passes, config)),
       frame_ms_(frames),
-      frame_processor_ms_(frames) {}
+      frame_processor_ms_(frames),
+      frame_elapsed_ms_(frames) {}
 
 void TimedMethod::warm_up(const vulkan::Context& context, const gaze::StereoView& views) {
     render::warm_up(context, *renderer_, views);
@@ -39,6 +41,7 @@ void TimedMethod::warm_up(const vulkan::Context& context, const gaze::StereoView
 
 void TimedMethod::frame(std::size_t index, render::FrameView view, const gaze::FrameFovea& fovea) {
     view.targets = targets_.targets();
+    const auto begin = std::chrono::steady_clock::now();
     const double begin_s = process_seconds();
     renderer_->wait_for_slot();
     renderer_->begin(view);
@@ -46,6 +49,9 @@ void TimedMethod::frame(std::size_t index, render::FrameView view, const gaze::F
     ++frames_;
     renderer_->wait_idle();
     frame_processor_ms_.at(index).push_back(1e3 * (process_seconds() - begin_s));
+    const std::chrono::duration<double, std::milli> elapsed =
+        std::chrono::steady_clock::now() - begin;
+    frame_elapsed_ms_.at(index).push_back(elapsed.count());
     while (const auto finished = renderer_->next_finished()) {
         double total_ms = 0.0;
         for (std::size_t pass = 0; pass < renderer_->passes().size(); ++pass) {
@@ -62,6 +68,8 @@ std::vector<double> TimedMethod::frame_ms() const { return medians(frame_ms_); }
 double TimedMethod::ms() const { return mean(frame_ms()); }
 
 double TimedMethod::processor_ms() const { return mean(medians(frame_processor_ms_)); }
+
+std::vector<double> TimedMethod::frame_elapsed_ms() const { return medians(frame_elapsed_ms_); }
 
 double TimedMethod::pass_ms(std::string_view pass) const {
     const auto at = renderer_->passes().find(pass);

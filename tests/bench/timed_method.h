@@ -33,6 +33,8 @@ class TimedMethod {
     /// Likewise, in processor time of this process from before a frame to its end: of software
     /// drivers what ms() is on an idle machine, times its cores.
     [[nodiscard]] double processor_ms() const;
+    /// Likewise, on the wall, with all that a frame waits for.
+    [[nodiscard]] std::vector<double> frame_elapsed_ms() const;
     [[nodiscard]] const frame::PassList& passes() const { return renderer_->passes(); }
     /// Mean of all frames.
     [[nodiscard]] double pass_ms(std::size_t pass) const {
@@ -55,6 +57,7 @@ class TimedMethod {
     std::size_t frames_ = 0;
     std::vector<std::vector<double>> frame_ms_;
     std::vector<std::vector<double>> frame_processor_ms_;
+    std::vector<std::vector<double>> frame_elapsed_ms_;
     std::array<double, frame::kMostPasses> pass_ms_{};
 };
 
