@@ -6,8 +6,7 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/run/interrupt.h"
-#include "runtime/scene/scenes.h"
-#include "sim/light_field_baker.h"
+#include "sim/baked_light_field.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -37,14 +36,15 @@ ExitCode simulate_light_field(const SimulateLightFieldCommand& command) {
     const vulkan::Context context(
         {.device = values.vulkan.device, .device_origin = settings.origin("vulkan.device")},
         nullptr);
-    const auto scene = scene::make_scene(context, values.render.scene);
     run::catch_interrupts();
+    const auto go_on = [] { return !run::interrupted(); };
+    const auto scene = sim::make_scene(context, values.render.scene, {}, go_on);
     const auto file = value_or_throw(sim::bake_light_field(
         context, *scene, bake, command.folder, [&](std::uint32_t done, std::uint32_t total) {
             if (done % (2 * command.views) < 2) {
                 spdlog::info("{} of {} views", done, total);
             }
-            return !run::interrupted();
+            return go_on();
         }));
     if (!command.options.log.quiet) {
         fmt::print("{}: {} views of {}x{} px; gazeloop run --scene {} shows it\n", file.string(),

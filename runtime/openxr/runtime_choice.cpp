@@ -1,9 +1,7 @@
 #include "runtime/openxr/runtime_choice.h"
 
 #include <fmt/core.h>
-#include <pwd.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -14,6 +12,7 @@
 
 #include "runtime/environment.h"
 #include "runtime/error.h"
+#include "runtime/files/cache_folder.h"
 
 namespace gazeloop::openxr {
 namespace {
@@ -44,18 +43,6 @@ std::vector<fs::path> active_runtime_folders() {
     folders.emplace_back("/etc");
     folders.emplace_back("/usr/local/etc");
     return folders;
-}
-
-fs::path cache_folder() {
-    if (const auto cache = environment_value("GAZELOOP_CACHE")) {
-        return *cache;
-    }
-    if (const auto cache = environment_value("XDG_CACHE_HOME")) {
-        return fs::path(*cache) / "gazeloop";
-    }
-    const passwd* const user = getpwuid(getuid());
-    const std::string home = user != nullptr ? user->pw_dir : "/";
-    return fs::path(environment_value("HOME").value_or(home)) / ".cache" / "gazeloop";
 }
 
 /// Keeps what the user has set.
@@ -96,7 +83,7 @@ void simulate_display(const display::DisplayProfile& display) {
 }  // namespace
 
 RuntimeChoice choose_runtime(const display::DisplayProfile& display) {
-    const fs::path ours = cache_folder() / "monado/share/openxr/1/openxr_monado.json";
+    const fs::path ours = files::cache_folder() / "monado/share/openxr/1/openxr_monado.json";
     if (const auto chosen = environment_value("XR_RUNTIME_JSON")) {
         if (!is_there(*chosen)) {
             throw SetupError(

@@ -37,6 +37,8 @@ std::vector<settings::SettingRow> rows_of(RenderSettings& render,
     std::vector<std::string_view> files(scene::kSceneFileExtensions.begin(),
                                         scene::kSceneFileExtensions.end());
     files.push_back(scene::kLightFieldExtension);
+    std::vector<std::string> scenes(scene::scene_names().begin(), scene::scene_names().end());
+    scenes.emplace_back(scene::kBakedLightField);
     return {
         {"render.camera",
          "carries the viewer through the scene: turned to and fro (pan), or round a circle of 0.2 "
@@ -77,7 +79,7 @@ std::vector<settings::SettingRow> rows_of(RenderSettings& render,
          Number{&render.scale, 0.01, 2.0}, Concerns::Input},
         {"render.scene", "scene to render: a name, or a .gltf, .glb or .lightfield file",
          Choice{.value = &render.scene,
-                .names = {scene::scene_names().begin(), scene::scene_names().end()},
+                .names = std::move(scenes),
                 .file_extensions = std::move(files)},
          Concerns::Picture},
         {"render.specular_filter",

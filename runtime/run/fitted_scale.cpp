@@ -8,8 +8,9 @@
 
 #include "runtime/present/scaled_extent.h"
 #include "runtime/profiles/profiles_in_force.h"
+#include "runtime/run/interrupt.h"
 #include "runtime/run/run_timeline.h"
-#include "runtime/scene/scenes.h"
+#include "sim/baked_light_field.h"
 
 namespace gazeloop::run {
 namespace {
@@ -60,9 +61,10 @@ void fit_scale(const vulkan::Context& context, const render::MakePasses& passes,
     const ProgramValues& values = settings.values();
     const display::DisplayProfile display =
         value_or_throw(profiles::display_in_force(values.profile, settings));
-    const auto scene = scene::make_scene(
+    const auto scene = sim::make_scene(
         context, values.render.scene,
-        {.require_all = values.render.require == "all", .light_field = values.light_field});
+        {.require_all = values.render.require == "all", .light_field = values.light_field},
+        [] { return !interrupted(); });
     const auto ms_at = [&](double scale) {
         const vk::Extent2D extent =
             present::scaled_extent({display.width_px, display.height_px}, scale, kMostExtent);

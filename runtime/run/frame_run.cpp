@@ -48,11 +48,11 @@
 #include "runtime/run/run_timeline.h"
 #include "runtime/run/tracker_fault.h"
 #include "runtime/run/tracker_figures.h"
-#include "runtime/scene/scenes.h"
 #include "runtime/session/replay_check.h"
 #include "runtime/session/session_recorder.h"
 #include "runtime/time/clock.h"
 #include "runtime/time/milliseconds.h"
+#include "sim/baked_light_field.h"
 
 namespace gazeloop::run {
 namespace {
@@ -172,8 +172,9 @@ class FrameRun {
     scene::Scene& scene_now() {
         std::unique_ptr<scene::Scene>& scene = scenes_[values_.render.scene];
         if (scene == nullptr) {
-            scene = scene::make_scene(*context_, values_.render.scene,
-                                      render::scene_options(values_.render, values_.light_field));
+            scene = sim::make_scene(*context_, values_.render.scene,
+                                    render::scene_options(values_.render, values_.light_field),
+                                    [] { return !interrupted(); });
         }
         return *scene;
     }

@@ -9,8 +9,11 @@
 
 namespace gazeloop::scene {
 
-/// Names of the scenes that come with the program.
+/// Names of the scenes that come with the program and need no rendering before they are shown.
 [[nodiscard]] std::span<const std::string_view> scene_names();
+
+/// One that does: a light field, which is rendered once and kept (sim::make_scene).
+inline constexpr std::string_view kBakedLightField = "lightfield";
 
 struct SceneOptions {
     /// Draw and light as if the scene needed everything, to measure what leaving out saves.

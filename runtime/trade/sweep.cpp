@@ -14,6 +14,7 @@
 #include "runtime/trade/point_picture.h"
 #include "runtime/trade/settings_of_point.h"
 #include "runtime/trade/time_left.h"
+#include "sim/baked_light_field.h"
 
 namespace gazeloop::trade {
 namespace {
@@ -128,7 +129,8 @@ class CaseSweep {
                 return *scene;
             }
         }
-        scenes_.emplace_back(options, scene::make_scene(context_, case_.scene, options));
+        scenes_.emplace_back(options, sim::make_scene(context_, case_.scene, options,
+                                                      [&] { return !hooks_.interrupted(); }));
         return *scenes_.back().second;
     }
 

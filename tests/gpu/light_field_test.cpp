@@ -6,11 +6,13 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "runtime/error.h"
 #include "runtime/render/srgb.h"
 #include "runtime/scene/light_field_scene.h"
+#include "sim/baked_light_field.h"
 #include "sim/light_field_baker.h"
 #include "tests/support/frame_renderer_fixture.h"
 #include "tests/support/method_by_settings.h"
@@ -404,6 +406,34 @@ TEST_F(LightField, ThatWasBakedShowsItsScene) {
                               [](std::uint32_t, std::uint32_t) { return true; });
     ASSERT_FALSE(again.has_value());
     EXPECT_THAT(again.error().message, testing::HasSubstr("it holds something already"));
+}
+
+// The cache holds whole light fields, each made once, and another one for another bake.
+TEST_F(LightField, OfTheBuildIsBakedOnceIntoACache) {
+    const tests::TemporaryFolder cache;
+    sim::LightFieldBake bake{.views = 3, .size_px = 16};
+    const auto always = [] { return true; };
+    const auto stopped =
+        sim::baked_light_field(context(), bake, cache.path(), [] { return false; });
+    ASSERT_FALSE(stopped.has_value());
+    EXPECT_EQ(stopped.error().kind, ErrorKind::Interrupted);
+    EXPECT_TRUE(std::filesystem::is_empty(cache.path())) << "nothing of it is left";
+    const auto made = sim::baked_light_field(context(), bake, cache.path(), always);
+    ASSERT_TRUE(made.has_value()) << made.error().message;
+    const auto field = scene::open_light_field(*made);
+    ASSERT_TRUE(field.has_value()) << field.error().message;
+    EXPECT_EQ(field->cameras.count(), 9U);
+    EXPECT_EQ(sim::baked_light_field(context(), bake, cache.path(), [] { return false; }).value(),
+              *made)
+        << "it is there";
+    bake.scene_time_s = 1.0;
+    EXPECT_NE(sim::baked_light_field(context(), bake, cache.path(), always).value(), *made);
+    const std::filesystem::path taken = cache / "taken";
+    std::ofstream(taken) << "no folder";
+    const auto nowhere = sim::baked_light_field(context(), bake, taken, always);
+    ASSERT_FALSE(nowhere.has_value());
+    EXPECT_EQ(nowhere.error().kind, ErrorKind::BadInput);
+    EXPECT_THAT(nowhere.error().message, testing::HasSubstr("GAZELOOP_CACHE"));
 }
 
 TEST_F(LightField, IsBakedUntilItIsInterrupted) {

@@ -121,6 +121,17 @@ TEST(SceneFiles, OfLightFieldsAreMadeAndShown) {
     EXPECT_THAT(again.err, HasSubstr("it holds something already"));
 }
 
+// Rendered into the cache by the first run on a machine, which takes most of this test's time.
+TEST(SceneFiles, OfTheBuiltInLightFieldAreThereByName) {
+    const ProgramResult first = run_scene("lightfield", "kfr3d");
+    ASSERT_EQ(first.exit_code, 0) << first.err;
+    const ProgramResult again = run_scene("lightfield", "kfr3d");
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_THAT(again.err, testing::Not(HasSubstr("rendering its"))) << "the first one kept it";
+    const auto hashes = [](const std::string& out) { return out.substr(out.find("hash ")); };
+    EXPECT_EQ(hashes(again.out), hashes(first.out));
+}
+
 /// A light field of 225 views, 14 MiB, of which a viewer who goes past it sees 15 in a row.
 std::string light_field_to_pass(const TemporaryFolder& folder) {
     const std::string out = (folder / "field").string();
