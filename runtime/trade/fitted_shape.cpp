@@ -268,12 +268,13 @@ std::string fitted_toml(const FittedShape& fitted, const FitQuestion& fit,
     for (const CaseQuestion& of_case : question.cases) {
         cases += fmt::format("{}{} at {}", cases.empty() ? "" : ", ", of_case.scene, of_case.gaze);
     }
+    const std::size_t frames = question.cases.front().directions.size();
     std::string text = fmt::format(
-        "# Made by: {}\n# {}, {}x{} px an eye, {} frames, {} samples per cell; {}.\n"
+        "# Made by: {}\n# {}, {}x{} px an eye, {} frame{}, {} sample{} per cell; {}.\n"
         "# At {:g} times fewer samples than pixels the first figure is {:.4g}, {:.4g} with {}.\n",
-        made_by, question.display, view.width_px, view.height_px,
-        question.cases.front().directions.size(), question.samples, cases, fit.fewer,
-        fitted.loss_after, fitted.loss_before, fitted.before.settings_text());
+        made_by, question.display, view.width_px, view.height_px, frames, frames == 1 ? "" : "s",
+        question.samples, question.samples == 1 ? "" : "s", cases, fit.fewer, fitted.loss_after,
+        fitted.loss_before, fitted.before.settings_text());
     std::map<std::string, std::string> groups{
         {"render", fmt::format("method = \"{}\"\n", fit.method)}};
     for (const auto& [key, value] : fitted.after.settings) {

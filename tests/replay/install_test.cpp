@@ -70,18 +70,21 @@ class Installed : public testing::Test {
     }
 };
 
-TEST_F(Installed, IsTheProgramTheLayerAndTheUdevRules) {
+TEST_F(Installed, IsTheProgramTheLayerTheUdevRulesAndTheFittedShapes) {
     std::vector<std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(prefix_)) {
         if (!entry.is_directory()) {
             files.push_back(fs::relative(entry.path(), prefix_).string());
         }
     }
-    EXPECT_THAT(files,
-                testing::UnorderedElementsAre(
-                    "bin/gazeloop", "lib/libXrApiLayer_gazeloop.so",
-                    "include/openxr/gazeloop_gaze_sample.h", "lib/udev/rules.d/70-gazeloop.rules",
-                    "share/openxr/1/api_layers/implicit.d/XrApiLayer_gazeloop.json"));
+    std::vector<std::string> expected{
+        "bin/gazeloop", "lib/libXrApiLayer_gazeloop.so", "include/openxr/gazeloop_gaze_sample.h",
+        "lib/udev/rules.d/70-gazeloop.rules",
+        "share/openxr/1/api_layers/implicit.d/XrApiLayer_gazeloop.json"};
+    for (const auto& entry : fs::directory_iterator(GAZELOOP_SOURCE_DIR "/config/foveation")) {
+        expected.push_back("share/gazeloop/foveation/" + entry.path().filename().string());
+    }
+    EXPECT_THAT(files, testing::UnorderedElementsAreArray(expected));
     const std::string rules = content(prefix_ + "/lib/udev/rules.d/70-gazeloop.rules");
     EXPECT_EQ(rules, content(GAZELOOP_SOURCE_DIR "/config/udev/70-gazeloop.rules"));
     EXPECT_THAT(rules, HasSubstr("054c"));

@@ -102,8 +102,8 @@ TEST(FittedShape, IsWrittenAsSettings) {
                              .tried = 3};
     const std::string toml =
         fitted_toml(fitted, {.method = "interleaved", .fewer = 20.0}, question, "gazeloop trade");
-    EXPECT_THAT(toml,
-                HasSubstr("# Made by: gazeloop trade\n# a display, 100x80 px an eye, 2 frames"));
+    EXPECT_THAT(toml, HasSubstr("# Made by: gazeloop trade\n# a display, 100x80 px an eye, 2 "
+                                "frames, 1 sample per cell;"));
     EXPECT_THAT(toml,
                 HasSubstr("At 20 times fewer samples than pixels the first figure is 0.6, 0.7 "
                           "with kfr.sigma=2."));
