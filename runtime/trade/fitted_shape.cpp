@@ -191,6 +191,7 @@ class Fit {
                     : kInfinite;
         }
         std::vector<double> losses;
+        losses.reserve(points.size());
         std::size_t next = 1;  // after full resolution
         for (const auto& point : points) {
             losses.push_back(point ? of_points[next++] : kInfinite);
@@ -200,6 +201,7 @@ class Fit {
 
     Expected<std::vector<double>> losses_of_shapes(std::span<const std::vector<double>> places) {
         std::vector<std::optional<SweepPoint>> points;
+        points.reserve(places.size());
         for (const std::vector<double>& place : places) {
             points.push_back(point_of(LpShape::of(place).settings()));
         }
