@@ -140,7 +140,9 @@ TEST_P(SteamFrameRace, GivesNoTornSample) {
     RecordProperty("torn_samples_taken", static_cast<int>(torn_counters.size()));
     RecordProperty("writer_stalls", static_cast<int>(stalls));
     EXPECT_GT(last, first) << "the writer wrote";
-    EXPECT_GT(2 * taken, last - first) << torn << " looks found a sample half written";
+    // Most, where the reader has a core; enough to have been raced, where it shares one with
+    // others.
+    EXPECT_GT(10 * taken, last - first) << torn << " looks found a sample half written";
     if (rate_hz >= 1000.0) {
         // Else next to nothing was judged. A writer that sleeps for longer often begins slowly.
         EXPECT_LT(2 * stalls, last - first) << "the writer was held up too often";
