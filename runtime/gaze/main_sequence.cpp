@@ -19,7 +19,7 @@ MainSequence main_sequence(double amplitude_deg) {
             .peak_deg_per_s = -596.0 * std::expm1(-amplitude_deg / 6.47)};
 }
 
-SaccadeCourse::SaccadeCourse(double amplitude_deg, double vigour) {
+SaccadeCourse::SaccadeCourse(double amplitude_deg, double vigour, double lean) : lean_(lean) {
     const MainSequence normal = main_sequence(amplitude_deg);
     const double peak_over_mean = normal.peak_deg_per_s * normal.duration_s / amplitude_deg;
     sharpness_ = (peak_over_mean - kMinimumJerkPeak) / (kSharperPeak - kMinimumJerkPeak);
@@ -30,7 +30,8 @@ double SaccadeCourse::progress(double elapsed_s) const {
     if (elapsed_s >= duration_s_) {
         return 1.0;
     }
-    const double t = elapsed_s / duration_s_;
+    const double share = elapsed_s / duration_s_;
+    const double t = share + lean_ * share * (1.0 - share);
     const double minimum_jerk = t * t * t * (10.0 + t * (-15.0 + t * 6.0));
     const double sharper = t * t * t * t * (35.0 + t * (-84.0 + t * (70.0 - t * 20.0)));
     return minimum_jerk + sharpness_ * (sharper - minimum_jerk);

@@ -40,12 +40,12 @@ struct GazePrediction {
 /// - Fixation and oscillation are held.
 /// - Pursuit goes on with a share of its velocity.
 /// - A saccade goes on along its way as the main sequence says (saccade_forecast.h), less some
-///   deviations of that forecast: overshooting is worse than lagging, because it goes on after the
-///   landing. It is not extrapolated while it is too small or too slow to tell it from noise, nor
-///   once it has slowed down, when it may end at any time.
-/// - Of what is forecast it believes as much as this source's latest movements bear out
-///   (prediction_check.h): of persons who land earlier than others, less, down to a hold in pursuit
-///   and to half in a saccade.
+///   deviations of that forecast and no more than a few times what it goes at least: overshooting
+///   is worse than lagging, because it goes on after the landing. It is not extrapolated while it
+///   is too small or too slow to tell it from noise, nor once it has slowed down, when it may end
+///   at any time.
+/// - Of a pursuit it believes as much as this source's latest ones bear out (prediction_check.h),
+///   down to a hold.
 class GazePredictor {
   public:
     /// `longest_ns`: the bound of the horizon. Beyond it the prediction is for the bound.
@@ -68,14 +68,15 @@ class GazePredictor {
 
   private:
     /// Precondition: the detector sees one.
-    [[nodiscard]] SaccadeForecast saccade_as_seen() const;
+    [[nodiscard]] SaccadeInFlight saccade_as_seen() const;
     /// A forecast as it would be without what its errors have taught.
     [[nodiscard]] PredictionCheck::Forecast forecast_at(double ahead_s) const;
     void forecast_saccade(double ahead_s, PredictionCheck::Forecast& forecast) const;
     void forecast_pursuit(double ahead_s, PredictionCheck::Forecast& forecast) const;
 
     EventDetector detector_;
-    SaccadeForecast saccade_;  ///< as of the last sample, in a saccade
+    SaccadeInFlight in_flight_;  ///< as of the last sample, in a saccade
+    SaccadeForecast saccade_;    ///< of that
     PredictionCheck check_;
     std::int64_t longest_ns_;
     double vigour_ = 1.0;  ///< of this person's saccades, learned from those that have landed

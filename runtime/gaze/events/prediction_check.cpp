@@ -6,13 +6,11 @@
 
 namespace gazeloop::gaze {
 namespace {
-constexpr double kForgets = 100.0;  // forecasts; of one source's latest twenty saccades or so
-// What a source is trusted with before anything is known of it: as if movements of this speed had
+constexpr double kForgets = 100.0;  // forecasts
+// What a source is trusted with before anything is known of it: as if a pursuit of this speed had
 // been forecast rightly.
-constexpr double kTrustedSaccade_rad_per_s = 1.75;   // 100 deg/s
-constexpr double kTrustedPursuit_rad_per_s = 0.175;  // 10 deg/s
-constexpr double kLeastShare = 0.5;                  // of a saccade: it is on its way
-constexpr double kLearned = 0.03;                    // of the logarithm, per forecast
+constexpr double kTrusted_rad_per_s = 0.175;  // 10 deg/s
+constexpr double kLearned = 0.03;             // of the logarithm, per forecast
 constexpr double kMissed = 0.05;
 constexpr double kLeastWidening = 0.5;
 constexpr double kMostWidening = 30.0;  // trackers with a degree of noise
@@ -80,8 +78,6 @@ void PredictionCheck::follow(const EventDetector& detector) {
     }
     if (event == EyeEvent::Saccade && before_ != EyeEvent::Saccade) {
         saccade_began_ns_ = detector.movement().begin_ns;
-    } else if (event != EyeEvent::Saccade && before_ == EyeEvent::Saccade) {
-        saccade_ended_ns_ = detector.movement().begin_ns;
     }
     before_ = event;
     const std::int64_t now_ns = history.back(0).time_ns;
@@ -117,9 +113,7 @@ void PredictionCheck::judge(const EventDetector& detector, const Remembered& rem
     record.widening =
         std::clamp(record.widening * std::exp(kLearned * ((missed ? 1.0 : 0.0) - kMissed)),
                    kLeastWidening, kMostWidening);
-    const bool landed = forecast.event == EyeEvent::Saccade &&
-                        saccade_ended_ns_ >= remembered.made_ns && saccade_ended_ns_ <= due_ns;
-    if (landed || forecast.event == EyeEvent::Pursuit) {
+    if (forecast.event == EyeEvent::Pursuit) {
         const double kept = 1.0 - 1.0 / kForgets;
         record.with = kept * record.with + glm::dot(told, real);
         record.square = kept * record.square + glm::dot(told, told);
@@ -127,16 +121,14 @@ void PredictionCheck::judge(const EventDetector& detector, const Remembered& rem
 }
 
 double PredictionCheck::share(EyeEvent event, std::int64_t ahead_ns) const {
-    const bool saccade = event == EyeEvent::Saccade;
-    if (!saccade && event != EyeEvent::Pursuit) {
+    if (event != EyeEvent::Pursuit) {
         return 1.0;
     }
     const Record& of = record(event, ahead_ns);
     const double horizon_s = static_cast<double>(kHorizons_ns[horizon_of(ahead_ns)]) * 1e-9;
-    const double trusted_rad =
-        horizon_s * (saccade ? kTrustedSaccade_rad_per_s : kTrustedPursuit_rad_per_s);
+    const double trusted_rad = horizon_s * kTrusted_rad_per_s;
     const double trust = trusted_rad * trusted_rad;
-    return std::clamp((of.with + trust) / (of.square + trust), saccade ? kLeastShare : 0.0, 1.0);
+    return std::clamp((of.with + trust) / (of.square + trust), 0.0, 1.0);
 }
 
 double PredictionCheck::widening(EyeEvent event, std::int64_t ahead_ns) const {

@@ -13,7 +13,7 @@
 namespace gazeloop::gaze {
 
 /// Holds a predictor's forecasts against where the eye then was, while samples pass: a share that
-/// says how much of a forecast movement to believe, and how much wider than stated its errors are.
+/// says how much of a forecast pursuit to believe, and how much wider than stated its errors are.
 /// Of this source alone, in the samples' own time: the same samples give the same bits. Fixed
 /// memory, no allocation.
 ///
@@ -42,9 +42,8 @@ class PredictionCheck {
     void remember(std::int64_t time_ns, const std::array<Forecast, kHorizons_ns.size()>& forecasts);
     void turn(const glm::dquat& rotation);
 
-    /// How much of the forecast movement to believe, 0 .. 1: the share that would have left the
-    /// least squares of errors lately. Of saccades, only forecasts count that fell due after the
-    /// landing: overshooting goes on, lagging ends. 1 of other events.
+    /// How much of the forecast movement to believe, 0 .. 1: of pursuit, the share that would have
+    /// left the least squares of errors lately. 1 of other events.
     [[nodiscard]] double share(EyeEvent event, std::int64_t ahead_ns) const;
     /// What to multiply stated uncertainties by, so that they hold in 95 % of cases.
     [[nodiscard]] double widening(EyeEvent event, std::int64_t ahead_ns) const;
@@ -83,7 +82,6 @@ class PredictionCheck {
     std::int64_t asked_ns_ = std::numeric_limits<std::int64_t>::min() / 2;
     EyeEvent before_ = EyeEvent::Lost;
     std::int64_t saccade_began_ns_ = std::numeric_limits<std::int64_t>::min();
-    std::int64_t saccade_ended_ns_ = std::numeric_limits<std::int64_t>::min();
 };
 
 }  // namespace gazeloop::gaze

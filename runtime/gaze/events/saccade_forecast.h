@@ -10,8 +10,11 @@ struct SaccadeInFlight {
     double travelled_deg = 0.0;  ///< from where it began; 0 or more
     double elapsed_s = 0.0;      ///< since it was noticed
     double speed_deg_per_s = 0.0;
-    double peak_deg_per_s = 0.0;  ///< the greatest speed so far; at least speed_deg_per_s
-    double speed_age_s = 0.0;     ///< how long ago the speed was that: half its window
+    double peak_deg_per_s = 0.0;   ///< the greatest speed so far; at least speed_deg_per_s
+    double speed_age_s = 0.0;      ///< how long ago the speed was that: half its window
+    double step_deg_per_s = 0.0;   ///< from the sample before to the newest, along the way
+    double step_age_s = 0.0;       ///< how long ago that was: half of the step
+    double noise_deg_per_s = 0.0;  ///< what a resting gaze shows as speed
     /// Of the person: how fast their saccades are, 1 as usual.
     double vigour = 1.0;
 };
@@ -20,7 +23,13 @@ struct SaccadeInFlight {
 struct SaccadeTravel {
     double further_deg = 0.0;  ///< from now; 0 or more
     double sd_deg = 0.0;       ///< standard deviation of that
+    /// It goes at least so far, but for one time in four or more: see SaccadeForecast::after.
+    double at_least_deg = 0.0;
 };
+
+/// A figure that depends on the horizon: `near` up to 20 ms ahead, `far` from 40 ms on, in between
+/// in proportion.
+[[nodiscard]] double by_horizon(double ahead_s, double near, double far);
 
 /// When it will land.
 struct SaccadeLanding {
@@ -28,8 +37,8 @@ struct SaccadeLanding {
     double sd_s = 0.0;  ///< standard deviation of that
 };
 
-/// Saccades of all amplitudes and of three vigours on the main sequence (main_sequence.h), each
-/// weighed by how well it explains what was seen, are the forecast: their mean and deviation.
+/// Saccades of all amplitudes and of three vigours on the main sequence (main_sequence.h), large
+/// ones with an early peak, each weighed by how well it explains what was seen, are the forecast.
 /// Zeros where nothing explains it. No allocation.
 class SaccadeForecast {
   public:
@@ -42,7 +51,7 @@ class SaccadeForecast {
     [[nodiscard]] SaccadeLanding landing() const;
 
   private:
-    static constexpr std::size_t kAmplitudes = 18;
+    static constexpr std::size_t kAmplitudes = 20;
     static constexpr std::size_t kVigourCount = 3;
 
     struct Explanation {
@@ -51,6 +60,8 @@ class SaccadeForecast {
         double done = 0.0;  ///< share of its duration that has gone by
         double duration_s = 0.0;
     };
+
+    void leave_out_unlikely();
 
     double travelled_deg_ = 0.0;
     std::array<Explanation, kAmplitudes * kVigourCount> explanations_{};

@@ -119,16 +119,15 @@ TEST_F(CodedRecordings, ShowThatPredictionIsBetterThanHoldingInSaccades) {
     std::vector<double> in_saccades =
         ratios_to_hold(errors, TargetClass::Saccade, kAfter20ms, Predictor::Ours);
     ASSERT_GE(in_saccades.size(), 5U);
-    EXPECT_LT(percentile(in_saccades, 50.0), 0.83);
-    EXPECT_LT(percentile(in_saccades, 100.0), 1.0);
+    EXPECT_LT(percentile(in_saccades, 50.0), 0.75);
+    EXPECT_LT(percentile(in_saccades, 100.0), 0.87);
     // What is held is held exactly, and where a saccade is taken for ended or not, little is lost.
     for (std::size_t horizon = 0; horizon < kHorizons_ms.size(); ++horizon) {
         for (const auto target : {TargetClass::Fixation, TargetClass::Oscillation,
                                   TargetClass::Pursuit, TargetClass::Onset}) {
             const auto ours = ratios_to_hold(errors, target, horizon, Predictor::Ours);
             const auto linear = ratios_to_hold(errors, target, horizon, Predictor::Linear);
-            // What the check on the own forecast buys for its share of a saccade's gain: without it
-            // the worst person's oscillations had 1.84.
+            // Of few oscillations two or three samples decide.
             EXPECT_LT(percentile(ours, 100.0), 1.4)
                 << kTargetClassNames[static_cast<std::size_t>(target)] << horizon;
             EXPECT_LT(percentile(ours, 50.0), 1.15)
@@ -138,6 +137,34 @@ TEST_F(CodedRecordings, ShowThatPredictionIsBetterThanHoldingInSaccades) {
             }
         }
     }
+}
+
+TEST_F(CodedRecordings, ShowThatPredictionSeldomHurtsSlowerTrackers) {
+    std::vector<CodedRecording> thin;
+    for (const auto& [stimulus, of_stimulus] : others) {
+        for (const CodedRecording* const recording : of_stimulus) {
+            thin.push_back(thinned(*recording, 4));  // 125 Hz
+        }
+    }
+    std::vector<const CodedRecording*> recordings;
+    for (const CodedRecording& recording : thin) {
+        recordings.push_back(&recording);
+    }
+    const auto errors = prediction_errors(recordings);
+    std::size_t cases = 0;
+    std::size_t worse = 0;
+    for (std::size_t horizon = 0; horizon < kHorizons_ms.size(); ++horizon) {
+        for (const auto target : {TargetClass::Fixation, TargetClass::Oscillation,
+                                  TargetClass::Pursuit, TargetClass::Saccade}) {
+            for (const double ratio : ratios_to_hold(errors, target, horizon, Predictor::Ours)) {
+                ++cases;
+                worse += ratio > 1.05 ? 1U : 0U;
+            }
+        }
+    }
+    EXPECT_GT(cases, 80U);
+    // Three are; fourteen were before the newest step between samples counted as evidence.
+    EXPECT_LE(worse, 4U);
 }
 
 }  // namespace

@@ -14,5 +14,29 @@ TEST(MainSequence, HasThePublishedFigures) {
     EXPECT_GT(main_sequence(1e-12).peak_deg_per_s, 0.0);
 }
 
+TEST(SaccadeCourse, PeaksEarlyWhereItLeans) {
+    const auto peak_at = [](const SaccadeCourse& course) {
+        constexpr int kSteps = 1000;
+        double fastest = 0.0;
+        double at = 0.0;
+        for (int i = 0; i < kSteps; ++i) {
+            const double from = static_cast<double>(i) / kSteps;
+            const double moved = course.progress(course.duration_s() * (from + 1.0 / kSteps)) -
+                                 course.progress(course.duration_s() * from);
+            EXPECT_GE(moved, 0.0) << "never back";
+            if (moved > fastest) {
+                fastest = moved;
+                at = from;
+            }
+        }
+        return at;
+    };
+    for (const double amplitude_deg : {2.0, 10.0, 40.0}) {
+        EXPECT_NEAR(peak_at(SaccadeCourse(amplitude_deg, 1.0)), 0.5, 0.002);
+        EXPECT_NEAR(peak_at(SaccadeCourse(amplitude_deg, 1.0, 0.3)), 0.385, 0.02);
+        EXPECT_EQ(SaccadeCourse(amplitude_deg, 1.0, 0.3).progress(1.0), 1.0);
+    }
+}
+
 }  // namespace
 }  // namespace gazeloop::gaze
