@@ -36,7 +36,7 @@ std::string folder_name(const LightFieldBake& bake) {
 Expected<fs::path> baked_light_field(const vulkan::Context& context, const LightFieldBake& bake,
                                      const fs::path& cache, const std::function<bool()>& go_on) {
     const fs::path folder = cache / folder_name(bake);
-    const fs::path file = folder / fmt::format("views{}", scene::kLightFieldExtension);
+    fs::path file = folder / fmt::format("views{}", scene::kLightFieldExtension);
     std::error_code error;
     if (fs::exists(file, error)) {
         return file;

@@ -89,7 +89,9 @@ TEST(LightFieldStorage, RefusesWhatOneFrameNeedsMoreOfAndSaysWhatFits) {
     const auto px =
         static_cast<std::uint64_t>(std::stod(why.substr(why.find("views of ", at) + 9)));
     StorageLimits smaller = limits(1024);
-    smaller.image_bytes = [px](std::uint32_t layers) { return layers * 4 * px * px; };
+    smaller.image_bytes = [px](std::uint32_t layers) {
+        return std::uint64_t{4} * layers * px * px;
+    };
     StoredViews small = views();
     small.bytes = 4 * px * px;
     EXPECT_TRUE(choose_storage(field(1.0), small, smaller).has_value()) << px;
