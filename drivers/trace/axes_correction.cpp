@@ -21,40 +21,46 @@ std::string_view name_of(AxesCorrection correction) {
     return kAxesCorrectionNames[static_cast<std::size_t>(correction)];
 }
 
-void mirror_x(std::span<gaze::GazeSample> samples) {
-    const AnatomyVerdict before = gaze::anatomy_of(samples).verdict;
-    const bool places =
-        before == AnatomyVerdict::Exchanged || before == AnatomyVerdict::PlacesExchanged;
-    const bool directions = before != AnatomyVerdict::PlacesExchanged;
-    for (gaze::GazeSample& sample : samples) {
-        for (gaze::EyeRay& ray : sample.eyes) {
-            ray.direction.x *= directions ? -1.0 : 1.0;
-            ray.origin_m.x *= places ? -1.0 : 1.0;
-        }
-    }
+/// What a correction does whatever the samples are.
+AxesChange turned_by(AxesCorrection correction) {
+    return {.swap_eyes = correction == AxesCorrection::SwapEyes,
+            .mirror_directions_z =
+                correction == AxesCorrection::MirrorZ || correction == AxesCorrection::MirrorXZ};
 }
 
-void mirror_z(std::span<gaze::GazeSample> samples) {
+/// What it mirrors too, of samples that were turned by it.
+void add_mirrored(const gaze::SampleRange& turned, AxesCorrection correction, AxesChange& change) {
+    if (correction != AxesCorrection::MirrorX && correction != AxesCorrection::MirrorXZ) {
+        return;
+    }
+    const AnatomyVerdict before = gaze::anatomy_of(turned).verdict;
+    change.mirror_places_x =
+        before == AnatomyVerdict::Exchanged || before == AnatomyVerdict::PlacesExchanged;
+    change.mirror_directions_x = before != AnatomyVerdict::PlacesExchanged;
+}
+
+void apply_to_all(const AxesChange& change, std::span<gaze::GazeSample> samples) {
     for (gaze::GazeSample& sample : samples) {
-        for (gaze::EyeRay& ray : sample.eyes) {
-            ray.direction.z *= -1.0;
-        }
+        change.apply_to(sample);
     }
 }
 
 /// Enough of a trace to try a correction on.
-std::vector<gaze::GazeSample> some_of(std::span<const gaze::GazeSample> samples) {
+std::vector<gaze::GazeSample> some_of(const gaze::SampleRange& samples) {
     constexpr std::size_t kMost = 5'000;
     const std::size_t step = samples.size() / kMost + 1;
     std::vector<gaze::GazeSample> some;
-    for (std::size_t i = 0; i < samples.size(); i += step) {
-        some.push_back(samples[i]);
+    std::size_t i = 0;
+    for (const gaze::GazeSample& sample : samples) {
+        if (i++ % step == 0) {
+            some.push_back(sample);
+        }
     }
     return some;
 }
 
 /// The corrections after which nothing is wrong; where it can be told, after which all is right.
-std::vector<AxesCorrection> helping(std::span<const gaze::GazeSample> samples) {
+std::vector<AxesCorrection> helping(const gaze::SampleRange& samples) {
     const std::vector<gaze::GazeSample> some = some_of(samples);
     std::vector<AxesCorrection> right;
     std::vector<AxesCorrection> not_wrong;
@@ -89,7 +95,7 @@ std::string_view when(AxesCorrection correction) {
     return "";
 }
 
-std::string remedy(std::span<const gaze::GazeSample> samples, AxesCorrection in_use) {
+std::string remedy(const gaze::SampleRange& samples, AxesCorrection in_use) {
     if (in_use != AxesCorrection::None) {
         return fmt::format(
             "--axes {} makes it so or does not help: look at the trace without it "
@@ -119,25 +125,10 @@ AxesCorrection axes_correction_named(std::string_view name) {
 }
 
 void correct_axes(std::span<gaze::GazeSample> samples, AxesCorrection correction) {
-    switch (correction) {
-        case AxesCorrection::None:
-            break;
-        case AxesCorrection::MirrorX:
-            mirror_x(samples);
-            break;
-        case AxesCorrection::SwapEyes:
-            for (gaze::GazeSample& sample : samples) {
-                std::swap(sample.eyes[0], sample.eyes[1]);
-            }
-            break;
-        case AxesCorrection::MirrorZ:
-            mirror_z(samples);
-            break;
-        case AxesCorrection::MirrorXZ:
-            mirror_z(samples);
-            mirror_x(samples);
-            break;
-    }
+    apply_to_all(turned_by(correction), samples);
+    AxesChange mirrored;
+    add_mirrored(samples, correction, mirrored);
+    apply_to_all(mirrored, samples);
 }
 
 namespace {
@@ -170,7 +161,7 @@ std::string odd_distance(const gaze::Anatomy& anatomy) {
 
 /// What is odd about parts of a recording that as a whole agrees with anatomy: the eyes' rays meet
 /// in most of it and diverge by as much in the rest. Nothing where that is not so.
-std::string odd_part(std::span<const gaze::GazeSample> samples, const gaze::Anatomy& whole) {
+std::string odd_part(const gaze::SampleRange& samples, const gaze::Anatomy& whole) {
     constexpr std::size_t kParts = 10;
     constexpr double kLeast_deg = 1.0;
     if (whole.doubtful() || !whole.vergence_deg) {
@@ -182,7 +173,7 @@ std::string odd_part(std::span<const gaze::GazeSample> samples, const gaze::Anat
     for (std::size_t part = 0; part < kParts; ++part) {
         const std::size_t begin = samples.size() * part / kParts;
         const std::size_t end = samples.size() * (part + 1) / kParts;
-        const gaze::Anatomy anatomy = gaze::anatomy_of(samples.subspan(begin, end - begin));
+        const gaze::Anatomy anatomy = gaze::anatomy_of(samples.part(begin, end));
         if (anatomy.vergence_deg && anatomy.vergence_deg->median < -apart_deg &&
             anatomy.vergence_deg->upper < 0.0) {
             first_ns = odd++ == 0 ? samples[begin].sampled.ns : first_ns;
@@ -212,32 +203,33 @@ struct BehindHead {
 };
 
 /// No eye turns so far: what points there is invalid.
-BehindHead take_out_behind(gaze::GazeTrace& trace) {
+BehindHead take_out_behind(BuiltTrace& trace) {
     BehindHead behind;
-    for (std::size_t i = 0; i < trace.samples.size(); ++i) {
-        gaze::PerEye<gaze::EyeRay>& eyes = trace.samples[i].eyes;
+    std::size_t i = 0;
+    for (const gaze::GazeSample& sample : gaze::SampleRange(*trace.samples)) {
+        const gaze::PerEye<gaze::EyeRay>& eyes = sample.eyes;
         behind.samples += eyes[0].valid || eyes[1].valid ? 1 : 0;
         bool any = false;
         for (const gaze::Eye eye : gaze::kEyes) {
-            gaze::EyeRay& ray = eyes[gaze::index(eye)];
+            const gaze::EyeRay& ray = eyes[gaze::index(eye)];
             behind.all_directions[gaze::index(eye)] += ray.valid ? 1 : 0;
             if (ray.valid && ray.direction.z > 0.0) {
-                ray.valid = false;
                 ++behind.eyes[gaze::index(eye)];
                 any = true;
             }
         }
-        if (!any) {
-            continue;
-        }
-        if (behind.rows++ == 0 && !trace.lines.empty()) {
+        if (any && behind.rows++ == 0) {
             behind.first_line = trace.lines[i];
         }
+        ++i;
     }
     for (const std::size_t e : {0U, 1U}) {
         std::uint64_t& valid = trace.report.valid[e];
         valid -= std::min(valid, behind.eyes[e]);
     }
+    AxesChange change = trace.samples->changed();
+    change.nothing_behind = true;
+    trace.samples->change(change);
     return behind;
 }
 
@@ -245,13 +237,12 @@ std::string rows_text(std::uint64_t rows) {
     return fmt::format("{} {}", rows, rows == 1 ? "row" : "rows");
 }
 
-std::string at_line(const gaze::GazeTrace& trace, std::uint64_t line) {
+std::string at_line(const BuiltTrace& trace, std::uint64_t line) {
     return line > 0 ? fmt::format("{}:{}", trace.file, line) : trace.file;
 }
 
 /// Reports them; more than a tenth of the gaze is too much to do without.
-Expected<void> report_behind(gaze::GazeTrace& trace, const BehindHead& behind,
-                             bool accept_repairs) {
+Expected<void> report_behind(BuiltTrace& trace, const BehindHead& behind, bool accept_repairs) {
     constexpr std::uint64_t kRowsPerRepair = 10;
     if (behind.rows == 0) {
         return {};
@@ -278,17 +269,21 @@ Expected<void> report_behind(gaze::GazeTrace& trace, const BehindHead& behind,
 
 }  // namespace
 
-Expected<void> hold_against_anatomy(gaze::GazeTrace& trace, AxesCorrection correction,
+Expected<void> hold_against_anatomy(BuiltTrace& trace, AxesCorrection correction,
                                     bool accept_repairs) {
-    correct_axes(trace.samples, correction);
-    gaze::Anatomy anatomy = gaze::anatomy_of(trace.samples);
+    const gaze::SampleRange samples(*trace.samples);
+    AxesChange change = turned_by(correction);
+    trace.samples->change(change);
+    add_mirrored(samples, correction, change);
+    trace.samples->change(change);
+    gaze::Anatomy anatomy = gaze::anatomy_of(samples);
     if (anatomy.verdict != AnatomyVerdict::Behind) {
         const BehindHead behind = take_out_behind(trace);
         if (auto reported = report_behind(trace, behind, accept_repairs); !reported) {
             return reported;
         }
         if (behind.rows > 0) {
-            anatomy = gaze::anatomy_of(trace.samples);
+            anatomy = gaze::anatomy_of(samples);
         }
     }
     std::string text = gaze::anatomy_text(anatomy);
@@ -299,23 +294,23 @@ Expected<void> hold_against_anatomy(gaze::GazeTrace& trace, AxesCorrection corre
     trace.report.axes = odd.empty() ? text : text + "; but " + odd;
     if (!odd.empty()) {
         trace.report.add(
-            {.kind = gaze::TraceFindingKind::Axes, .rows = trace.samples.size(), .text = odd});
+            {.kind = gaze::TraceFindingKind::Axes, .rows = samples.size(), .text = odd});
     }
-    if (std::string part = odd_part(trace.samples, anatomy); !part.empty()) {
+    if (std::string part = odd_part(samples, anatomy); !part.empty()) {
         trace.report.axes += "; but " + part;
         trace.report.add({.kind = gaze::TraceFindingKind::Axes,
-                          .rows = trace.samples.size(),
+                          .rows = samples.size(),
                           .text = std::move(part)});
     }
     if (anatomy.doubtful()) {
-        text += "; " + remedy(trace.samples, correction);
+        text += "; " + remedy(samples, correction);
     }
     if (anatomy.verdict == AnatomyVerdict::Behind) {
         return std::unexpected(Error{ErrorKind::BadInput, fmt::format("{}: {}", trace.file, text)});
     }
     if (anatomy.doubtful() || correction != AxesCorrection::None) {
         trace.report.add({.kind = gaze::TraceFindingKind::Axes,
-                          .rows = trace.samples.size(),
+                          .rows = samples.size(),
                           .text = std::move(text)});
     }
     return {};

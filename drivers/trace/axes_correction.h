@@ -4,9 +4,10 @@
 #include <span>
 #include <string_view>
 
+#include "drivers/trace/built_trace.h"
 #include "drivers/trace/read_options.h"
 #include "runtime/error.h"
-#include "runtime/gaze/gaze_trace.h"
+#include "runtime/gaze/gaze_sample.h"
 
 namespace gazeloop::drivers {
 
@@ -31,12 +32,12 @@ void correct_axes(std::span<gaze::GazeSample> samples, AxesCorrection correction
 /// correction that would help. Nothing is corrected unasked.
 ///
 /// An eye that looks behind the head in less than half of the samples is made invalid there and
-/// counted (BehindHead), by trace.lines where they are known.
+/// counted (BehindHead).
 ///
 /// Errors (BadInput): half of the gaze or more points behind the head, and the correction that
 /// would help is named; unless repairs are accepted, more than a tenth of the
 /// directions points there, and not all of one eye's.
-[[nodiscard]] Expected<void> hold_against_anatomy(gaze::GazeTrace& trace, AxesCorrection correction,
+[[nodiscard]] Expected<void> hold_against_anatomy(BuiltTrace& trace, AxesCorrection correction,
                                                   bool accept_repairs = false);
 
 }  // namespace gazeloop::drivers

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "drivers/trace/text/csv_table.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -27,9 +28,11 @@ void sort_by_time(TimedNumbers& table) {
     if (std::ranges::is_sorted(table.time_ns)) {
         return;
     }
-    std::vector<std::size_t> order(table.time_ns.size());
+    memory::LongVector<std::size_t> order(table.time_ns.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t row) { return table.time_ns[row]; });
+    // A stable sort would take memory for half of them.
+    std::ranges::sort(order, {},
+                      [&](std::size_t row) { return std::pair{table.time_ns[row], row}; });
     TimedNumbers sorted{.columns = table.columns};
     for (const std::size_t row : order) {
         sorted.time_ns.push_back(table.time_ns[row]);

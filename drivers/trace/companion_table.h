@@ -7,18 +7,18 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "drivers/trace/trace_format.h"
 #include "runtime/error.h"
 #include "runtime/gaze/trace_report.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
 /// Numbers by time, ascending: what a table that stands beside a trace says.
 struct TimedNumbers {
-    std::vector<std::int64_t> time_ns{};
-    std::vector<double> numbers{};  ///< `columns` per time
+    memory::LongVector<std::int64_t> time_ns{};
+    memory::LongVector<double> numbers{};  ///< `columns` per time
     std::size_t columns = 0;
 
     [[nodiscard]] std::span<const double> at(std::size_t row) const {

@@ -90,8 +90,7 @@ EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
              .bits = {{kDirectionBit, kOriginBit, kOpennessBit}}}};
 }
 
-Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
-                               const ReadOptions& options) {
+Expected<BuiltTrace> read(CsvTable& table, const TraceFile& /*file*/, const ReadOptions& options) {
     constexpr double kTime_ns = 100.0;
     constexpr double kTimeStamp_ns = 1e6;
     gaze::PerEye<EyeCells> eyes{eye_cells(table, gaze::Eye::Left),

@@ -17,7 +17,6 @@
 #include "drivers/trace/text/line_writer.h"
 #include "drivers/trace/text/text_output.h"
 #include "drivers/trace/trace_rows.h"
-#include "runtime/gaze/sample_rate.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -73,8 +72,7 @@ EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
             {.trust = trust, .bits = {}}};
 }
 
-Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
-                               const ReadOptions& options) {
+Expected<BuiltTrace> read(CsvTable& table, const TraceFile& /*file*/, const ReadOptions& options) {
     gaze::PerEye<EyeCells> eyes{eye_cells(table, gaze::Eye::Left),
                                 eye_cells(table, gaze::Eye::Right)};
     std::array<std::string_view, kHeadColumns> head_names{};
@@ -156,7 +154,7 @@ Expected<std::string> read_native_sidecar(const std::string& trace_file) {
     return text_in(sidecar, "device");
 }
 
-void write_native_trace(const gaze::GazeTrace& trace, std::ostream& out) {
+void write_native_trace(const gaze::RecordingView& trace, std::ostream& out) {
     const bool with_parallax = std::ranges::any_of(
         trace.samples,
         [](const gaze::GazeSample& sample) { return sample.parallax_rad.has_value(); });
@@ -196,7 +194,7 @@ void write_native_trace(const gaze::GazeTrace& trace, std::ostream& out) {
     }
 }
 
-Expected<void> write_native_trace(const gaze::GazeTrace& trace, const std::string& file) {
+Expected<void> write_native_trace(const gaze::RecordingView& trace, const std::string& file) {
     TextOutput csv(file);
     write_native_trace(trace, csv.stream());
     if (Expected<void> written = csv.close(); !written) {
@@ -207,7 +205,7 @@ Expected<void> write_native_trace(const gaze::GazeTrace& trace, const std::strin
         {"format", kSidecarFormat},
         {"version", kSidecarVersion},
         {"clock", "t_device_ns: the device's; t_host_ns: the host's at arrival"},
-        {"rate_hz", gaze::sample_rate_hz(trace.samples)},
+        {"rate_hz", trace.rate_hz()},
         {"axes", kSidecarAxes},
         {"device", trace.device},
         {"calibration", nullptr},

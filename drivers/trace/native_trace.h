@@ -4,6 +4,7 @@
 #include <string>
 
 #include "drivers/trace/trace_format.h"
+#include "runtime/gaze/gaze_trace.h"
 
 namespace gazeloop::drivers {
 
@@ -39,11 +40,11 @@ namespace gazeloop::drivers {
 
 /// Writes the CSV. Numbers have as many digits as it takes to read them back exactly. Times and
 /// numbers that are unknown or not finite are left blank.
-void write_native_trace(const gaze::GazeTrace& trace, std::ostream& out);
+void write_native_trace(const gaze::RecordingView& trace, std::ostream& out);
 
 /// Writes the CSV, gzip where the name ends with .gz, and its sidecar. Errors (BadInput): a file
 /// that cannot be written.
-[[nodiscard]] Expected<void> write_native_trace(const gaze::GazeTrace& trace,
+[[nodiscard]] Expected<void> write_native_trace(const gaze::RecordingView& trace,
                                                 const std::string& file);
 
 }  // namespace gazeloop::drivers

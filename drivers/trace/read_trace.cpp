@@ -143,8 +143,8 @@ std::string other_table(const CsvTable& table) {
     return {};
 }
 
-Expected<gaze::GazeTrace> read_table(TextLines lines, const TraceFile& file,
-                                     const ReadOptions& options) {
+Expected<BuiltTrace> read_table(TextLines lines, const TraceFile& file,
+                                const ReadOptions& options) {
     std::vector<const TraceFormat*> candidates = formats();
     if (options.format != kAuto) {
         std::erase_if(candidates, [&](const TraceFormat* f) { return f->name != options.format; });
@@ -166,8 +166,8 @@ Expected<gaze::GazeTrace> read_table(TextLines lines, const TraceFile& file,
     return (*fitting)->read(*table, file, options);
 }
 
-Expected<gaze::GazeTrace> read_rows(std::istream& in, const std::string& name,
-                                    const TraceFile& file, const ReadOptions& options) {
+Expected<BuiltTrace> read_rows(std::istream& in, const std::string& name, const TraceFile& file,
+                               const ReadOptions& options) {
     TextLines lines(in, name);
     const Expected<bool> any = lines.next();
     if (!any) {
@@ -186,15 +186,26 @@ Expected<gaze::GazeTrace> read_rows(std::istream& in, const std::string& name,
 }
 
 /// What a format's reader made of the rows, held against what eyes and heads do.
-Expected<gaze::GazeTrace> judged(Expected<gaze::GazeTrace> trace, const ReadOptions& options) {
-    if (trace) {
-        if (auto held = hold_against_anatomy(*trace, options.axes, options.accept_repairs); !held) {
-            return std::unexpected(std::move(held.error()));
-        }
-        gaze::report_new_origins(trace->samples, trace->report);
-        trace->lines = {};
+Expected<gaze::GazeRecording> judged(Expected<BuiltTrace> trace, const ReadOptions& options) {
+    if (!trace) {
+        return std::unexpected(std::move(trace.error()));
     }
-    return trace;
+    if (auto held = hold_against_anatomy(*trace, options.axes, options.accept_repairs); !held) {
+        return std::unexpected(std::move(held.error()));
+    }
+    gaze::report_new_origins(*trace->samples, trace->report);
+    return gaze::GazeRecording{.file = std::move(trace->file),
+                               .format = std::move(trace->format),
+                               .device = std::move(trace->device),
+                               .samples = std::move(trace->samples),
+                               .report = std::move(trace->report)};
+}
+
+Expected<gaze::GazeTrace> all_of(Expected<gaze::GazeRecording> recording) {
+    if (!recording) {
+        return std::unexpected(std::move(recording.error()));
+    }
+    return gaze::in_memory(std::move(*recording));
 }
 
 std::unexpected<Error> unknown_format(const std::string& format) {
@@ -240,10 +251,10 @@ Expected<gaze::GazeTrace> read_trace(std::istream& in, const std::string& name,
         return std::unexpected(
             Error{ErrorKind::BadInput, fmt::format("{}: bids needs files, not a stream", name)});
     }
-    return judged(read_rows(in, name, {}, options), options);
+    return all_of(judged(read_rows(in, name, {}, options), options));
 }
 
-Expected<gaze::GazeTrace> read_trace(const std::string& file, const ReadOptions& options) {
+Expected<gaze::GazeRecording> read_recording(const std::string& file, const ReadOptions& options) {
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) {
         return std::unexpected(
@@ -263,7 +274,7 @@ Expected<gaze::GazeTrace> read_trace(const std::string& file, const ReadOptions&
             ErrorKind::BadInput,
             fmt::format("{}: cannot be opened: {}", file, std::generic_category().message(errno))});
     }
-    Expected<gaze::GazeTrace> trace = judged(read_rows(in, file, file, options), options);
+    Expected<gaze::GazeRecording> trace = judged(read_rows(in, file, file, options), options);
     if (trace && trace->format == native_trace().name) {
         Expected<std::string> device = read_native_sidecar(file);
         if (!device) {
@@ -274,6 +285,10 @@ Expected<gaze::GazeTrace> read_trace(const std::string& file, const ReadOptions&
         }
     }
     return trace;
+}
+
+Expected<gaze::GazeTrace> read_trace(const std::string& file, const ReadOptions& options) {
+    return all_of(read_recording(file, options));
 }
 
 }  // namespace gazeloop::drivers

@@ -26,8 +26,13 @@ namespace gazeloop::drivers {
 [[nodiscard]] Expected<gaze::GazeTrace> read_trace(const std::string& file,
                                                    const ReadOptions& options = {});
 
-/// The same from a stream; `name` is the file's name in messages and in the trace. Nothing that
-/// stands beside a file is read; formats that need it are refused.
+/// The same of a file of any length, whose samples are read as often as they are asked for: of it
+/// there are a scratch file and what MemoryLimit leaves in memory.
+[[nodiscard]] Expected<gaze::GazeRecording> read_recording(const std::string& file,
+                                                           const ReadOptions& options = {});
+
+/// As read_trace(), from a stream; `name` is the file's name in messages and in the trace. Nothing
+/// that stands beside a file is read; formats that need it are refused.
 [[nodiscard]] Expected<gaze::GazeTrace> read_trace(std::istream& in, const std::string& name,
                                                    const ReadOptions& options = {});
 

@@ -14,6 +14,7 @@
 #include "drivers/trace/clock/standing_gaze.h"
 #include "drivers/trace/clock/time_text.h"
 #include "runtime/gaze/sample_rate.h"
+#include "runtime/memory/long_vector.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
@@ -152,7 +153,7 @@ Expected<void> check_gap(const std::string& file, std::uint64_t line, const Gap&
 /// Shortens what is longer, and reports it.
 void shorten_gaps(const RowsRead& rows, DeviceTimes& times, std::int64_t longest_ns,
                   gaze::TraceReport& report) {
-    std::vector<std::int64_t>& times_ns = times.time_ns;
+    memory::LongVector<std::int64_t>& times_ns = times.time_ns;
     std::int64_t cut_ns = 0;
     std::int64_t before_ns = times_ns.front();
     for (std::size_t i = 1; i < times_ns.size(); ++i) {
@@ -174,15 +175,11 @@ void shorten_gaps(const RowsRead& rows, DeviceTimes& times, std::int64_t longest
 
 }  // namespace
 
-TraceBuilder::TraceBuilder(TraceOrigin origin) : origin_(std::move(origin)) {
-    trace_.file = origin_.file;
-    trace_.format = origin_.format;
-    trace_.device = origin_.device;
-}
+TraceBuilder::TraceBuilder(TraceOrigin origin) : origin_(std::move(origin)) {}
 
 void TraceBuilder::add(const TraceRow& row) {
     rows_.add(row);
-    ++trace_.report.rows;
+    ++report_.rows;
     if (row.not_understood && !row.eyes[0].valid && !row.eyes[1].valid) {
         not_understood_.first_line =
             not_understood_.rows++ == 0 ? row.line : not_understood_.first_line;
@@ -208,25 +205,24 @@ double TraceBuilder::choose_clock() {
     for (RowClock& row : clocks) {
         row.device_ticks = row.other_ticks;
     }
-    trace_.report.add(
-        {.kind = TraceFindingKind::BadTime,
-         .line = clocks.front().line,
-         .rows = rows_.size(),
-         .text = fmt::format("{}: the times are those of '{}'", why, origin_.other_clock)});
+    report_.add({.kind = TraceFindingKind::BadTime,
+                 .line = clocks.front().line,
+                 .rows = rows_.size(),
+                 .text = fmt::format("{}: the times are those of '{}'", why, origin_.other_clock)});
     clock_is(std::string{origin_.other_clock}, origin_.other_tick_ns);
     return origin_.other_tick_ns;
 }
 
-void TraceBuilder::doubt_rate(const DeviceTimes& times, gaze::GazeTrace& trace) const {
+void TraceBuilder::doubt_rate(const DeviceTimes& times, std::size_t samples,
+                              gaze::TraceReport& report) const {
     constexpr std::size_t kFewest = 16;
     constexpr double kSlowest_hz = 5.0;
     constexpr double kFastest_hz = 5000.0;
-    const bool shortened = trace.report.count(TraceFindingKind::GapShortened).times > 0;
+    const bool shortened = report.count(TraceFindingKind::GapShortened).times > 0;
     const double rate_hz = shortened && times.interval_ns > 0
                                ? 1e9 / static_cast<double>(times.interval_ns)
-                               : trace.report.rate_hz;
-    if (trace.samples.size() < kFewest || rate_hz <= 0.0 ||
-        (rate_hz >= kSlowest_hz && rate_hz <= kFastest_hz)) {
+                               : report.rate_hz;
+    if (samples < kFewest || rate_hz <= 0.0 || (rate_hz >= kSlowest_hz && rate_hz <= kFastest_hz)) {
         return;
     }
     struct Unit {
@@ -248,25 +244,24 @@ void TraceBuilder::doubt_rate(const DeviceTimes& times, gaze::GazeTrace& trace) 
         }
     }
     const bool of_device = !times.by_host && knows_clock();
-    trace.report.add(
-        {.kind = TraceFindingKind::OddTimes,
-         .rows = trace.samples.size(),
-         .text = fmt::format(
-             "{:.3g} rows a second by {}, and eye trackers have {:g} to {:g}: {}", rate_hz,
-             of_device ? fmt::format("'{}'", clock_) : std::string("the host's times"), kSlowest_hz,
-             kFastest_hz,
-             !of_device || as.empty()
-                 ? std::string("look at the unit of the times")
-                 : fmt::format("they would be {}; write the times in {}", as, stated))});
+    report.add({.kind = TraceFindingKind::OddTimes,
+                .rows = samples,
+                .text = fmt::format(
+                    "{:.3g} rows a second by {}, and eye trackers have {:g} to {:g}: {}", rate_hz,
+                    of_device ? fmt::format("'{}'", clock_) : std::string("the host's times"),
+                    kSlowest_hz, kFastest_hz,
+                    !of_device || as.empty()
+                        ? std::string("look at the unit of the times")
+                        : fmt::format("they would be {}; write the times in {}", as, stated))});
 }
 
-Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
+Expected<BuiltTrace> TraceBuilder::finish(const ReadOptions& options) {
     const double tick_ns = choose_clock();
     RowsRead rows = std::move(rows_);
-    gaze::GazeTrace trace = std::move(trace_);
-    gaze::TraceReport& report = trace.report;
+    gaze::TraceReport report = std::move(report_);
+    const std::string& file = origin_.file;
     if (rows.empty()) {
-        return bad_input(fmt::format("{}: no rows after the header", trace.file));
+        return bad_input(fmt::format("{}: no rows after the header", file));
     }
     DeviceTimes times = device_times(rows, tick_ns);
     for (gaze::TraceFinding& finding : times.findings) {
@@ -276,17 +271,17 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
     }
     move_to(times.findings, report);
     if (times.rows.empty()) {
-        return bad_input(fmt::format("{}:{}: no row has a readable time{}{}", trace.file,
-                                     rows[0].line, unread_time_.empty() ? "" : ": ", unread_time_));
+        return bad_input(fmt::format("{}:{}: no row has a readable time{}{}", file, rows[0].line,
+                                     unread_time_.empty() ? "" : ": ", unread_time_));
     }
     if (times.rows.size() > 1 && times.interval_ns == 0) {
         return bad_input(
             fmt::format("{}:{}: all {} rows have the same time, and no host time says "
                         "how long they took",
-                        trace.file, rows[0].line, times.rows.size()));
+                        file, rows[0].line, times.rows.size()));
     }
-    std::vector<std::optional<std::int64_t>> host_ns;
-    std::vector<std::uint64_t> lines;
+    memory::LongVector<std::optional<std::int64_t>> host_ns;
+    memory::LongVector<std::uint64_t> lines;
     host_ns.reserve(times.rows.size());
     lines.reserve(times.rows.size());
     for (const std::size_t row : times.rows) {
@@ -295,9 +290,8 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
     }
     HostFit fit = fit_to_host(times, host_ns, lines);
     if (fit.absurd_rates && !options.accept_repairs) {
-        return bad_input(fmt::format("{}:{}: {}, or --accept-repairs plays them as they are",
-                                     trace.file, fit.findings.back().line,
-                                     fit.findings.back().text));
+        return bad_input(fmt::format("{}:{}: {}, or --accept-repairs plays them as they are", file,
+                                     fit.findings.back().line, fit.findings.back().text));
     }
     move_to(fit.findings, report);
     report.clock = std::move(fit.text);
@@ -314,8 +308,8 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
     const std::int64_t longest_gap_ns = std::llround(options.longest_gap_s * 1e9);
     if (!options.accept_repairs) {
         for (const Expected<void>& check :
-             {check_repairs(trace.file, report, not_understood_),
-              check_gap(trace.file, lines[gap.after], gap, fitted, longest_gap_ns)}) {
+             {check_repairs(file, report, not_understood_),
+              check_gap(file, lines[gap.after], gap, fitted, longest_gap_ns)}) {
             if (!check) {
                 return std::unexpected(check.error());
             }
@@ -327,33 +321,33 @@ Expected<gaze::GazeTrace> TraceBuilder::finish(const ReadOptions& options) {
         return bad_input(
             fmt::format("{}:{}: more than a year after the first row; a smaller "
                         "longest gap makes it shorter",
-                        trace.file, lines.back()));
+                        file, lines.back()));
     }
 
-    trace.samples = rows.take(fitted.rows);
-    for (std::size_t i = 0; i < trace.samples.size(); ++i) {
-        gaze::GazeSample& sample = trace.samples[i];
-        sample.sequence = sequence.numbers[i];
-        sample.device_ns = fitted.reading_ns[i];
-        sample.sampled = {fitted.time_ns[i], time::StampKind::Modelled};
-        if (fit.delay_ns[i]) {
-            sample.arrived = {
-                time::saturated(static_cast<__int128>(fitted.time_ns[i]) + *fit.delay_ns[i]),
-                time::StampKind::Modelled};
-        }
-        if (fitted.step_ns[i] > 0) {
-            sample.uncertainty_ns = fitted.step_ns[i];
-        }
+    for (const std::size_t row : fitted.rows) {
         for (const gaze::Eye eye : gaze::kEyes) {
-            report.valid[gaze::index(eye)] += sample.eyes[gaze::index(eye)].valid ? 1 : 0;
+            report.valid[gaze::index(eye)] += rows.kept(row).valid(eye) ? 1 : 0;
         }
     }
-    report.rate_hz = gaze::sample_rate_hz(trace.samples);
-    doubt_rate(fitted, trace);
+    BuiltTrace trace{.file = file,
+                     .format = std::string{origin_.format},
+                     .device = origin_.device,
+                     .samples = std::make_shared<RowSamples>(
+                         rows.rows(), RowSamples::Judged{.rows = std::move(fitted.rows),
+                                                         .numbers = std::move(sequence.numbers),
+                                                         .device_ns = std::move(fitted.reading_ns),
+                                                         .time_ns = std::move(fitted.time_ns),
+                                                         .delay_ns = std::move(fit.delay_ns),
+                                                         .step_ns = std::move(fitted.step_ns)}),
+                     .lines = std::move(lines),
+                     .report = {}};
+    rows = {};  // its clocks are not needed any more
+    report.rate_hz = gaze::sample_rate_hz(*trace.samples);
+    doubt_rate(fitted, trace.samples->size(), report);
     if (report.valid[0] + report.valid[1] == 0) {
-        return bad_input(fmt::format("no valid gaze in {}", trace.file));
+        return bad_input(fmt::format("no valid gaze in {}", file));
     }
-    trace.lines = std::move(lines);
+    trace.report = std::move(report);
     return trace;
 }
 

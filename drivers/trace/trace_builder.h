@@ -6,11 +6,12 @@
 #include <string_view>
 #include <utility>
 
+#include "drivers/trace/built_trace.h"
 #include "drivers/trace/clock/device_times.h"
 #include "drivers/trace/clock/rows_read.h"
 #include "drivers/trace/read_options.h"
 #include "runtime/error.h"
-#include "runtime/gaze/gaze_trace.h"
+#include "runtime/gaze/trace_report.h"
 
 namespace gazeloop::drivers {
 
@@ -30,8 +31,8 @@ struct NotUnderstood {
     std::uint64_t first_line = 0;
 };
 
-/// Makes a trace from a file's rows and enforces what gaze_trace.h promises. Rows are held in
-/// memory until finish().
+/// Makes a trace from a file's rows and enforces what gaze_trace.h promises. Rows are held
+/// until finish().
 ///
 /// Clocks, order and sequence are judged over the whole trace, with both neighbours of a row at
 /// hand (device_times.h, host_fit.h, sequence_numbers.h).
@@ -62,27 +63,27 @@ class TraceBuilder {
     [[nodiscard]] std::span<RowClock> clocks() { return rows_.clocks(); }
 
     /// For what the format's reader finds. Rows that it does not add it counts itself.
-    [[nodiscard]] gaze::TraceReport& report() { return trace_.report; }
+    [[nodiscard]] gaze::TraceReport& report() { return report_; }
 
-    /// The trace. Leaves nothing behind. Errors (BadInput), with file and line: no row was added;
+    /// The trace. Once. Errors (BadInput), with file and line: no row was added;
     /// none has a readable time, or all have the same; no used row has a valid eye; it is longer
     /// than a year. Unless options.accept_repairs also: more than a tenth of the rows is dropped,
     /// or has no gaze because its cells are not understood (16 rows or more), or a clock was set at
     /// more than a tenth of them; a gap is longer than all the rest.
-    [[nodiscard]] Expected<gaze::GazeTrace> finish(const ReadOptions& options);
+    [[nodiscard]] Expected<BuiltTrace> finish(const ReadOptions& options);
 
   private:
     /// Takes the other clock where the device's cannot be read in any row, or says the same in all.
     /// The tick, ns.
     [[nodiscard]] double choose_clock();
     /// Doubts a rate that no eye tracker has.
-    void doubt_rate(const DeviceTimes& times, gaze::GazeTrace& trace) const;
+    void doubt_rate(const DeviceTimes& times, std::size_t samples, gaze::TraceReport& report) const;
 
     TraceOrigin origin_;
     std::string unread_time_;
     std::string clock_;
     double clock_unit_ns_ = 0.0;
-    gaze::GazeTrace trace_;
+    gaze::TraceReport report_;
     RowsRead rows_;
     NotUnderstood not_understood_;
 };

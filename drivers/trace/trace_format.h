@@ -4,10 +4,10 @@
 #include <span>
 #include <string_view>
 
+#include "drivers/trace/built_trace.h"
 #include "drivers/trace/read_options.h"
 #include "drivers/trace/text/csv_table.h"
 #include "runtime/error.h"
-#include "runtime/gaze/gaze_trace.h"
 
 namespace gazeloop::drivers {
 
@@ -24,8 +24,8 @@ struct TraceFormat {
     /// all columns of at least one.
     std::span<const std::span<const ColumnNames>> needed;
     /// Reads the rows of a table that has what is needed.
-    Expected<gaze::GazeTrace> (*read)(CsvTable& table, const TraceFile& file,
-                                      const ReadOptions& options);
+    Expected<BuiltTrace> (*read)(CsvTable& table, const TraceFile& file,
+                                 const ReadOptions& options);
     /// What to do where a table that is this format by some of its columns lacks a needed one.
     std::string_view remedy = {};
 };

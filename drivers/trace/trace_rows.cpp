@@ -201,7 +201,7 @@ void TraceRows::lose_eyes(TraceRow& row, std::string_view why) {
     }
 }
 
-Expected<gaze::GazeTrace> TraceRows::finish(const ReadOptions& options) {
+Expected<BuiltTrace> TraceRows::finish(const ReadOptions& options) {
     gaze::TraceReport& report = builder_.report();
     table_.report_to(report);
     settle_negative_numbers();

@@ -18,7 +18,6 @@
 #include "drivers/trace/text/csv_table.h"
 #include "drivers/trace/trace_builder.h"
 #include "runtime/error.h"
-#include "runtime/gaze/gaze_trace.h"
 
 namespace gazeloop::drivers {
 
@@ -41,8 +40,8 @@ class TraceRows {
     /// and may take an eye's validity back. Errors: those of the table and of the builder; no row
     /// with a valid eye.
     template <typename TakeApart>
-    [[nodiscard]] Expected<gaze::GazeTrace> read(const ReadOptions& options,
-                                                 const TakeApart& take_apart);
+    [[nodiscard]] Expected<BuiltTrace> read(const ReadOptions& options,
+                                            const TakeApart& take_apart);
 
     /// The reading of the clock that gives a row its time; none where the cell holds none, of which
     /// the first is kept for messages: it is no whole number of `ticks` ("nanoseconds").
@@ -83,7 +82,7 @@ class TraceRows {
     /// Whether the current row is of another recording; counts it.
     [[nodiscard]] bool is_of_another();
     void report_other_recordings();
-    [[nodiscard]] Expected<gaze::GazeTrace> finish(const ReadOptions& options);
+    [[nodiscard]] Expected<BuiltTrace> finish(const ReadOptions& options);
 
     CsvTable& table_;
     struct Recording {
@@ -115,7 +114,7 @@ class TraceRows {
 };
 
 template <typename TakeApart>
-Expected<gaze::GazeTrace> TraceRows::read(const ReadOptions& options, const TakeApart& take_apart) {
+Expected<BuiltTrace> TraceRows::read(const ReadOptions& options, const TakeApart& take_apart) {
     while (true) {
         const Expected<bool> more = table_.next();
         if (!more) {

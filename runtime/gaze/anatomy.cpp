@@ -186,11 +186,14 @@ Anatomy AnatomyCheck::judge() {
     return facts_;
 }
 
-Anatomy anatomy_of(std::span<const GazeSample> samples) {
+Anatomy anatomy_of(const SampleRange& samples) {
     AnatomyCheck check(std::min(samples.size(), kMostOfTrace));
     const std::size_t step = samples.size() / kMostOfTrace + 1;
-    for (std::size_t i = 0; i < samples.size(); i += step) {
-        check.add(samples[i]);
+    std::size_t i = 0;
+    for (const GazeSample& sample : samples) {
+        if (i++ % step == 0) {
+            check.add(sample);
+        }
     }
     return check.judge();
 }

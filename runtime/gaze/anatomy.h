@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/sample_range.h"
 
 namespace gazeloop::gaze {
 
@@ -111,7 +111,7 @@ class AnatomyCheck {
 };
 
 /// Of a whole trace; long ones are looked at in equal steps.
-[[nodiscard]] Anatomy anatomy_of(std::span<const GazeSample> samples);
+[[nodiscard]] Anatomy anatomy_of(const SampleRange& samples);
 
 /// "agree with anatomy (the rays meet, median 2.4 deg)": what was found, one line, no remedy.
 [[nodiscard]] std::string anatomy_text(const Anatomy& anatomy);

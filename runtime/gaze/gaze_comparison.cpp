@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/gaze/direction.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::gaze {
 namespace {
@@ -23,7 +24,7 @@ struct Angles {
 
 /// A recording on a grid of equal steps; NaN where nobody saw the eyes.
 struct Signal {
-    std::vector<Angles> at;
+    memory::LongVector<Angles> at;
 };
 
 std::optional<Angles> angles_of(const GazeSample& sample) {
@@ -39,13 +40,14 @@ std::optional<Angles> angles_of(const GazeSample& sample) {
                   glm::degrees(std::atan2(direction->y, std::hypot(direction->x, direction->z)))};
 }
 
-double median_step_ms(std::span<const GazeSample> samples) {
-    std::vector<std::int64_t> steps_ns;
-    for (std::size_t i = 1; i < samples.size(); ++i) {
-        if (samples[i].sampled.known() && samples[i - 1].sampled.known() &&
-            samples[i].sampled.ns > samples[i - 1].sampled.ns) {
-            steps_ns.push_back(samples[i].sampled.ns - samples[i - 1].sampled.ns);
+double median_step_ms(const SampleRange& samples) {
+    memory::LongVector<std::int64_t> steps_ns;
+    time::Stamp before;
+    for (const GazeSample& sample : samples) {
+        if (sample.sampled.known() && before.known() && sample.sampled.ns > before.ns) {
+            steps_ns.push_back(sample.sampled.ns - before.ns);
         }
+        before = sample.sampled;
     }
     if (steps_ns.empty()) {
         return 0.0;
@@ -55,7 +57,7 @@ double median_step_ms(std::span<const GazeSample> samples) {
     return static_cast<double>(*middle) * 1e-6;
 }
 
-Signal on_grid(std::span<const GazeSample> samples, double step_ms) {
+Signal on_grid(const SampleRange& samples, double step_ms) {
     Signal signal;
     std::optional<double> first_ms;
     std::optional<double> before_ms;
@@ -214,7 +216,7 @@ AxisAgreement agreement(const Signal& one, const Signal& other, double lag,
                         double Angles::* angle) {
     const auto whole = static_cast<std::ptrdiff_t>(std::floor(lag));
     const double share = lag - static_cast<double>(whole);
-    std::vector<std::array<double, 2>> pairs;
+    memory::LongVector<std::array<double, 2>> pairs;
     for (std::size_t i = 0; i < one.at.size(); ++i) {
         const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(i) + whole;
         if (!one.at[i].known() || at < 0 ||
@@ -255,8 +257,7 @@ AxisAgreement agreement(const Signal& one, const Signal& other, double lag,
 
 }  // namespace
 
-Expected<GazeComparison> compare_gaze(std::span<const GazeSample> one,
-                                      std::span<const GazeSample> other) {
+Expected<GazeComparison> compare_gaze(const SampleRange& one, const SampleRange& other) {
     constexpr double kFinest_ms = 2.0;
     constexpr double kCoarsest_ms = 20.0;
     const double one_ms = median_step_ms(one);

@@ -3,12 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "runtime/error.h"
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/sample_range.h"
 
 namespace gazeloop::gaze {
 
@@ -56,8 +56,8 @@ struct GazeComparison {
 ///
 /// Errors (BadInput): less than kComparedLeast_s of gaze in both at any lag; gaze that does not
 /// move in one of them.
-[[nodiscard]] Expected<GazeComparison> compare_gaze(std::span<const GazeSample> one,
-                                                    std::span<const GazeSample> other);
+[[nodiscard]] Expected<GazeComparison> compare_gaze(const SampleRange& one,
+                                                    const SampleRange& other);
 
 inline constexpr double kComparedBridge_ms = 60.0;
 inline constexpr double kComparedMostLag_s = 2.0;

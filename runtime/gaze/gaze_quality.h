@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/sample_range.h"
 
 namespace gazeloop::gaze {
 
@@ -54,9 +54,9 @@ inline constexpr double kQualityWindow_ms = 200.0;
 inline constexpr double kShortestBlink_ms = 100.0;
 inline constexpr double kLongestBlink_ms = 400.0;
 
-/// Of samples in the order of their times; those whose time is unknown or goes back are left out.
-/// An eye rests where its gaze rests in the world, where the head is known: while the head turns,
-/// it turns in the head.
-[[nodiscard]] GazeQuality gaze_quality(std::span<const GazeSample> samples);
+/// Of samples in the order of their times, at that rate (sample_rate.h); those whose time is
+/// unknown or goes back are left out. An eye rests where its gaze rests in the world, where the
+/// head is known: while the head turns, it turns in the head.
+[[nodiscard]] GazeQuality gaze_quality(const SampleRange& samples, double rate_hz);
 
 }  // namespace gazeloop::gaze

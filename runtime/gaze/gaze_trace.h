@@ -1,10 +1,12 @@
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/sample_range.h"
+#include "runtime/gaze/sample_rate.h"
 #include "runtime/gaze/trace_report.h"
 
 namespace gazeloop::gaze {
@@ -27,8 +29,45 @@ struct GazeTrace {
     std::string device{};  ///< as the file states it, else the format's device
     std::vector<gaze::GazeSample> samples{};
     TraceReport report{};  ///< what the file's reader found
-    /// Of the file, for each sample, while its readers judge it; empty else.
-    std::vector<std::uint64_t> lines{};
+};
+
+/// The same of any length: its samples are read as often as they are asked for.
+struct GazeRecording {
+    std::string file{};
+    std::string format{};
+    std::string device{};
+    std::shared_ptr<const SampleSource> samples{};  ///< never null
+    TraceReport report{};
+};
+
+/// Reads all of them.
+[[nodiscard]] GazeTrace in_memory(GazeRecording recording);
+
+/// Either, for whoever looks at it from front to back; it must be there meanwhile.
+struct RecordingView {
+    RecordingView(const GazeTrace& trace)  // NOLINT(*-explicit-*): as a span
+        : file(trace.file),
+          format(trace.format),
+          device(trace.device),
+          samples(trace.samples),
+          report(trace.report) {}
+    RecordingView(const GazeRecording& recording)  // NOLINT(*-explicit-*)
+        : file(recording.file),
+          format(recording.format),
+          device(recording.device),
+          samples(*recording.samples),
+          report(recording.report) {}
+
+    /// sample_rate.h, which the reader of a file has asked already.
+    [[nodiscard]] double rate_hz() const {
+        return report.rate_hz > 0.0 ? report.rate_hz : sample_rate_hz(samples);
+    }
+
+    const std::string& file;
+    const std::string& format;
+    const std::string& device;
+    SampleRange samples;
+    const TraceReport& report;
 };
 
 }  // namespace gazeloop::gaze

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <vector>
 
 #include "runtime/gaze/main_sequence.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::gaze {
 namespace {
@@ -67,7 +67,7 @@ double best_bend_deg(std::span<const SaccadePoint> points) {
 }  // namespace
 
 std::optional<MainSequenceFit> fit_main_sequence(std::span<const SaccadePoint> saccades) {
-    std::vector<SaccadePoint> points;
+    memory::LongVector<SaccadePoint> points;
     std::ranges::copy_if(saccades, std::back_inserter(points), is_usable);
     if (points.size() < kFewestForMainSequence) {
         return std::nullopt;
@@ -102,7 +102,7 @@ std::optional<MainSequenceFit> fit_main_sequence(std::span<const SaccadePoint> s
     fit.peak_rmse_deg_per_s = std::sqrt(peak.squares / count);
     constexpr double kBesideTheEnd = 0.9;
     fit.saturates = fit.bend_deg < kBesideTheEnd * kMostBend_deg;
-    std::vector<double> ratios;
+    memory::LongVector<double> ratios;
     ratios.reserve(points.size());
     for (const SaccadePoint& point : points) {
         ratios.push_back(point.peak_deg_per_s / main_sequence(point.amplitude_deg).peak_deg_per_s);

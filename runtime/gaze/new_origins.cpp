@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <glm/trigonometric.hpp>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "runtime/gaze/head_limits.h"
 #include "runtime/gaze/origin_change.h"
 #include "runtime/gaze/usable_pose.h"
+#include "runtime/memory/long_vector.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::gaze {
@@ -24,21 +27,23 @@ std::int64_t ns_between(const Known& from, const Known& to) {
     return time::saturated(static_cast<__int128>(to.time_ns) - from.time_ns);
 }
 
-std::vector<Known> known_heads(std::span<const GazeSample> samples) {
-    std::vector<Known> heads;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const GazeSample& sample = samples[i];
+/// Calls `look` with each usable pose whose time is not before the last one's.
+void each_known_head(const SampleRange& samples, const auto& look) {
+    std::size_t i = 0;
+    std::optional<std::int64_t> last_ns;
+    for (const GazeSample& sample : samples) {
         const std::int64_t time_ns = sample.sampled.known() ? sample.sampled.ns : sample.arrived.ns;
         const auto pose = usable_pose(sample.head);
-        if (pose && (heads.empty() || time_ns >= heads.back().time_ns)) {
-            heads.push_back({i, time_ns, *pose});
+        if (pose && time_ns >= last_ns.value_or(time_ns)) {
+            look(Known{i, time_ns, *pose});
+            last_ns = time_ns;
         }
+        ++i;
     }
-    return heads;
 }
 
 /// The value below which this share of them lies; 0 for none.
-std::int64_t quantile(std::vector<std::int64_t>& values, std::size_t of, std::size_t parts) {
+std::int64_t quantile(memory::LongVector<std::int64_t>& values, std::size_t of, std::size_t parts) {
     if (values.empty()) {
         return 0;
     }
@@ -47,51 +52,58 @@ std::int64_t quantile(std::vector<std::int64_t>& values, std::size_t of, std::si
     return *at;
 }
 
-std::int64_t least_interval_ns(const std::vector<Known>& heads) {
+std::int64_t least_interval_ns(const SampleRange& samples) {
     constexpr std::int64_t kHeadRests_ns = 50'000'000;
-    std::vector<std::int64_t> between_samples;
-    std::vector<std::int64_t> between_changes;
+    memory::LongVector<std::int64_t> between_samples;
+    memory::LongVector<std::int64_t> between_changes;
+    std::optional<Known> before;
     std::optional<Known> changed;
-    for (std::size_t i = 1; i < heads.size(); ++i) {
-        if (const std::int64_t ns = ns_between(heads[i - 1], heads[i]); ns > 0) {
+    each_known_head(samples, [&](const Known& head) {
+        const std::optional<Known> last = std::exchange(before, head);
+        if (!last) {
+            return;
+        }
+        if (const std::int64_t ns = ns_between(*last, head); ns > 0) {
             between_samples.push_back(ns);
         }
-        if (heads[i].pose.orientation == heads[i - 1].pose.orientation &&
-            heads[i].pose.position_m == heads[i - 1].pose.position_m) {
-            continue;
+        if (head.pose.orientation == last->pose.orientation &&
+            head.pose.position_m == last->pose.position_m) {
+            return;
         }
         if (changed) {
-            const std::int64_t ns = ns_between(*changed, heads[i]);
+            const std::int64_t ns = ns_between(*changed, head);
             if (ns > 0 && ns < kHeadRests_ns) {
                 between_changes.push_back(ns);
             }
         }
-        changed = heads[i];
-    }
+        changed = head;
+    });
     return std::max(quantile(between_samples, 1, 2), quantile(between_changes, 1, 4));
 }
 
 }  // namespace
 
-std::vector<NewOrigin> new_origins(std::span<const GazeSample> samples) {
-    const std::vector<Known> heads = known_heads(samples);
-    const std::int64_t least_ns = least_interval_ns(heads);
+std::vector<NewOrigin> new_origins(const SampleRange& samples) {
+    const std::int64_t least_ns = least_interval_ns(samples);
     std::vector<NewOrigin> found;
-    for (std::size_t i = 1; i < heads.size(); ++i) {
-        const Known& before = heads[i - 1];
-        const Known& head = heads[i];
-        const std::int64_t interval_ns = ns_between(before, head);
-        const auto had_s = static_cast<double>(std::max(interval_ns, least_ns)) * 1e-9;
-        if (least_time_s(before.pose, head.pose) > had_s) {
-            found.push_back({head.sample, head.time_ns, interval_ns,
-                             turned_rad(before.pose, head.pose), moved_m(before.pose, head.pose),
-                             new_origin_of_still_head(before.pose, head.pose)});
+    std::optional<Known> last;
+    each_known_head(samples, [&](const Known& head) {
+        const std::optional<Known> before = std::exchange(last, head);
+        if (!before) {
+            return;
         }
-    }
+        const std::int64_t interval_ns = ns_between(*before, head);
+        const auto had_s = static_cast<double>(std::max(interval_ns, least_ns)) * 1e-9;
+        if (least_time_s(before->pose, head.pose) > had_s) {
+            found.push_back({head.sample, head.time_ns, interval_ns,
+                             turned_rad(before->pose, head.pose), moved_m(before->pose, head.pose),
+                             new_origin_of_still_head(before->pose, head.pose)});
+        }
+    });
     return found;
 }
 
-void report_new_origins(std::span<const GazeSample> samples, TraceReport& report) {
+void report_new_origins(const SampleRange& samples, TraceReport& report) {
     for (const NewOrigin& origin : new_origins(samples)) {
         report.add(
             {.kind = TraceFindingKind::NewOrigin,

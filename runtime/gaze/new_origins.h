@@ -2,10 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/sample_range.h"
 #include "runtime/gaze/trace_report.h"
 
 namespace gazeloop::gaze {
@@ -38,9 +38,9 @@ struct NewOrigin {
 ///     of 1000 Hz repeat each pose of a head that is followed at 90 Hz, and it then moves for 11 ms
 ///     in one of 1 ms. No headset gives fewer than 20 poses a second; longer intervals are heads
 ///     that rest.
-[[nodiscard]] std::vector<NewOrigin> new_origins(std::span<const GazeSample> samples);
+[[nodiscard]] std::vector<NewOrigin> new_origins(const SampleRange& samples);
 
 /// Adds a finding for each of them.
-void report_new_origins(std::span<const GazeSample> samples, TraceReport& report);
+void report_new_origins(const SampleRange& samples, TraceReport& report);
 
 }  // namespace gazeloop::gaze

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
+#include "runtime/memory/long_vector.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::gaze {
@@ -18,7 +18,7 @@ struct Interval {
     [[nodiscard]] double per_report_ns() const { return length_ns / reports; }
 };
 
-double at_share(std::vector<double>& values, double share) {
+double at_share(memory::LongVector<double>& values, double share) {
     const auto place = values.begin() +
                        static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), place, values.end());
@@ -27,24 +27,27 @@ double at_share(std::vector<double>& values, double share) {
 
 }  // namespace
 
-double sample_rate_hz(std::span<const GazeSample> samples) {
-    std::vector<Interval> intervals;
+double sample_rate_hz(const SampleRange& samples) {
+    memory::LongVector<Interval> intervals;
     std::size_t counted_by_one = 0;
-    std::optional<std::size_t> before;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const GazeSample& now = samples[i];
-        if (!now.sampled.known() || (before && now.sampled.ns < samples[*before].sampled.ns)) {
+    struct Before {
+        time::Stamp sampled;
+        std::uint64_t sequence;
+    };
+    std::optional<Before> before;
+    for (const GazeSample& now : samples) {
+        if (!now.sampled.known() || (before && now.sampled.ns < before->sampled.ns)) {
             continue;
         }
         if (before) {
-            const std::uint64_t last = samples[*before].sequence;
+            const std::uint64_t last = before->sequence;
             const std::uint64_t counted = now.sequence > last ? now.sequence - last : 1;
             counted_by_one += now.sequence == last + 1 ? 1U : 0U;
             intervals.push_back(
-                {static_cast<double>(time::between(samples[*before].sampled, now.sampled).ns),
+                {static_cast<double>(time::between(before->sampled, now.sampled).ns),
                  static_cast<double>(counted)});
         }
-        before = i;
+        before = {now.sampled, now.sequence};
     }
     if (intervals.empty()) {
         return 0.0;
@@ -54,7 +57,7 @@ double sample_rate_hz(std::span<const GazeSample> samples) {
             interval.reports = 1.0;
         }
     }
-    std::vector<double> lengths_ns;
+    memory::LongVector<double> lengths_ns;
     lengths_ns.reserve(intervals.size());
     for (const Interval& interval : intervals) {
         lengths_ns.push_back(interval.per_report_ns());

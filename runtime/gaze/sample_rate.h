@@ -1,8 +1,7 @@
 #pragma once
 
-#include <span>
-
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/sample_range.h"
 
 namespace gazeloop::gaze {
 
@@ -11,6 +10,6 @@ namespace gazeloop::gaze {
 /// go back; where sequence numbers mostly count by one, an interval over lost ones counts for as
 /// many. A gap is longer than 8 median intervals, or than 1.75 where most hardly vary and twice the
 /// usual one is a loss. 0: no interval.
-[[nodiscard]] double sample_rate_hz(std::span<const GazeSample> samples);
+[[nodiscard]] double sample_rate_hz(const SampleRange& samples);
 
 }  // namespace gazeloop::gaze

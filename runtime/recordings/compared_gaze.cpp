@@ -22,9 +22,9 @@ Expected<ComparedGaze> ComparedGaze::parse(const std::string& text, gaze::Eye ey
         return gaze;
     }
     const std::string file = text.substr(kTrace.size());
-    const gaze::GazeTrace trace = recorded_gaze(file, {});
+    const gaze::GazeRecording trace = recorded_gaze(file, {});
     gaze.moves_ = true;
-    for (const gaze::GazeSample& sample : trace.samples) {
+    for (const gaze::GazeSample& sample : gaze::SampleRange(*trace.samples)) {
         if (!sample.sampled.known()) {
             continue;
         }

@@ -11,6 +11,7 @@
 #include "drivers/trace/native_trace.h"
 #include "drivers/trace/text/text_output.h"
 #include "runtime/recordings/recorded_gaze.h"
+#include "runtime/recordings/recording_memory.h"
 #include "runtime/report/gaze_report.h"
 #include "runtime/report/output_file.h"
 #include "runtime/report/summary_json.h"
@@ -48,7 +49,7 @@ void check_outputs(const Conversion& conversion) {
 }
 
 /// What a table of angles has no columns for.
-std::vector<std::string> beside_angles(const gaze::GazeTrace& trace) {
+std::vector<std::string> beside_angles(const gaze::RecordingView& trace) {
     bool places = false;
     bool arrivals = false;
     std::size_t untimed = 0;
@@ -71,7 +72,7 @@ std::vector<std::string> beside_angles(const gaze::GazeTrace& trace) {
     return left_out;
 }
 
-Written write(const Conversion& conversion, const gaze::GazeTrace& trace) {
+Written write(const Conversion& conversion, const gaze::RecordingView& trace) {
     if (conversion.to == "bids") {
         const drivers::WrittenBids bids =
             value_or_throw(drivers::write_bids(trace, conversion.out, conversion.labels));
@@ -106,7 +107,9 @@ void convert(const Conversion& conversion) {
                          "convert: '-' is no file: name one, or /dev/stdout for the table alone");
     }
     check_outputs(conversion);
-    const gaze::GazeTrace trace = recorded_gaze(conversion.in, conversion.read);
+    const RecordingMemory memory;
+    const gaze::GazeRecording trace = recorded_gaze(conversion.in, conversion.read);
+    memory.warn();
     const Written written = write(conversion, trace);
     if (conversion.json != "-") {
         fmt::print("{}", report::gaze_text(trace));

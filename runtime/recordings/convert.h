@@ -19,8 +19,8 @@ struct Conversion {
 };
 
 /// Reads and writes, and says on stdout what was read, written and left out, unless JSON goes
-/// there. @throws SetupError: Usage for outputs that are not apart, BadInput for what cannot be
-/// read or written
+/// there. In memory that the length does not change (recording_memory.h). @throws SetupError: Usage
+/// for outputs that are not apart, BadInput for what cannot be read or written
 void convert(const Conversion& conversion);
 
 }  // namespace gazeloop::recordings

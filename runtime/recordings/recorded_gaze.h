@@ -8,13 +8,13 @@
 namespace gazeloop::recordings {
 
 /// The trace, or the session's gaze. @throws SetupError (BadInput) for a file that is refused
-[[nodiscard]] gaze::GazeTrace recorded_gaze(const std::string& file,
-                                            const drivers::ReadOptions& options);
+[[nodiscard]] gaze::GazeRecording recorded_gaze(const std::string& file,
+                                                const drivers::ReadOptions& options);
 
 /// The same, but a trace of which too much was dropped or changed is looked at all the same;
 /// `refusal` then says what a run would.
-[[nodiscard]] gaze::GazeTrace recorded_gaze_even_refused(const std::string& file,
-                                                         const drivers::ReadOptions& options,
-                                                         std::string& refusal);
+[[nodiscard]] gaze::GazeRecording recorded_gaze_even_refused(const std::string& file,
+                                                             const drivers::ReadOptions& options,
+                                                             std::string& refusal);
 
 }  // namespace gazeloop::recordings

@@ -7,6 +7,7 @@
 
 #include "runtime/gaze/gaze_comparison.h"
 #include "runtime/recordings/recorded_gaze.h"
+#include "runtime/recordings/recording_memory.h"
 #include "runtime/report/gaze_comparison_text.h"
 #include "runtime/report/gaze_report.h"
 
@@ -15,10 +16,10 @@ namespace {
 
 /// Two recordings of the same eyes.
 void compare(const GazeQuestion& question) {
-    const gaze::GazeTrace one = recorded_gaze(question.file, question.read);
-    const gaze::GazeTrace other = recorded_gaze(question.other, question.read);
+    const gaze::GazeRecording one = recorded_gaze(question.file, question.read);
+    const gaze::GazeRecording other = recorded_gaze(question.other, question.read);
     const gaze::GazeComparison comparison =
-        value_or_throw(gaze::compare_gaze(one.samples, other.samples));
+        value_or_throw(gaze::compare_gaze(*one.samples, *other.samples));
     if (!question.outputs.take_stdout()) {
         fmt::print("{}\n{}\n{}", one.file, other.file, report::gaze_comparison_text(comparison));
     }
@@ -36,12 +37,14 @@ void tell_gaze(const GazeQuestion& question) {
         files.push_back(question.other);
     }
     value_or_throw(report::check_outputs(question.outputs, files));
+    const RecordingMemory memory;
     if (!question.other.empty()) {
         compare(question);
+        memory.warn();
         return;
     }
     std::string refusal;
-    const gaze::GazeTrace trace = [&] {
+    const gaze::GazeRecording trace = [&] {
         try {
             return recorded_gaze_even_refused(question.file, question.read, refusal);
         } catch (const SetupError& error) {
@@ -52,6 +55,7 @@ void tell_gaze(const GazeQuestion& question) {
             throw;
         }
     }();
+    memory.warn();
     const report::GazeFindings found = report::gaze_findings(trace);
     if (!question.outputs.take_stdout()) {
         fmt::print("{}", report::gaze_text(trace, found));

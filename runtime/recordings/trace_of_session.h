@@ -12,6 +12,6 @@ inline constexpr std::string_view kSessionFormat = "session";
 
 /// A recorded session's gaze as a trace: see GazeTrace. No reader's report.
 /// Throws SetupError (BadInput): damaged, or it holds no gaze.
-[[nodiscard]] gaze::GazeTrace trace_of_session(const session::OpenSession& session);
+[[nodiscard]] gaze::GazeRecording trace_of_session(const session::OpenSession& session);
 
 }  // namespace gazeloop::recordings

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <vector>
-
 #include "runtime/gaze/events/event_statistics.h"
 #include "runtime/gaze/gaze_quality.h"
 #include "runtime/gaze/gaze_trace.h"
 #include "runtime/gaze/smoothing.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::report {
 
@@ -13,10 +12,10 @@ namespace gazeloop::report {
 struct GazeFindings {
     gaze::GazeQuality quality;
     gaze::SmoothingFinding smoothing;
-    std::vector<gaze::RecordedEvent> events;
+    memory::LongVector<gaze::RecordedEvent> events;
     gaze::EventStatistics statistics;
 };
 
-[[nodiscard]] GazeFindings gaze_findings(const gaze::GazeTrace& trace);
+[[nodiscard]] GazeFindings gaze_findings(const gaze::RecordingView& trace);
 
 }  // namespace gazeloop::report

@@ -10,8 +10,8 @@
 
 #include "runtime/frame/event.h"
 #include "runtime/gaze/anatomy.h"
-#include "runtime/gaze/sample_rate.h"
 #include "runtime/latency/sample_counter.h"
+#include "runtime/memory/long_vector.h"
 #include "runtime/report/gaze_events_text.h"
 #include "runtime/report/gaze_quality_text.h"
 #include "runtime/report/trace_account.h"
@@ -38,11 +38,21 @@ struct Samples {
     latency::GazeCounts counts;
 };
 
-Samples look_at(const gaze::GazeTrace& trace) {
-    constexpr std::size_t kMostGaps = 3;
+/// Puts it among the longest, if it is one: longest first, and the earlier one of two alike.
+void keep_longest(const Gap& gap, std::vector<Gap>& longest) {
+    constexpr std::size_t kMost = 3;
+    const auto shorter = std::ranges::find_if(
+        longest, [&](const Gap& kept) { return kept.length_ns < gap.length_ns; });
+    longest.insert(shorter, gap);
+    if (longest.size() > kMost) {
+        longest.pop_back();
+    }
+}
+
+Samples look_at(const gaze::RecordingView& trace) {
     Samples found;
     latency::SampleCounter counter;
-    std::vector<Gap> intervals;
+    memory::LongVector<std::int64_t> intervals_ns;
     std::optional<std::int64_t> first_ns;
     std::optional<std::int64_t> before_ns;
     for (const gaze::GazeSample& sample : trace.samples) {
@@ -58,31 +68,29 @@ Samples look_at(const gaze::GazeTrace& trace) {
         const std::int64_t now_ns = sample.sampled.ns;
         first_ns = first_ns.value_or(now_ns);
         if (before_ns) {
-            intervals.push_back({*before_ns - *first_ns, now_ns - *before_ns});
+            intervals_ns.push_back(now_ns - *before_ns);
+            keep_longest({*before_ns - *first_ns, now_ns - *before_ns}, found.gaps);
         }
         before_ns = now_ns;
         found.duration_ns = now_ns - *first_ns;
     }
     found.counts = counter.counts();
-    if (intervals.empty()) {
+    if (intervals_ns.empty()) {
         return found;
     }
-    std::ranges::stable_sort(intervals, std::ranges::greater{}, &Gap::length_ns);
-    const std::int64_t median_ns = intervals[intervals.size() / 2].length_ns;
-    if (const double rate_hz = gaze::sample_rate_hz(trace.samples); rate_hz > 0.0) {
+    const auto middle = intervals_ns.begin() + static_cast<std::ptrdiff_t>(intervals_ns.size() / 2);
+    std::ranges::nth_element(intervals_ns, middle, std::ranges::greater{});
+    std::erase_if(found.gaps,
+                  [twice_ns = 2 * *middle](const Gap& gap) { return gap.length_ns <= twice_ns; });
+    if (const double rate_hz = trace.rate_hz(); rate_hz > 0.0) {
         found.rate_hz = rate_hz;
-    }
-    for (const Gap& gap : intervals) {
-        if (found.gaps.size() == kMostGaps || gap.length_ns <= 2 * median_ns) {
-            break;
-        }
-        found.gaps.push_back(gap);
     }
     return found;
 }
 
 /// Unknown where a trace has no sequence numbers that count; a session's samples always have.
-std::optional<std::uint64_t> lost_by_tracker(const gaze::GazeTrace& trace, const Samples& found) {
+std::optional<std::uint64_t> lost_by_tracker(const gaze::RecordingView& trace,
+                                             const Samples& found) {
     return trace.report.rows > 0 ? trace.report.lost_by_tracker : found.counts.lost;
 }
 
@@ -92,7 +100,7 @@ double percent(std::uint64_t part, std::uint64_t whole) {
     return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
 }
 
-std::string directions_of(const gaze::GazeTrace& trace) {
+std::string directions_of(const gaze::RecordingView& trace) {
     return trace.report.axes.empty() ? gaze::anatomy_text(gaze::anatomy_of(trace.samples))
                                      : trace.report.axes;
 }
@@ -136,7 +144,7 @@ Json counts_json(const gaze::TraceReport& report) {
 
 }  // namespace
 
-std::string gaze_text(const gaze::GazeTrace& trace, const GazeFindings& findings) {
+std::string gaze_text(const gaze::RecordingView& trace, const GazeFindings& findings) {
     const Samples found = look_at(trace);
     const std::size_t all = trace.samples.size();
     std::string text = fmt::format("{}\n", trace.file);
@@ -173,7 +181,7 @@ std::string gaze_text(const gaze::GazeTrace& trace, const GazeFindings& findings
     return trace.report.rows > 0 ? text + findings_text(trace.report) : text;
 }
 
-Json gaze_json(const gaze::GazeTrace& trace, const GazeFindings& findings) {
+Json gaze_json(const gaze::RecordingView& trace, const GazeFindings& findings) {
     const Samples found = look_at(trace);
     const std::size_t all = trace.samples.size();
     Json gaps = Json::array();
@@ -207,10 +215,10 @@ Json gaze_json(const gaze::GazeTrace& trace, const GazeFindings& findings) {
     return json;
 }
 
-std::string gaze_text(const gaze::GazeTrace& trace) {
+std::string gaze_text(const gaze::RecordingView& trace) {
     return gaze_text(trace, gaze_findings(trace));
 }
 
-Json gaze_json(const gaze::GazeTrace& trace) { return gaze_json(trace, gaze_findings(trace)); }
+Json gaze_json(const gaze::RecordingView& trace) { return gaze_json(trace, gaze_findings(trace)); }
 
 }  // namespace gazeloop::report

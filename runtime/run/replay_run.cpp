@@ -58,7 +58,8 @@ session::OpenSession open_for_replay(const std::string& file, ProgramSettings& s
 std::optional<ErrorKind> replay_session(const Replay& replay, const session::OpenSession& session,
                                         ProgramSettings& settings, FrameRunRequest& request) {
     if (replay.wall_clock) {
-        return play_gaze(replay, recordings::trace_of_session(session), settings, request);
+        return play_gaze(replay, gaze::in_memory(recordings::trace_of_session(session)), settings,
+                         request);
     }
     if (replay.speed != 1.0) {
         throw SetupError(ErrorKind::Usage,

@@ -8,7 +8,6 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "drivers/trace/bad_cells.h"
 #include "drivers/trace/clock/trace_row.h"
@@ -16,6 +15,7 @@
 #include "drivers/trace/text/csv_table.h"
 #include "runtime/error.h"
 #include "runtime/gaze/trace_report.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
@@ -73,10 +73,10 @@ class EyeRecording {
     std::optional<std::size_t> confidence_;
     std::optional<std::array<std::size_t, 3>> origin_;
     std::optional<std::array<std::size_t, 7>> head_;
-    std::vector<Blink> blinks_;     ///< by their beginnings
-    bool blinks_by_row_ = false;    ///< else by time
-    double rate_hz_ = 0.0;          ///< as the sidecar states it
-    std::int64_t row_number_ = -1;  ///< of the current row
+    memory::LongVector<Blink> blinks_;  ///< by their beginnings
+    bool blinks_by_row_ = false;        ///< else by time
+    double rate_hz_ = 0.0;              ///< as the sidecar states it
+    std::int64_t row_number_ = -1;      ///< of the current row
     TraceRow row_;
     std::string unread_time_;
     std::uint64_t in_blinks_ = 0;

@@ -9,6 +9,7 @@
 
 #include "drivers/trace/clock/counter_wrap.h"
 #include "drivers/trace/clock/rows_read.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -17,8 +18,8 @@ using gaze::TraceFindingKind;
 
 /// A file's rows in the order of their times, which neither outliers nor steps of its clock move.
 struct TimedRows {
-    std::vector<std::size_t> rows;
-    std::vector<Wide> at_ns;
+    memory::LongVector<std::size_t> rows;
+    memory::LongVector<Wide> at_ns;
 };
 
 TimedRows timed(const DeviceTimes& times) {

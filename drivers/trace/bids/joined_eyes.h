@@ -9,6 +9,7 @@
 #include "runtime/error.h"
 #include "runtime/gaze/eye.h"
 #include "runtime/gaze/trace_report.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
@@ -16,13 +17,13 @@ namespace gazeloop::drivers {
 struct EyeRows {
     std::string name;  ///< of the file, without folders
     gaze::PerEye<bool> of{};
-    double stated_rate_hz = 0.0;  ///< as its sidecar has it, > 0
-    std::vector<TraceRow> rows;   ///< as the file has them; a tick is 1 ns
+    double stated_rate_hz = 0.0;        ///< as its sidecar has it, > 0
+    memory::LongVector<TraceRow> rows;  ///< as the file has them; a tick is 1 ns
 };
 
 /// The rows of both eyes' files as one table.
 struct JoinedEyes {
-    std::vector<TraceRow> rows;
+    memory::LongVector<TraceRow> rows;
     std::uint64_t dropped = 0;  ///< rows of either file that are not among them
     std::vector<gaze::TraceFinding> findings;
 };

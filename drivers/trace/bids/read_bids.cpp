@@ -61,7 +61,7 @@ Expected<EyeRows> rows_of(EyeRecording& recording, const fs::path& file, BadCell
 
 }  // namespace
 
-Expected<gaze::GazeTrace> read_bids(const fs::path& file, const ReadOptions& options) {
+Expected<BuiltTrace> read_bids(const fs::path& file, const ReadOptions& options) {
     if (!is_bids_physio(file)) {
         return bad_input(file,
                          "BIDS names eye tracking sub-LABEL_..._recording-eye1_physio.tsv.gz: give "

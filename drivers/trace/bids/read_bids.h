@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string_view>
 
+#include "drivers/trace/built_trace.h"
 #include "drivers/trace/read_options.h"
 #include "runtime/error.h"
-#include "runtime/gaze/gaze_trace.h"
 
 namespace gazeloop::drivers {
 
@@ -32,7 +32,7 @@ inline constexpr std::string_view kBids = "bids";
 ///
 /// Errors (BadInput): no sidecar, a broken rule, an unknown unit, a row of another width, those of
 /// CsvTable and TraceBuilder.
-[[nodiscard]] Expected<gaze::GazeTrace> read_bids(const std::filesystem::path& file,
-                                                  const ReadOptions& options);
+[[nodiscard]] Expected<BuiltTrace> read_bids(const std::filesystem::path& file,
+                                             const ReadOptions& options);
 
 }  // namespace gazeloop::drivers

@@ -12,7 +12,6 @@
 
 #include "drivers/trace/text/line_writer.h"
 #include "drivers/trace/text/text_output.h"
-#include "runtime/gaze/sample_rate.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -44,7 +43,7 @@ struct Recording {
     std::string_view recorded;
 };
 
-std::vector<Recording> recordings_of(const gaze::GazeTrace& trace) {
+std::vector<Recording> recordings_of(const gaze::RecordingView& trace) {
     bool shared = true;
     gaze::PerEye<bool> any{};
     for (const gaze::GazeSample& sample : trace.samples) {
@@ -74,7 +73,7 @@ struct Extras {
     bool head = false;
 };
 
-Extras extras_of(const gaze::GazeTrace& trace, const Recording& recording) {
+Extras extras_of(const gaze::RecordingView& trace, const Recording& recording) {
     const bool of_one_eye = recording.recorded != "cyclopean";
     Extras extras;
     for (const gaze::GazeSample& sample : trace.samples) {
@@ -87,7 +86,7 @@ Extras extras_of(const gaze::GazeTrace& trace, const Recording& recording) {
     return extras;
 }
 
-Json sidecar_of(const gaze::GazeTrace& trace, const Recording& recording, const Extras& extras,
+Json sidecar_of(const gaze::RecordingView& trace, const Recording& recording, const Extras& extras,
                 double rate_hz) {
     Json columns = {"timestamp", "x_coordinate", "y_coordinate"};
     Json json{{"PhysioType", "eyetrack"},
@@ -137,7 +136,7 @@ Json sidecar_of(const gaze::GazeTrace& trace, const Recording& recording, const 
     return json;
 }
 
-void write_rows(const gaze::GazeTrace& trace, const Recording& recording, const Extras& extras,
+void write_rows(const gaze::RecordingView& trace, const Recording& recording, const Extras& extras,
                 std::ostream& out) {
     LineWriter line('\t', kMissing);
     for (const gaze::GazeSample& sample : trace.samples) {
@@ -171,7 +170,7 @@ void write_rows(const gaze::GazeTrace& trace, const Recording& recording, const 
 }
 
 /// Where the gaze of an eye is lost: from the first sample without it to the next one with it.
-void write_losses(const gaze::GazeTrace& trace, const Recording& recording, std::ostream& out) {
+void write_losses(const gaze::RecordingView& trace, const Recording& recording, std::ostream& out) {
     std::optional<std::int64_t> since_ns;
     std::int64_t last_ns = 0;
     LineWriter line('\t', kMissing);
@@ -203,7 +202,7 @@ constexpr std::size_t kMostEyes = 3;  ///< labels of BIDS: eye1, eye2, eye3
 
 class Writer {
   public:
-    Writer(const gaze::GazeTrace& trace, fs::path folder, const BidsLabels& labels)
+    Writer(const gaze::RecordingView& trace, fs::path folder, const BidsLabels& labels)
         : trace_(trace), folder_(std::move(folder)), labels_(labels) {}
 
     Expected<WrittenBids> write(double rate_hz) {
@@ -312,7 +311,7 @@ class Writer {
         }
     }
 
-    const gaze::GazeTrace& trace_;
+    const gaze::RecordingView& trace_;
     fs::path folder_;
     const BidsLabels& labels_;
     WrittenBids written_;
@@ -320,7 +319,7 @@ class Writer {
 
 }  // namespace
 
-Expected<WrittenBids> write_bids(const gaze::GazeTrace& trace, const fs::path& folder,
+Expected<WrittenBids> write_bids(const gaze::RecordingView& trace, const fs::path& folder,
                                  const BidsLabels& labels) {
     for (const std::string& label : {labels.subject, labels.task}) {
         if (!is_label(label)) {
@@ -329,14 +328,16 @@ Expected<WrittenBids> write_bids(const gaze::GazeTrace& trace, const fs::path& f
                       fmt::format("'{}' is no label of BIDS: letters and digits alone", label)});
         }
     }
-    const double rate_hz = gaze::sample_rate_hz(trace.samples);
+    const double rate_hz = trace.rate_hz();
     if (!(rate_hz > 0.0)) {
         return bad_input(fmt::format(
             "{}: fewer than two samples with known times have no rate, which BIDS asks for",
             trace.file));
     }
-    const auto unknown = static_cast<std::size_t>(std::ranges::count_if(
-        trace.samples, [](const gaze::GazeSample& sample) { return !sample.sampled.known(); }));
+    std::size_t unknown = 0;
+    for (const gaze::GazeSample& sample : trace.samples) {
+        unknown += sample.sampled.known() ? 0U : 1U;
+    }
     Expected<WrittenBids> written = Writer(trace, folder, labels).write(rate_hz);
     if (written && unknown > 0) {
         written->left_out.push_back(fmt::format("{} samples whose time nobody knows", unknown));

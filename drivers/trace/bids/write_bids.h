@@ -30,7 +30,7 @@ struct WrittenBids {
 /// Files of this recording are replaced, and those of eyes that it no longer has removed, which is
 /// said. Errors: Usage for a label with anything else in it; BadInput for a
 /// trace of fewer than two samples with known times, a file that cannot be written.
-[[nodiscard]] Expected<WrittenBids> write_bids(const gaze::GazeTrace& trace,
+[[nodiscard]] Expected<WrittenBids> write_bids(const gaze::RecordingView& trace,
                                                const std::filesystem::path& folder,
                                                const BidsLabels& labels = {});
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "runtime/memory/long_vector.h"
+
 namespace gazeloop::drivers {
 namespace {
 
@@ -15,8 +17,8 @@ struct Run {
     std::size_t end = 0;
 };
 
-std::vector<Run> runs_of(std::size_t count, const ClockSteps& steps) {
-    std::vector<Run> runs{{0, 1}};
+memory::LongVector<Run> runs_of(std::size_t count, const ClockSteps& steps) {
+    memory::LongVector<Run> runs{{0, 1}};
     for (std::size_t i = 1; i < count; ++i) {
         if (steps.joins(i - 1, i)) {
             ++runs.back().end;
@@ -35,12 +37,12 @@ struct Choice {
 
 }  // namespace
 
-std::vector<bool> readings_in_step(std::size_t count, const ClockSteps& steps) {
-    std::vector<bool> kept(count, true);
+memory::LongVector<bool> readings_in_step(std::size_t count, const ClockSteps& steps) {
+    memory::LongVector<bool> kept(count, true);
     if (count < 3) {
         return kept;
     }
-    const std::vector<Run> runs = runs_of(count, steps);
+    const memory::LongVector<Run> runs = runs_of(count, steps);
     if (runs.size() == 1) {
         return kept;
     }
@@ -53,7 +55,7 @@ std::vector<bool> readings_in_step(std::size_t count, const ClockSteps& steps) {
     const auto may_end = [&](const Run& run, std::size_t left_out) {
         return left_out == 0 || (left_out <= end_burst && run.end - run.first > left_out);
     };
-    std::vector<Choice> choices(runs.size());
+    memory::LongVector<Choice> choices(runs.size());
     for (std::size_t r = 0; r < runs.size(); ++r) {
         Choice& choice = choices[r];
         if (may_end(runs[r], runs[r].first)) {

@@ -2,7 +2,8 @@
 
 #include <cstddef>
 #include <functional>
-#include <vector>
+
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
@@ -32,6 +33,6 @@ inline constexpr double kImpossibleStep = 20.0;
 /// `longest_burst`, so that what lasts is never left out, and only where the readings before and
 /// after then agree. At the ends a burst is left out if there are 16 readings, and more
 /// in a row next to it than it has itself. O(count).
-[[nodiscard]] std::vector<bool> readings_in_step(std::size_t count, const ClockSteps& steps);
+[[nodiscard]] memory::LongVector<bool> readings_in_step(std::size_t count, const ClockSteps& steps);
 
 }  // namespace gazeloop::drivers

@@ -6,6 +6,7 @@
 
 #include "drivers/trace/clock/stood_times.h"
 #include "drivers/trace/clock/time_text.h"
+#include "runtime/memory/long_vector.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
@@ -26,8 +27,8 @@ struct Group {
     [[nodiscard]] std::size_t size() const { return end - first; }
 };
 
-std::vector<Group> groups_of(std::span<const TimedRow> rows) {
-    std::vector<Group> groups;
+memory::LongVector<Group> groups_of(std::span<const TimedRow> rows) {
+    memory::LongVector<Group> groups;
     groups.reserve(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (i > 0 && rows[i].step_ns == 0 && !rows[i].set) {
@@ -39,8 +40,8 @@ std::vector<Group> groups_of(std::span<const TimedRow> rows) {
     return groups;
 }
 
-std::size_t median_size(const std::vector<Group>& groups) {
-    std::vector<std::size_t> sizes;
+std::size_t median_size(const memory::LongVector<Group>& groups) {
+    memory::LongVector<std::size_t> sizes;
     sizes.reserve(groups.size());
     for (const Group& group : groups) {
         sizes.push_back(group.size());
@@ -51,9 +52,9 @@ std::size_t median_size(const std::vector<Group>& groups) {
 }
 
 /// Of rows [first, end).
-std::vector<std::optional<std::int64_t>> host_times(std::span<const TimedRow> rows,
-                                                    std::size_t first, std::size_t end) {
-    std::vector<std::optional<std::int64_t>> host_ns;
+memory::LongVector<std::optional<std::int64_t>> host_times(std::span<const TimedRow> rows,
+                                                           std::size_t first, std::size_t end) {
+    memory::LongVector<std::optional<std::int64_t>> host_ns;
     for (std::size_t i = first; i < end; ++i) {
         host_ns.push_back(rows[i].host_ns);
     }
@@ -216,7 +217,7 @@ class Spreading {
 
     std::span<const TimedRow> rows_;
     std::int64_t tick_ns_;
-    std::vector<Group> groups_;
+    memory::LongVector<Group> groups_;
     std::size_t longest_ = 0;  ///< group of a clock that counts in steps
     bool coarse_ = false;
     SpreadTimes spread_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/gaze/trace_report.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
@@ -22,11 +23,11 @@ struct TimedRow {
 
 /// Rows that share a time, apart. As long as the rows it is made of.
 struct SpreadTimes {
-    std::vector<std::int64_t> step_ns;    ///< from the row before
-    std::vector<std::int64_t> coarse_ns;  ///< as DeviceTimes::step_ns
-    std::vector<bool> reckoned;
-    std::vector<std::size_t> sets;  ///< where the clock goes on as if it had never stood
-    std::int64_t interval_ns = 0;   ///< the usual one from row to row; 0: a single row
+    memory::LongVector<std::int64_t> step_ns;    ///< from the row before
+    memory::LongVector<std::int64_t> coarse_ns;  ///< as DeviceTimes::step_ns
+    memory::LongVector<bool> reckoned;
+    memory::LongVector<std::size_t> sets;  ///< where the clock goes on as if it had never stood
+    std::int64_t interval_ns = 0;          ///< the usual one from row to row; 0: a single row
     std::vector<gaze::TraceFinding> findings;
 };
 

@@ -13,6 +13,7 @@
 #include "drivers/trace/clock/counter_wrap.h"
 #include "drivers/trace/clock/row_order.h"
 #include "drivers/trace/clock/time_text.h"
+#include "runtime/memory/long_vector.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
@@ -31,10 +32,10 @@ constexpr Wide kEndGapIntervals = 50;
 constexpr Wide kLongestStep_ns = 1000 * kDay_ns;
 
 /// What the readings are in nanoseconds. Exact for whole ticks; from the first reading else.
-std::vector<Wide> readings_ns(const RowsRead& rows, bool by_host, double tick_ns) {
+memory::LongVector<Wide> readings_ns(const RowsRead& rows, bool by_host, double tick_ns) {
     constexpr double kWholeBelow = 1e12;
     const bool whole = tick_ns < kWholeBelow && tick_ns == std::floor(tick_ns);
-    std::vector<Wide> at_ns(rows.size());
+    memory::LongVector<Wide> at_ns(rows.size());
     std::optional<std::int64_t> first;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto& reading = by_host ? rows[i].host_ns : rows[i].device_ticks;
@@ -194,7 +195,7 @@ class DeviceClock {
         constexpr std::size_t kFewestWraps = 4;
         constexpr std::size_t kRowsPerWrap = 64;
         constexpr Wide kJitter = 4;  // one in so many of the range
-        std::vector<Wide> more_ns;
+        memory::LongVector<Wide> more_ns;
         std::size_t back = 0;
         Wide least = at_ns_[used_.front()];
         Wide most = least;
@@ -245,7 +246,7 @@ class DeviceClock {
     /// Of steps forward between neighbours, once each few rows have been sorted.
     [[nodiscard]] std::int64_t median_step_ns() const {
         constexpr std::size_t kSorted = 2 * kOrderWindow;
-        std::vector<std::int64_t> steps;
+        memory::LongVector<std::int64_t> steps;
         steps.reserve(used_.size());
         std::vector<Wide> some;
         for (std::size_t first = 0; first < used_.size(); first += kSorted) {
@@ -417,8 +418,8 @@ class DeviceClock {
             .longest_burst = longest_burst()};
     }
 
-    void drop(const std::vector<bool>& kept) {
-        std::vector<std::size_t> left;
+    void drop(const memory::LongVector<bool>& kept) {
+        memory::LongVector<std::size_t> left;
         left.reserve(used_.size());
         for (std::size_t i = 0; i < used_.size();) {
             if (kept[i]) {
@@ -461,13 +462,13 @@ class DeviceClock {
         if (used_.size() < kFewest) {
             return;
         }
-        std::vector<bool> kept(used_.size(), true);
+        memory::LongVector<bool> kept(used_.size(), true);
         kept.front() = !is_alone(0, 1);
         kept.back() = !is_alone(used_.size() - 2, used_.size() - 1);
         drop(kept);
     }
 
-    void report_repeats(const std::vector<std::size_t>& repeats) {
+    void report_repeats(const memory::LongVector<std::size_t>& repeats) {
         if (repeats.empty()) {
             return;
         }
@@ -484,7 +485,7 @@ class DeviceClock {
 
     /// From each row to the next, with the clock's sets mended; then rows of one time apart.
     void lay_out() {
-        std::vector<TimedRow> timed(used_.size());
+        memory::LongVector<TimedRow> timed(used_.size());
         Wide epoch_ns = 0;
         times_.reading_ns.reserve(used_.size());
         times_.time_ns.reserve(used_.size());
@@ -593,11 +594,11 @@ class DeviceClock {
     }
 
     const RowsRead& rows_;
-    bool by_host_;             ///< no row has a reading of the device's clock
-    bool absolute_;            ///< readings are given as they are
-    std::vector<Wide> at_ns_;  ///< of all rows, wraps counted on
+    bool by_host_;                    ///< no row has a reading of the device's clock
+    bool absolute_;                   ///< readings are given as they are
+    memory::LongVector<Wide> at_ns_;  ///< of all rows, wraps counted on
     Wide epoch_of_last_ns_ = 0;
-    std::vector<std::size_t> used_;
+    memory::LongVector<std::size_t> used_;
     std::int64_t interval_ns_ = 0;  ///< between readings that differ
     DeviceTimes times_;
 };

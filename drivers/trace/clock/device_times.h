@@ -7,26 +7,27 @@
 
 #include "drivers/trace/clock/rows_read.h"
 #include "runtime/gaze/trace_report.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
 /// Which rows of a trace are used, in which order, and when they were taken by the device's clock.
 /// The vectors but `findings` are as long as `rows`.
 struct DeviceTimes {
-    std::vector<std::size_t> rows;  ///< indices of the rows that are used, in order of time
+    memory::LongVector<std::size_t> rows;  ///< indices of the rows that are used, in order of time
     /// Since the first of them. Increases strictly.
-    std::vector<std::int64_t> time_ns;
+    memory::LongVector<std::int64_t> time_ns;
     /// The device's own reading but for unit and wraps, from the first used row's if a tick is not
     /// 1 ns.
-    std::vector<std::int64_t> reading_ns;
+    memory::LongVector<std::int64_t> reading_ns;
     /// By how much later than `time_ns` the row may have been taken, because the clock counts in
     /// steps of that; 0: no such steps are seen.
-    std::vector<std::int64_t> step_ns;
+    memory::LongVector<std::int64_t> step_ns;
     /// Whether the time is reckoned from the rows around, since the device's clock stood.
-    std::vector<bool> reckoned;
+    memory::LongVector<bool> reckoned;
     /// Positions of rows before which the device's clock was set, ascending. The time between is
     /// the host's, or else the usual interval.
-    std::vector<std::size_t> sets;
+    memory::LongVector<std::size_t> sets;
     /// The usual time from one row to the next; 0: a single row.
     std::int64_t interval_ns = 0;
     /// Whether the readings are the host's, since no row has one of the device's clock.

@@ -13,6 +13,7 @@
 #include "drivers/trace/clock/lag_line.h"
 #include "drivers/trace/clock/lag_steps.h"
 #include "drivers/trace/clock/time_text.h"
+#include "runtime/memory/long_vector.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
@@ -132,7 +133,7 @@ class Fitting {
             return 0.0;
         }
         const std::size_t apart = used_.size() / 4;
-        std::vector<double> slopes;
+        memory::LongVector<double> slopes;
         for (std::size_t i = apart; i < used_.size(); ++i) {
             const std::int64_t device_ns =
                 device_.time_ns[used_[i]] - device_.time_ns[used_[i - apart]];
@@ -155,7 +156,7 @@ class Fitting {
         constexpr std::int64_t kFine_ns = kMillisecond_ns / 10;
         std::int64_t host_ns = 0;
         bool repeats = false;
-        std::vector<std::int64_t> device_ns{device_.step_ns[used_.front()]};
+        memory::LongVector<std::int64_t> device_ns{device_.step_ns[used_.front()]};
         for (std::size_t i = 1; i < used_.size(); ++i) {
             const Wide step = clocks_.elapsed(used_[i - 1], used_[i]);
             host_ns = std::gcd(host_ns, time::saturated(step < 0 ? -step : step));
@@ -170,7 +171,7 @@ class Fitting {
 
     /// Cuts the rows where a clock was set.
     void find_stretches() {
-        std::vector<Stretch> stretches;
+        memory::LongVector<Stretch> stretches;
         stretches.reserve(device_.sets.size());
         for (const std::size_t set : device_.sets) {
             stretches.push_back({set, 0, true});
@@ -202,7 +203,7 @@ class Fitting {
     }
 
     void note_step(std::size_t before, std::size_t now, Wide by_ns,
-                   std::vector<Stretch>& stretches) {
+                   memory::LongVector<Stretch>& stretches) {
         if (clocks_.is_set_in(before, now)) {
             // Both were set: what the host's clock says of the time between is worth nothing.
             for (Stretch& stretch : stretches) {
@@ -242,7 +243,7 @@ class Fitting {
     /// Fits the stretch. Times that are reckoned say nothing of the device's clock.
     LagLine line_of(std::size_t s) {
         const std::int64_t origin_ns = device_.time_ns[stretches_[s].first];
-        std::vector<LagRow> fed;
+        memory::LongVector<LagRow> fed;
         const auto [from, to] = used_in(stretches_[s]);
         for (auto row = from; row != to; ++row) {
             if (!device_.reckoned[*row]) {
@@ -262,8 +263,8 @@ class Fitting {
     }
 
     /// Its rows with a host time.
-    [[nodiscard]] std::pair<std::vector<std::size_t>::const_iterator,
-                            std::vector<std::size_t>::const_iterator>
+    [[nodiscard]] std::pair<memory::LongVector<std::size_t>::const_iterator,
+                            memory::LongVector<std::size_t>::const_iterator>
     used_in(const Stretch& stretch) const {
         const auto from = std::lower_bound(used_.begin(), used_.end(), stretch.first);
         return {from, std::lower_bound(from, used_.end(), stretch.end)};
@@ -404,11 +405,11 @@ class Fitting {
     const DeviceTimes& device_;
     ClockPair clocks_;
     std::span<const std::uint64_t> lines_;
-    std::vector<std::size_t> used_;  ///< rows whose host time is used
-    std::vector<LagRow> lags_;       ///< of used_
+    memory::LongVector<std::size_t> used_;  ///< rows whose host time is used
+    memory::LongVector<LagRow> lags_;       ///< of used_
     LagTrend trend_;
-    std::vector<Stretch> stretches_;
-    std::vector<LagLine> lines_of_stretches_;
+    memory::LongVector<Stretch> stretches_;
+    memory::LongVector<LagLine> lines_of_stretches_;
     HostFit fit_;
 };
 

@@ -9,16 +9,17 @@
 
 #include "drivers/trace/clock/device_times.h"
 #include "runtime/gaze/trace_report.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
 /// The device's times on a time line that runs at the rate of the host's clock. The vectors of
 /// times are as long as those they are made of.
 struct HostFit {
-    std::vector<std::int64_t> time_ns;  ///< since the first row; increases strictly
+    memory::LongVector<std::int64_t> time_ns;  ///< since the first row; increases strictly
     /// How much longer than the quickest a report took to the host, >= 0; none where its host time
     /// is unknown or an outlier.
-    std::vector<std::optional<std::int64_t>> delay_ns;
+    memory::LongVector<std::optional<std::int64_t>> delay_ns;
     double skew_ppm = 0.0;       ///< by which the device's second is too short
     std::int64_t within_ns = 0;  ///< uncertainty of the line
     std::uint64_t steps = 0;     ///< of either clock

@@ -6,6 +6,7 @@
 
 #include "drivers/trace/clock/clock_chain.h"
 #include "drivers/trace/clock/time_text.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 namespace {
@@ -35,7 +36,7 @@ class Choosing {
     /// Host times that stay the same while the device's clock goes on say nothing, but for the
     /// first. Where reports waited and were read all at once, the last of them is in time.
     void leave_out_standing() {
-        std::vector<std::size_t> left;
+        memory::LongVector<std::size_t> left;
         const auto end_of_run = [&](std::size_t from) {
             std::size_t end = from;
             while (end < used_.size() &&
@@ -98,7 +99,7 @@ class Choosing {
                     return impossible ? kImpossibleStep : 0.0;
                 },
         };
-        std::vector<bool> kept = readings_in_step(used_.size(), steps);
+        memory::LongVector<bool> kept = readings_in_step(used_.size(), steps);
         constexpr std::size_t kFewest = 16;
         constexpr std::int64_t kLatest_ns = 10 * kSecond_ns;
         if (used_.size() >= kFewest) {
@@ -106,7 +107,7 @@ class Choosing {
             kept.back() = kept.back() && clocks_.excess(used_[used_.size() - 2],
                                                         used_[used_.size() - 1]) <= kLatest_ns;
         }
-        std::vector<std::size_t> left;
+        memory::LongVector<std::size_t> left;
         for (std::size_t i = 0; i < used_.size(); ++i) {
             if (kept[i]) {
                 left.push_back(used_[i]);
@@ -138,7 +139,7 @@ class Choosing {
 
     const ClockPair& clocks_;
     std::span<const std::uint64_t> lines_;
-    std::vector<std::size_t> used_;
+    memory::LongVector<std::size_t> used_;
     HostTimes found_;
 };
 

@@ -7,12 +7,13 @@
 
 #include "drivers/trace/clock/clock_pair.h"
 #include "runtime/gaze/trace_report.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
 /// The rows whose host time is worth something, ascending, and what was found of the others.
 struct HostTimes {
-    std::vector<std::size_t> rows;
+    memory::LongVector<std::size_t> rows;
     bool stood = false;          ///< the host's clock, somewhere
     std::uint64_t outliers = 0;  ///< host times that neither neighbour agrees with
     std::vector<gaze::TraceFinding> findings;

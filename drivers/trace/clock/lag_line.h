@@ -2,10 +2,10 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "drivers/trace/clock/counter_wrap.h"
 #include "drivers/trace/clock/lag_steps.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
@@ -19,8 +19,8 @@ struct LagKnot {
 struct LagLine {
     bool known = false;
     Wide base_ns = 0;
-    std::vector<LagKnot> knots;  ///< ascending; fewer than two: `slope` from the origin
-    std::int64_t origin_ns = 0;  ///< device time of the stretch's first row
+    memory::LongVector<LagKnot> knots;  ///< ascending; fewer than two: `slope` from the origin
+    std::int64_t origin_ns = 0;         ///< device time of the stretch's first row
     double slope = 0.0;
     std::int64_t within_ns = 0;  ///< 0: not known
     bool steep = false;          ///< more so than the uncertainty explains

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "runtime/memory/long_vector.h"
+
 namespace gazeloop::drivers {
 namespace {
 
@@ -21,7 +23,7 @@ constexpr std::size_t kNear = 24;
 /// What of it must be seen there.
 constexpr double kWhole = 0.9;
 
-double median(std::vector<double>& values) {
+double median(memory::LongVector<double>& values) {
     if (values.empty()) {
         return 0.0;
     }
@@ -32,8 +34,8 @@ double median(std::vector<double>& values) {
 
 /// Indices of the row with the lowest lag of each second; a new second begins after a gap or cut.
 struct Seconds {
-    std::vector<std::size_t> lowest;
-    std::vector<std::size_t> of_row;  ///< which second it is in
+    memory::LongVector<std::size_t> lowest;
+    memory::LongVector<std::size_t> of_row;  ///< which second it is in
     std::int64_t span_ns = 0;
 };
 
@@ -118,7 +120,7 @@ class StepSearch {
           before_short_(rows, trend.slope, kShort_ns),
           before_long_(rows, trend.slope, kLong_ns) {}
 
-    std::vector<LagStep> run() {
+    memory::LongVector<LagStep> run() {
         look_ahead();
         before_.resize(rows_.size());
         std::size_t falls_at = 0;  // 0: nowhere
@@ -281,12 +283,12 @@ class StepSearch {
     const LagTrend& trend_;
     double resolution_ns_;
     double few_rows_ns_;
-    std::vector<Side> after_short_;
-    std::vector<Side> after_long_;
-    std::vector<Side> before_;  ///< long, as it was at each row
+    memory::LongVector<Side> after_short_;
+    memory::LongVector<Side> after_long_;
+    memory::LongVector<Side> before_;  ///< long, as it was at each row
     Lowest before_short_;
     Lowest before_long_;
-    std::vector<LagStep> steps_;
+    memory::LongVector<LagStep> steps_;
 };
 
 }  // namespace
@@ -298,7 +300,7 @@ LagTrend lag_trend(std::span<const LagRow> rows) {
     constexpr std::size_t kFewest = 8;
     LagTrend trend{.uncertainty = kUnknown};
     const Seconds seconds = seconds_of(rows);
-    const std::vector<std::size_t>& lowest = seconds.lowest;
+    const memory::LongVector<std::size_t>& lowest = seconds.lowest;
     trend.span_ns = seconds.span_ns;
     const auto rise = [&](std::size_t from, std::size_t to) {
         return static_cast<double>(rows[to].lag_ns - rows[from].lag_ns);
@@ -308,7 +310,7 @@ LagTrend lag_trend(std::span<const LagRow> rows) {
     };
     const std::size_t reach = std::max<std::size_t>(1, lowest.size() / kFewest);
     if (lowest.size() >= kFewest) {
-        std::vector<double> slopes;
+        memory::LongVector<double> slopes;
         for (std::size_t i = reach; i < lowest.size(); ++i) {
             slopes.push_back(rise(lowest[i - reach], lowest[i]) /
                              apart(lowest[i - reach], lowest[i]));
@@ -316,13 +318,13 @@ LagTrend lag_trend(std::span<const LagRow> rows) {
         trend.slope = median(slopes);
         trend.known = true;
     }
-    std::vector<double> differences;
+    memory::LongVector<double> differences;
     for (std::size_t i = 1; i < lowest.size(); ++i) {
         differences.push_back(std::abs(rise(lowest[i - 1], lowest[i]) -
                                        trend.slope * apart(lowest[i - 1], lowest[i])));
     }
     trend.noise_ns = median(differences);
-    std::vector<double> heights;
+    memory::LongVector<double> heights;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const std::size_t least = lowest[seconds.of_row[i]];
         heights.push_back(rise(least, i) - trend.slope * apart(least, i));
@@ -336,8 +338,8 @@ LagTrend lag_trend(std::span<const LagRow> rows) {
     return trend;
 }
 
-std::vector<LagStep> lag_steps(std::span<const LagRow> rows, const LagTrend& trend,
-                               double resolution_ns, double few_rows_ns) {
+memory::LongVector<LagStep> lag_steps(std::span<const LagRow> rows, const LagTrend& trend,
+                                      double resolution_ns, double few_rows_ns) {
     return StepSearch(rows, trend, resolution_ns, few_rows_ns).run();
 }
 

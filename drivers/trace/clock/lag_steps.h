@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "drivers/trace/clock/counter_wrap.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
@@ -48,7 +48,8 @@ struct LagStep {
 /// what the trend leaves open. Where one side has less than 8 rows it is more than
 /// `few_rows_ns`, and more than 10 s for a rise at the end, where rows may only be late. Ascending
 /// by row. O(n).
-[[nodiscard]] std::vector<LagStep> lag_steps(std::span<const LagRow> rows, const LagTrend& trend,
-                                             double resolution_ns, double few_rows_ns);
+[[nodiscard]] memory::LongVector<LagStep> lag_steps(std::span<const LagRow> rows,
+                                                    const LagTrend& trend, double resolution_ns,
+                                                    double few_rows_ns);
 
 }  // namespace gazeloop::drivers

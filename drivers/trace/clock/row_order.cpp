@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "drivers/trace/clock/time_text.h"
+#include "runtime/memory/long_vector.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
@@ -15,21 +16,17 @@ namespace {
 
 using gaze::TraceFindingKind;
 
-bool same_ray(const gaze::EyeRay& a, const gaze::EyeRay& b) {
-    return a.valid == b.valid && a.openness == b.openness && a.confidence == b.confidence &&
-           a.origin_m == b.origin_m && (!a.valid || a.direction == b.direction);
-}
-
 /// Whether no other report looks like this one: noise or its number make it differ.
 bool is_telling(const RowsRead& rows, std::size_t row) {
-    const auto& [left, right] = rows.eyes(row);
-    return left.valid || right.valid || rows[row].sequence.has_value();
+    const KeptRow& kept = rows.kept(row);
+    return kept.valid(gaze::Eye::Left) || kept.valid(gaze::Eye::Right) ||
+           rows[row].sequence.has_value();
 }
 
 /// The work on the rows of one file.
 class Ordering {
   public:
-    Ordering(const RowsRead& rows, std::span<Wide> at_ns, std::vector<std::size_t> used,
+    Ordering(const RowsRead& rows, std::span<Wide> at_ns, memory::LongVector<std::size_t> used,
              std::int64_t interval_ns)
         : rows_(rows), at_ns_(at_ns), interval_ns_(interval_ns) {
         order_.rows = std::move(used);
@@ -97,7 +94,7 @@ class Ordering {
         }
         // Closed eyes look the same in all rows of a coarse clock's step.
         const bool closed_too = repeated >= differing;
-        std::vector<std::size_t> kept;
+        memory::LongVector<std::size_t> kept;
         kept.reserve(count);
         Wide latest = 0;
         for (const std::size_t index : order_.rows) {
@@ -113,7 +110,8 @@ class Ordering {
         order_.rows = std::move(kept);
     }
 
-    [[nodiscard]] bool has_twin(std::size_t index, const std::vector<std::size_t>& before) const {
+    [[nodiscard]] bool has_twin(std::size_t index,
+                                const memory::LongVector<std::size_t>& before) const {
         const std::size_t window = std::min(before.size(), kOrderWindow);
         return std::any_of(before.end() - static_cast<std::ptrdiff_t>(window), before.end(),
                            [&](std::size_t other) {
@@ -174,12 +172,14 @@ class Ordering {
     }
 
     void sort(std::size_t first, std::size_t end) {
-        std::vector<std::size_t> sorted;  // positions
+        memory::LongVector<std::size_t> sorted;  // positions
         for (std::size_t i = first; i < end; ++i) {
             sorted.push_back(i);
         }
-        std::stable_sort(sorted.begin(), sorted.end(),
-                         [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
+        // A stable sort would take memory for half of them.
+        std::sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
+            return at(a) < at(b) || (at(a) == at(b) && a < b);
+        });
         for (std::size_t i = 0; i < sorted.size(); ++i) {
             const std::size_t from = sorted[i];
             const std::size_t to = first + i;
@@ -187,7 +187,7 @@ class Ordering {
                 return;
             }
         }
-        const std::vector<std::size_t> rising = longest_rising(first, end);
+        const memory::LongVector<std::size_t> rising = longest_rising(first, end);
         const bool numbers_count_on = counts_up(first, end, &RowClock::sequence);
         if (numbers_count_on || !is_better(sorted, rising)) {
             const Wide most_ns = furthest(sorted);
@@ -211,7 +211,7 @@ class Ordering {
              .span_ns = time::saturated(at(sorted.back()) - at(sorted.front())),
              .text = fmt::format("{} of {} rows are not in the order of their times: put in order",
                                  moved, sorted.size())});
-        std::vector<std::size_t> rows;
+        memory::LongVector<std::size_t> rows;
         rows.reserve(sorted.size());
         for (const std::size_t i : sorted) {
             rows.push_back(order_.rows[i]);
@@ -233,7 +233,7 @@ class Ordering {
     }
 
     /// By how much a time moves at most where times are put in order among rows that stay.
-    [[nodiscard]] Wide furthest(const std::vector<std::size_t>& sorted) const {
+    [[nodiscard]] Wide furthest(const memory::LongVector<std::size_t>& sorted) const {
         std::size_t place = *std::min_element(sorted.begin(), sorted.end());
         Wide most_ns = 0;
         for (const std::size_t i : sorted) {
@@ -244,9 +244,9 @@ class Ordering {
     }
 
     /// Leaves the rows where they are, and puts their times in order. So many are as they stand.
-    void level(const std::vector<std::size_t>& sorted, std::size_t rising, Wide most_ns) {
+    void level(const memory::LongVector<std::size_t>& sorted, std::size_t rising, Wide most_ns) {
         const std::size_t first = *std::min_element(sorted.begin(), sorted.end());
-        std::vector<Wide> times_ns;
+        memory::LongVector<Wide> times_ns;
         times_ns.reserve(sorted.size());
         for (const std::size_t i : sorted) {
             times_ns.push_back(at(i));
@@ -269,7 +269,7 @@ class Ordering {
     /// Whether steps are usually off by much of an interval, so that one back is nothing special.
     [[nodiscard]] bool jitters() const {
         constexpr double kOff = 0.15;
-        std::vector<double> off;
+        memory::LongVector<double> off;
         for (std::size_t i = 1; i < order_.rows.size(); ++i) {
             const auto step_ns = static_cast<double>(at(i) - at(i - 1));
             if (step_ns != 0.0) {  // of a coarse clock's rows many share a reading
@@ -285,10 +285,10 @@ class Ordering {
     }
 
     /// The most rows of [first, end) whose times never go back, as positions.
-    [[nodiscard]] std::vector<std::size_t> longest_rising(std::size_t first,
-                                                          std::size_t end) const {
-        std::vector<std::size_t> ends;  // of the rising rows of each length, the least one
-        std::vector<std::size_t> before(end - first);
+    [[nodiscard]] memory::LongVector<std::size_t> longest_rising(std::size_t first,
+                                                                 std::size_t end) const {
+        memory::LongVector<std::size_t> ends;  // of the rising rows of each length, the least one
+        memory::LongVector<std::size_t> before(end - first);
         for (std::size_t i = first; i < end; ++i) {
             const auto place =
                 std::upper_bound(ends.begin(), ends.end(), i,
@@ -300,7 +300,7 @@ class Ordering {
                 *place = i;
             }
         }
-        std::vector<std::size_t> rising(ends.size());
+        memory::LongVector<std::size_t> rising(ends.size());
         std::size_t i = ends.back();
         for (std::size_t length = ends.size(); length-- > 0; i = before[i - first]) {
             rising[length] = i;
@@ -308,8 +308,8 @@ class Ordering {
         return rising;
     }
 
-    [[nodiscard]] bool is_better(const std::vector<std::size_t>& sorted,
-                                 const std::vector<std::size_t>& rising) const {
+    [[nodiscard]] bool is_better(const memory::LongVector<std::size_t>& sorted,
+                                 const memory::LongVector<std::size_t>& rising) const {
         const auto counts_up = [&](const auto& positions) {
             return std::adjacent_find(positions.begin(), positions.end(),
                                       [&](std::size_t a, std::size_t b) {
@@ -329,8 +329,8 @@ class Ordering {
 
     /// By how many intervals the steps are off, with the rows before and after; no step counts for
     /// more than one.
-    [[nodiscard]] double unevenness(const std::vector<std::size_t>& positions, std::size_t first,
-                                    std::size_t last) const {
+    [[nodiscard]] double unevenness(const memory::LongVector<std::size_t>& positions,
+                                    std::size_t first, std::size_t last) const {
         double sum = 0.0;
         const auto add = [&](Wide step_ns) {
             sum += std::min(
@@ -361,12 +361,16 @@ class Ordering {
 }  // namespace
 
 bool same_report(const RowsRead& rows, std::size_t a, std::size_t b) {
-    return rows[a].sequence == rows[b].sequence && same_ray(rows.eyes(a)[0], rows.eyes(b)[0]) &&
-           same_ray(rows.eyes(a)[1], rows.eyes(b)[1]);
+    if (rows[a].sequence != rows[b].sequence) {
+        return false;
+    }
+    const KeptRow& one = rows.kept(a);
+    const KeptRow& other = rows.kept(b);
+    return one.same_ray(other, gaze::Eye::Left) && one.same_ray(other, gaze::Eye::Right);
 }
 
-RowOrder rows_in_order(const RowsRead& rows, std::span<Wide> at_ns, std::vector<std::size_t> used,
-                       std::int64_t interval_ns) {
+RowOrder rows_in_order(const RowsRead& rows, std::span<Wide> at_ns,
+                       memory::LongVector<std::size_t> used, std::int64_t interval_ns) {
     return Ordering(rows, at_ns, std::move(used), interval_ns).run();
 }
 

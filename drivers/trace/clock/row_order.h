@@ -8,6 +8,7 @@
 #include "drivers/trace/clock/counter_wrap.h"
 #include "drivers/trace/clock/rows_read.h"
 #include "runtime/gaze/trace_report.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
@@ -19,8 +20,9 @@ inline constexpr std::int64_t kJitterIntervals = 4;
 
 /// Rows in the order of their times.
 struct RowOrder {
-    std::vector<std::size_t> rows;     ///< indices of rows
-    std::vector<std::size_t> repeats;  ///< those left out, because they are in the file before
+    memory::LongVector<std::size_t> rows;  ///< indices of rows
+    memory::LongVector<std::size_t>
+        repeats;  ///< those left out, because they are in the file before
     std::vector<gaze::TraceFinding> findings;  ///< of rows or times put in order; repeats in none
 };
 
@@ -38,6 +40,7 @@ struct RowOrder {
 /// moves by more than kJitterIntervals. A file whose times and sequence run backwards as a whole is
 /// turned round.
 [[nodiscard]] RowOrder rows_in_order(const RowsRead& rows, std::span<Wide> at_ns,
-                                     std::vector<std::size_t> used, std::int64_t interval_ns);
+                                     memory::LongVector<std::size_t> used,
+                                     std::int64_t interval_ns);
 
 }  // namespace gazeloop::drivers

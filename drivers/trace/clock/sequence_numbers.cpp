@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "runtime/memory/long_vector.h"
+
 namespace gazeloop::drivers {
 namespace {
 
@@ -65,7 +67,7 @@ class Numbering {
     [[nodiscard]] std::uint64_t stride_of() const {
         constexpr std::size_t kFewest = 16;
         constexpr std::size_t kNearlyAll = 10;  // all but one in so many
-        std::vector<std::uint64_t> steps;
+        memory::LongVector<std::uint64_t> steps;
         for (std::size_t i = 1; i < count_; ++i) {
             if (sequence(i - 1) && sequence(i) && *sequence(i) > *sequence(i - 1)) {
                 steps.push_back(*sequence(i) - *sequence(i - 1));
@@ -385,9 +387,9 @@ class Numbering {
     const RowsRead& rows_;
     const DeviceTimes& times_;
     std::size_t count_;  ///< of used rows
-    std::vector<bool> dropped_;
-    std::vector<std::uint64_t> steps_;  ///< from the number before, of each position
-    std::vector<Gap> gaps_;
+    memory::LongVector<bool> dropped_;
+    memory::LongVector<std::uint64_t> steps_;  ///< from the number before, of each position
+    memory::LongVector<Gap> gaps_;
     std::size_t late_end_ = 0;         ///< up to here rows were filed late
     std::optional<std::size_t> last_;  ///< position of the last number that counts
     std::size_t breaks_ = 0;           ///< numbers that do not follow, wraps left aside

@@ -9,6 +9,7 @@
 #include "drivers/trace/clock/device_times.h"
 #include "drivers/trace/clock/rows_read.h"
 #include "runtime/gaze/trace_report.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
@@ -16,7 +17,7 @@ namespace gazeloop::drivers {
 struct SequenceNumbers {
     /// Of each used row. Those of the file where it counts up, and counted on where it begins anew;
     /// a gap is what the tracker lost, never a row that was left out here.
-    std::vector<std::uint64_t> numbers;
+    memory::LongVector<std::uint64_t> numbers;
     /// None where there are no numbers, over a tenth of the rows has none, they do not count, or
     /// they begin anew across a gap: nobody knows then.
     std::optional<std::uint64_t> lost;

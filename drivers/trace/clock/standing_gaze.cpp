@@ -23,7 +23,8 @@ std::vector<gaze::TraceFinding> standing_gaze(const RowsRead& rows, const Device
     const auto line = [&](std::size_t i) { return rows[row(i)].line; };
     for (std::size_t first = 0; first < count;) {
         std::size_t end = first + 1;
-        if (rows.eyes(row(first))[0].valid || rows.eyes(row(first))[1].valid) {
+        const KeptRow& report = rows.kept(row(first));
+        if (report.valid(gaze::Eye::Left) || report.valid(gaze::Eye::Right)) {
             while (end < count && same_report(rows, row(end), row(first))) {
                 ++end;
             }

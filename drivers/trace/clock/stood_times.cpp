@@ -5,6 +5,7 @@
 
 #include "drivers/trace/clock/clock_chain.h"
 #include "drivers/trace/clock/counter_wrap.h"
+#include "runtime/memory/long_vector.h"
 #include "runtime/time/span.h"
 
 namespace gazeloop::drivers {
@@ -21,8 +22,8 @@ constexpr std::size_t kFewestBehind = 4;
 
 using HostTimes = std::span<const std::optional<std::int64_t>>;
 
-std::vector<std::size_t> known(HostTimes host_ns) {
-    std::vector<std::size_t> rows;
+memory::LongVector<std::size_t> known(HostTimes host_ns) {
+    memory::LongVector<std::size_t> rows;
     for (std::size_t i = 0; i < host_ns.size(); ++i) {
         if (host_ns[i]) {
             rows.push_back(i);
@@ -31,8 +32,8 @@ std::vector<std::size_t> known(HostTimes host_ns) {
     return rows;
 }
 
-double median_interval_ns(HostTimes host_ns, const std::vector<std::size_t>& rows) {
-    std::vector<double> intervals;
+double median_interval_ns(HostTimes host_ns, const memory::LongVector<std::size_t>& rows) {
+    memory::LongVector<double> intervals;
     const std::size_t reach = std::min(kReach, rows.size() / 2);
     for (std::size_t i = reach; reach > 0 && i < rows.size(); ++i) {
         const Wide step = static_cast<Wide>(*host_ns[rows[i]]) - *host_ns[rows[i - reach]];
@@ -69,7 +70,7 @@ class Following {
         if (!times.by_host) {
             interval_ns_ = static_cast<double>(usual_ns);
         }
-        std::vector<Jump> jumps(host_ns_.size());
+        memory::LongVector<Jump> jumps(host_ns_.size());
         if (times.by_host) {
             find_jumps(jumps);
             refine_interval(jumps);
@@ -110,8 +111,8 @@ class Following {
                     return more_ns < -tolerance_ns_ || more_ns > kDay_ns ? kImpossibleStep : 0.0;
                 },
         };
-        const std::vector<bool> kept = readings_in_step(used_.size(), steps);
-        std::vector<std::size_t> left;
+        const memory::LongVector<bool> kept = readings_in_step(used_.size(), steps);
+        memory::LongVector<std::size_t> left;
         for (std::size_t i = 0; i < used_.size(); ++i) {
             if (kept[i]) {
                 left.push_back(used_[i]);
@@ -121,8 +122,8 @@ class Following {
     }
 
     /// The least lateness of a row and those that follow it.
-    [[nodiscard]] std::vector<double> least_after() const {
-        std::vector<double> least(used_.size());
+    [[nodiscard]] memory::LongVector<double> least_after() const {
+        memory::LongVector<double> least(used_.size());
         for (std::size_t i = 0; i < used_.size(); ++i) {
             least[i] = late_ns(i);
             const std::size_t end = std::min(i + kLatest, used_.size());
@@ -133,8 +134,8 @@ class Following {
         return least;
     }
 
-    void find_jumps(std::vector<Jump>& jumps) const {
-        const std::vector<double> least = least_after();
+    void find_jumps(memory::LongVector<Jump>& jumps) const {
+        const memory::LongVector<double> least = least_after();
         std::size_t since = 0;  // the last jump
         for (std::size_t i = 1; i < used_.size(); ++i) {
             double before_ns = late_ns(i - 1);
@@ -151,12 +152,12 @@ class Following {
     }
 
     /// By the lowest of the first and the last quarter of the rows.
-    void refine_interval(const std::vector<Jump>& jumps) {
+    void refine_interval(const memory::LongVector<Jump>& jumps) {
         constexpr std::size_t kFewest = 64;
         if (used_.size() < kFewest) {
             return;
         }
-        std::vector<double> late;
+        memory::LongVector<double> late;
         double jumped_ns = 0.0;
         std::size_t row = 0;
         for (std::size_t i = 0; i < used_.size(); ++i) {
@@ -175,7 +176,7 @@ class Following {
     }
 
     HostTimes host_ns_;
-    std::vector<std::size_t> used_;
+    memory::LongVector<std::size_t> used_;
     double interval_ns_;
     double tolerance_ns_;
 };

@@ -3,14 +3,15 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
+
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::drivers {
 
 /// By the host's clock, when rows were taken over which the device's clock stood.
 struct StoodTimes {
-    std::vector<std::int64_t> since_ns;  ///< the first row; never falls
-    bool by_host = false;                ///< at all: two host times or more could be used
+    memory::LongVector<std::int64_t> since_ns;  ///< the first row; never falls
+    bool by_host = false;                       ///< at all: two host times or more could be used
 };
 
 /// The usual time from one row to the next by the host's clock, whatever its jitter and however

@@ -59,8 +59,7 @@ EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
              .bits = {}}};
 }
 
-Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
-                               const ReadOptions& options) {
+Expected<BuiltTrace> read(CsvTable& table, const TraceFile& /*file*/, const ReadOptions& options) {
     gaze::PerEye<EyeCells> eyes{eye_cells(table, gaze::Eye::Left),
                                 eye_cells(table, gaze::Eye::Right)};
     const auto head = table.columns(kHead, "the head's pose");
@@ -98,7 +97,7 @@ std::string seconds_text(std::int64_t ns) {
 
 const TraceFormat& angle_table() { return kFormat; }
 
-void write_angle_table(const gaze::GazeTrace& trace, std::ostream& out) {
+void write_angle_table(const gaze::RecordingView& trace, std::ostream& out) {
     out << fmt::format("{}\n", fmt::join(kColumns, ","));
     LineWriter line;
     for (const gaze::GazeSample& sample : trace.samples) {

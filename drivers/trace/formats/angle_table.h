@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "drivers/trace/trace_format.h"
+#include "runtime/gaze/gaze_trace.h"
 
 namespace gazeloop::drivers {
 
@@ -13,6 +14,6 @@ namespace gazeloop::drivers {
 [[nodiscard]] const TraceFormat& angle_table();
 
 /// Writes it, times since the first sample; samples whose time is unknown are left out.
-void write_angle_table(const gaze::GazeTrace& trace, std::ostream& out);
+void write_angle_table(const gaze::RecordingView& trace, std::ostream& out);
 
 }  // namespace gazeloop::drivers

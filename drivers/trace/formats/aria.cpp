@@ -87,8 +87,7 @@ EyeCells eye_cells(CsvTable& table, gaze::Eye eye, Angles angles) {
             form};
 }
 
-Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
-                               const ReadOptions& options) {
+Expected<BuiltTrace> read(CsvTable& table, const TraceFile& /*file*/, const ReadOptions& options) {
     const Angles angles = angles_of(table);
     gaze::PerEye<EyeCells> eyes{eye_cells(table, gaze::Eye::Left, angles),
                                 eye_cells(table, gaze::Eye::Right, angles)};

@@ -53,7 +53,7 @@ class Reader {
         builder_.clock_is("time", 1e6);
     }
 
-    [[nodiscard]] Expected<gaze::GazeTrace> read(const ReadOptions& options) {
+    [[nodiscard]] Expected<BuiltTrace> read(const ReadOptions& options) {
         while (true) {
             const Expected<bool> more = lines_.next();
             if (!more) {
@@ -247,8 +247,8 @@ bool is_eyelink_asc(std::string_view first_line) {
     return first_line.starts_with("** CONVERTED FROM ");
 }
 
-Expected<gaze::GazeTrace> read_eyelink_asc(TextLines lines, const TraceFile& file,
-                                           const ReadOptions& options) {
+Expected<BuiltTrace> read_eyelink_asc(TextLines lines, const TraceFile& file,
+                                      const ReadOptions& options) {
     return Reader(std::move(lines), file).read(options);
 }
 

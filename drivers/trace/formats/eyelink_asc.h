@@ -2,11 +2,11 @@
 
 #include <string_view>
 
+#include "drivers/trace/built_trace.h"
 #include "drivers/trace/read_options.h"
 #include "drivers/trace/text/text_lines.h"
 #include "drivers/trace/trace_format.h"
 #include "runtime/error.h"
-#include "runtime/gaze/gaze_trace.h"
 
 namespace gazeloop::drivers {
 
@@ -23,7 +23,7 @@ inline constexpr std::string_view kEyelinkAsc = "eyelink-asc";
 ///
 /// Errors (BadInput): samples that are not GAZE (HREF, PUPIL), samples before a line SAMPLES says
 /// of which eyes, no geometry, a sample with fewer cells, those of TextLines and TraceBuilder.
-[[nodiscard]] Expected<gaze::GazeTrace> read_eyelink_asc(TextLines lines, const TraceFile& file,
-                                                         const ReadOptions& options);
+[[nodiscard]] Expected<BuiltTrace> read_eyelink_asc(TextLines lines, const TraceFile& file,
+                                                    const ReadOptions& options);
 
 }  // namespace gazeloop::drivers

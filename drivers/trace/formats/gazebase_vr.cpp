@@ -42,8 +42,7 @@ EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
              .bits = {}}};
 }
 
-Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
-                               const ReadOptions& options) {
+Expected<BuiltTrace> read(CsvTable& table, const TraceFile& /*file*/, const ReadOptions& options) {
     gaze::PerEye<EyeCells> eyes{eye_cells(table, gaze::Eye::Left),
                                 eye_cells(table, gaze::Eye::Right)};
     const std::size_t time = *table.column(kTime);

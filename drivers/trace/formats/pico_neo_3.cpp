@@ -61,8 +61,7 @@ EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
         {.trust = has_state ? trust : nullptr, .to_our_axes = {1.0, 1.0, -1.0}, .bits = {}}};
 }
 
-Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
-                               const ReadOptions& options) {
+Expected<BuiltTrace> read(CsvTable& table, const TraceFile& /*file*/, const ReadOptions& options) {
     gaze::PerEye<EyeCells> eyes{eye_cells(table, gaze::Eye::Left),
                                 eye_cells(table, gaze::Eye::Right)};
     const auto head = table.columns(kHead, "the head's pose");

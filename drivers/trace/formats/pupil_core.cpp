@@ -50,8 +50,7 @@ EyeCells eye_cells(CsvTable& table, gaze::Eye eye) {
             {.to_our_axes = {1.0, -1.0, -1.0}, .metre = 1e-3, .bits = {}}};
 }
 
-Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
-                               const ReadOptions& options) {
+Expected<BuiltTrace> read(CsvTable& table, const TraceFile& /*file*/, const ReadOptions& options) {
     constexpr double kUseful = 0.6;
     gaze::PerEye<EyeCells> eyes{eye_cells(table, gaze::Eye::Left),
                                 eye_cells(table, gaze::Eye::Right)};

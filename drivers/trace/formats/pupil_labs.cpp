@@ -192,7 +192,7 @@ void report_served(const Beside& beside, const Served& served, gaze::TraceReport
     }
 }
 
-Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const ReadOptions& options) {
+Expected<BuiltTrace> read(CsvTable& table, const TraceFile& file, const ReadOptions& options) {
     constexpr std::int64_t kSameTime_ns = 6'000'000;
     const Expected<Beside> beside = read_beside(table, file);
     if (!beside) {

@@ -60,7 +60,7 @@ class Places {
     std::optional<glm::dvec2> last_;
 };
 
-Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& file, const ReadOptions& options) {
+Expected<BuiltTrace> read(CsvTable& table, const TraceFile& file, const ReadOptions& options) {
     const Expected<ScreenSidecar> sidecar = read_screen_sidecar(file, table.name());
     if (!sidecar) {
         return std::unexpected(sidecar.error());

@@ -126,7 +126,7 @@ void note_all(const TextLines& lines, const BadCells& bad, const Others& others,
 
 bool is_json_lines(std::string_view first_line) { return trimmed(first_line).starts_with('{'); }
 
-Expected<gaze::GazeTrace> read_tobii_glasses_3(TextLines lines, const ReadOptions& options) {
+Expected<BuiltTrace> read_tobii_glasses_3(TextLines lines, const ReadOptions& options) {
     TraceBuilder builder(
         {.file = lines.name(), .format = kTobiiGlasses3, .device = "Tobii Pro Glasses 3"});
     builder.clock_is("timestamp", 1e9);

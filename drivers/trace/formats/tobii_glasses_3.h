@@ -2,10 +2,10 @@
 
 #include <string_view>
 
+#include "drivers/trace/built_trace.h"
 #include "drivers/trace/read_options.h"
 #include "drivers/trace/text/text_lines.h"
 #include "runtime/error.h"
-#include "runtime/gaze/gaze_trace.h"
 
 namespace gazeloop::drivers {
 
@@ -20,7 +20,7 @@ inline constexpr std::string_view kTobiiGlasses3 = "tobii-glasses-3";
 ///
 /// Errors (BadInput): those of TextLines; a line that is no JSON object, unless it is a last one
 /// that was cut; those of TraceBuilder.
-[[nodiscard]] Expected<gaze::GazeTrace> read_tobii_glasses_3(TextLines lines,
-                                                             const ReadOptions& options);
+[[nodiscard]] Expected<BuiltTrace> read_tobii_glasses_3(TextLines lines,
+                                                        const ReadOptions& options);
 
 }  // namespace gazeloop::drivers

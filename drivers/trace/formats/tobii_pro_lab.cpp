@@ -98,8 +98,7 @@ std::optional<int> decimals_of(std::string_view unit) {
     return unit == "ns" ? std::optional{0} : std::nullopt;
 }
 
-Expected<gaze::GazeTrace> read(CsvTable& table, const TraceFile& /*file*/,
-                               const ReadOptions& options) {
+Expected<BuiltTrace> read(CsvTable& table, const TraceFile& /*file*/, const ReadOptions& options) {
     const std::size_t time = *table.column(kTime);
     const std::optional<int> decimals = decimals_of(table.unit(time));
     if (!decimals) {

@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "runtime/gaze/direction.h"
 #include "runtime/gaze/gaze_quality.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::gaze {
 namespace {
 
 constexpr double kLeastSaccade_deg = 2.0;
 
-std::optional<Spread> spread_of(std::vector<double> values) {
+std::optional<Spread> spread_of(memory::LongVector<double> values) {
     if (values.empty()) {
         return std::nullopt;
     }
@@ -28,7 +28,7 @@ std::optional<Spread> spread_of(std::vector<double> values) {
 struct Kind {
     std::size_t count = 0;
     double all_ms = 0.0;
-    std::vector<double> durations_ms;  ///< of those that are not cut
+    memory::LongVector<double> durations_ms;  ///< of those that are not cut
 
     [[nodiscard]] EventKindStatistics over(double recording_ms) const {
         EventKindStatistics statistics{.count = count};
@@ -69,11 +69,11 @@ EventStatistics event_statistics(std::span<const RecordedEvent> events) {
     Kind pursuits;
     Kind blinks;
     Kind losses;
-    std::vector<double> deviations_deg;
-    std::vector<double> amplitudes_deg;
-    std::vector<double> peaks_deg_per_s;
-    std::vector<double> pursued_deg_per_s;
-    std::vector<SaccadePoint> points;
+    memory::LongVector<double> deviations_deg;
+    memory::LongVector<double> amplitudes_deg;
+    memory::LongVector<double> peaks_deg_per_s;
+    memory::LongVector<double> pursued_deg_per_s;
+    memory::LongVector<SaccadePoint> points;
     for (const RecordedEvent& event : events) {
         const bool blink = is_as_long_as_a_blink(event);
         Kind& kind = event.event == EyeEvent::Fixation      ? fixations

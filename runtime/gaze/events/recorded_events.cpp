@@ -9,6 +9,7 @@
 #include "runtime/gaze/direction.h"
 #include "runtime/gaze/usable_direction.h"
 #include "runtime/gaze/usable_pose.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::gaze {
 namespace {
@@ -104,7 +105,7 @@ void RecordedEvents::close() {
     open_.reset();
 }
 
-std::vector<RecordedEvent> RecordedEvents::finish() {
+memory::LongVector<RecordedEvent> RecordedEvents::finish() {
     if (waiting_) {
         take(detector_.event());
         close();
@@ -113,7 +114,7 @@ std::vector<RecordedEvent> RecordedEvents::finish() {
     return std::exchange(events_, {});
 }
 
-std::vector<RecordedEvent> recorded_events(std::span<const GazeSample> samples) {
+memory::LongVector<RecordedEvent> recorded_events(const SampleRange& samples) {
     RecordedEvents events;
     for (const GazeSample& sample : samples) {
         events.add(sample);

@@ -2,12 +2,12 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "runtime/gaze/events/cyclopean_gaze.h"
 #include "runtime/gaze/events/event_detector.h"
 #include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/sample_range.h"
+#include "runtime/memory/long_vector.h"
 
 namespace gazeloop::gaze {
 
@@ -40,7 +40,7 @@ class RecordedEvents {
     /// In the order of arrival. Samples whose time is unknown or goes back are left out.
     void add(const GazeSample& sample);
     /// All events, in the order of their times, without time between them. After the last sample.
-    [[nodiscard]] std::vector<RecordedEvent> finish();
+    [[nodiscard]] memory::LongVector<RecordedEvent> finish();
 
   private:
     /// A sample whose event the detector has yet to tell.
@@ -60,10 +60,10 @@ class RecordedEvents {
     glm::dvec3 sum_{0.0};                  ///< of the open event's directions
     std::optional<std::int64_t> seen_ns_;  ///< the last sample with gaze
     glm::dvec3 last_{0.0};                 ///< where it was; zero once it is lost
-    std::vector<RecordedEvent> events_;
+    memory::LongVector<RecordedEvent> events_;
 };
 
 /// All of a recording's.
-[[nodiscard]] std::vector<RecordedEvent> recorded_events(std::span<const GazeSample> samples);
+[[nodiscard]] memory::LongVector<RecordedEvent> recorded_events(const SampleRange& samples);
 
 }  // namespace gazeloop::gaze

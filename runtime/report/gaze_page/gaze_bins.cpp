@@ -21,16 +21,30 @@ double elevation_deg(const glm::dvec3& direction) {
     return glm::degrees(std::atan2(direction.y, std::hypot(direction.x, direction.z)));
 }
 
-std::vector<const gaze::GazeSample*> in_order(std::span<const gaze::GazeSample> samples) {
-    std::vector<const gaze::GazeSample*> ordered;
+/// Calls `look` with each sample whose time is known and later than the last one's.
+void each_in_order(const gaze::SampleRange& samples, const auto& look) {
+    std::optional<std::int64_t> last_ns;
     for (const gaze::GazeSample& sample : samples) {
-        if (sample.sampled.known() &&
-            (ordered.empty() || sample.sampled.ns > ordered.back()->sampled.ns)) {
-            ordered.push_back(&sample);
+        if (sample.sampled.known() && (!last_ns || sample.sampled.ns > *last_ns)) {
+            look(sample);
+            last_ns = sample.sampled.ns;
         }
     }
-    return ordered;
 }
+
+/// Samples in order.
+struct Ordered {
+    std::size_t count = 0;
+    std::int64_t first_ns = 0;
+    std::int64_t last_ns = 0;
+
+    explicit Ordered(const gaze::SampleRange& samples) {
+        each_in_order(samples, [this](const gaze::GazeSample& sample) {
+            last_ns = sample.sampled.ns;
+            first_ns = count++ == 0 ? last_ns : first_ns;
+        });
+    }
+};
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
@@ -68,24 +82,24 @@ void AngleRange::add(const AngleRange& more) {
     count += more.count;
 }
 
-GazeBins gaze_bins(std::span<const gaze::GazeSample> samples,
-                   std::span<const gaze::RecordedEvent> events) {
-    const std::vector<const gaze::GazeSample*> ordered = in_order(samples);
+GazeBins gaze_bins(const gaze::SampleRange& samples, std::span<const gaze::RecordedEvent> events) {
+    const Ordered ordered(samples);
     GazeBins found{.series = {"left_azimuth", "right_azimuth", "left_elevation", "right_elevation"},
                    .bins = {}};
-    if (ordered.empty()) {
+    if (ordered.count == 0) {
         return found;
     }
-    const std::int64_t first_ns = ordered.front()->sampled.ns;
-    found.end_s = seconds(ordered.back()->sampled.ns - first_ns);
-    const std::size_t each = (ordered.size() + kMostBins - 1) / kMostBins;
+    const std::int64_t first_ns = ordered.first_ns;
+    found.end_s = seconds(ordered.last_ns - first_ns);
+    const std::size_t each = (ordered.count + kMostBins - 1) / kMostBins;
     auto event = events.begin();
-    for (std::size_t i = 0; i < ordered.size(); ++i) {
-        const gaze::GazeSample& sample = *ordered[i];
+    std::size_t i = 0;
+    each_in_order(samples, [&](const gaze::GazeSample& sample) {
         if (i % each == 0) {
             found.bins.push_back(
                 {.begin_s = seconds(sample.sampled.ns - first_ns), .first_sample = i});
         }
+        ++i;
         GazeBin& bin = found.bins.back();
         ++bin.samples;
         while (event != events.end() && event + 1 != events.end() &&
@@ -101,26 +115,27 @@ GazeBins gaze_bins(std::span<const gaze::GazeSample> samples,
                 bin.angles[gaze::kEyeCount + gaze::index(eye)].add(elevation_deg(*direction));
             }
         }
-    }
+    });
     return found;
 }
 
-GazeBins compared_bins(std::span<const gaze::GazeSample> one,
-                       std::span<const gaze::GazeSample> other, double lag_ms) {
-    const std::array both{in_order(one), in_order(other)};
+GazeBins compared_bins(const gaze::SampleRange& one, const gaze::SampleRange& other,
+                       double lag_ms) {
+    const std::array samples_of{one, other};
+    const std::array both{Ordered(one), Ordered(other)};
     GazeBins found{.series = {"one_azimuth", "other_azimuth", "one_elevation", "other_elevation"},
                    .bins = {}};
-    if (both[0].size() < 2 || both[1].size() < 2) {
+    if (both[0].count < 2 || both[1].count < 2) {
         return found;
     }
-    const auto length_s = [](const std::vector<const gaze::GazeSample*>& samples) {
-        return seconds(samples.back()->sampled.ns - samples.front()->sampled.ns);
+    const auto length_s = [](const Ordered& ordered) {
+        return seconds(ordered.last_ns - ordered.first_ns);
     };
     found.end_s = length_s(both[0]);
     double coarsest_s = 0.0;
-    for (const auto& samples : both) {
+    for (const Ordered& ordered : both) {
         coarsest_s =
-            std::max(coarsest_s, length_s(samples) / static_cast<double>(samples.size() - 1));
+            std::max(coarsest_s, length_s(ordered) / static_cast<double>(ordered.count - 1));
     }
     const double width_s =
         std::max(2.0 * coarsest_s, found.end_s / static_cast<double>(kMostBins - 1));
@@ -130,18 +145,17 @@ GazeBins compared_bins(std::span<const gaze::GazeSample> one,
     }
     for (std::size_t which = 0; which < both.size(); ++which) {
         const double earlier_s = which == 0 ? 0.0 : 1e-3 * lag_ms;
-        for (const gaze::GazeSample* const sample : both[which]) {
-            const double at_s =
-                seconds(sample->sampled.ns - both[which].front()->sampled.ns) - earlier_s;
-            const auto direction = middle_of(*sample);
+        each_in_order(samples_of[which], [&](const gaze::GazeSample& sample) {
+            const double at_s = seconds(sample.sampled.ns - both[which].first_ns) - earlier_s;
+            const auto direction = middle_of(sample);
             if (at_s < 0.0 || at_s > found.end_s || !direction) {
-                continue;
+                return;
             }
             GazeBin& bin = found.bins[std::min(static_cast<std::size_t>(at_s / width_s), bins - 1)];
             bin.samples += which == 0 ? 1 : 0;
             bin.angles[which].add(azimuth_deg(*direction));
             bin.angles[2 + which].add(elevation_deg(*direction));
-        }
+        });
     }
     return found;
 }

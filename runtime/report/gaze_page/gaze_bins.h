@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "runtime/gaze/events/recorded_events.h"
-#include "runtime/gaze/gaze_sample.h"
+#include "runtime/gaze/sample_range.h"
 
 namespace gazeloop::report::page {
 
@@ -43,14 +43,14 @@ inline constexpr std::size_t kMostBins = 12'000;
 
 /// Azimuth and elevation of both eyes in the head, of samples in the order of their times: as many
 /// samples in each bin. Others are left out.
-[[nodiscard]] GazeBins gaze_bins(std::span<const gaze::GazeSample> samples,
+[[nodiscard]] GazeBins gaze_bins(const gaze::SampleRange& samples,
                                  std::span<const gaze::RecordedEvent> events);
 
 /// Mean direction of the valid eyes of two recordings, the other one's `lag_ms` earlier, each from
 /// its own first sample, over the time of the first: bins of equal lengths of time, in which each
 /// recording has a sample or two at least.
-[[nodiscard]] GazeBins compared_bins(std::span<const gaze::GazeSample> one,
-                                     std::span<const gaze::GazeSample> other, double lag_ms);
+[[nodiscard]] GazeBins compared_bins(const gaze::SampleRange& one, const gaze::SampleRange& other,
+                                     double lag_ms);
 
 /// At most so many bins, each of as many of those as the next.
 [[nodiscard]] std::vector<GazeBin> in_parts(const GazeBins& bins, std::size_t most);

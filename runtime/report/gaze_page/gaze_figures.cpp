@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "runtime/gaze/main_sequence.h"
+#include "runtime/memory/long_vector.h"
 #include "runtime/report/gaze_page/gaze_tables.h"
 #include "runtime/report/gaze_page/histogram.h"
 
@@ -49,7 +50,7 @@ DrawnFigure time_figure(const std::string& id, const std::string& title, const s
 
 DrawnFigure bars_figure(const std::string& id, const std::string& title, const std::string& note,
                         const std::string& quantity, const std::string& what,
-                        std::vector<double> values, double finest) {
+                        memory::LongVector<double> values, double finest) {
     const Histogram bars = histogram(std::move(values), finest);
     const std::string above =
         bars.above > 0
@@ -160,8 +161,8 @@ DrawnFigure place_figure(const GazeFindings& found, bool in_world, const std::st
 }
 
 /// Times between samples, ms.
-std::vector<double> intervals_ms(const gaze::GazeTrace& trace) {
-    std::vector<double> intervals;
+memory::LongVector<double> intervals_ms(const gaze::RecordingView& trace) {
+    memory::LongVector<double> intervals;
     std::optional<std::int64_t> before_ns;
     for (const gaze::GazeSample& sample : trace.samples) {
         if (!sample.sampled.known() || (before_ns && sample.sampled.ns <= *before_ns)) {
@@ -176,9 +177,9 @@ std::vector<double> intervals_ms(const gaze::GazeTrace& trace) {
 }
 
 /// Of the events of a kind, what is above 0.
-std::vector<double> of_events(const GazeFindings& found, gaze::EyeEvent kind,
-                              const auto& value_of) {
-    std::vector<double> values;
+memory::LongVector<double> of_events(const GazeFindings& found, gaze::EyeEvent kind,
+                                     const auto& value_of) {
+    memory::LongVector<double> values;
     for (const gaze::RecordedEvent& event : found.events) {
         if (event.event == kind && value_of(event) > 0.0) {
             values.push_back(value_of(event));
@@ -189,7 +190,7 @@ std::vector<double> of_events(const GazeFindings& found, gaze::EyeEvent kind,
 
 }  // namespace
 
-RecordingFigures recording_figures(const gaze::GazeTrace& trace, const GazeFindings& found,
+RecordingFigures recording_figures(const gaze::RecordingView& trace, const GazeFindings& found,
                                    const GazeBins& bins, std::size_t number, std::size_t stream) {
     constexpr double kFinest_ms = 0.01;
     constexpr double kFinest_deg = 0.01;

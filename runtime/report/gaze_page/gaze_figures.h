@@ -29,7 +29,7 @@ struct RecordingFigures {
     std::vector<DrawnFigure> quality;
     std::vector<DrawnFigure> events;
 };
-[[nodiscard]] RecordingFigures recording_figures(const gaze::GazeTrace& trace,
+[[nodiscard]] RecordingFigures recording_figures(const gaze::RecordingView& trace,
                                                  const GazeFindings& found, const GazeBins& bins,
                                                  std::size_t number, std::size_t stream);
 

@@ -22,7 +22,7 @@ Json recording_json(const page::PageRecording& recording) {
 }
 
 /// When the recording's times begin.
-std::int64_t first_ns(const gaze::GazeTrace& trace) {
+std::int64_t first_ns(const gaze::RecordingView& trace) {
     for (const gaze::GazeSample& sample : trace.samples) {
         if (sample.sampled.known()) {
             return sample.sampled.ns;

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string name_of(const gaze::GazeTrace& trace) {
+std::string name_of(const gaze::RecordingView& trace) {
     return std::filesystem::path(trace.file).filename().string();
 }
 
@@ -27,7 +27,7 @@ double percent(std::uint64_t part, std::size_t whole) {
 }
 
 /// The figures that a reader looks for first.
-data key_figures(const gaze::GazeTrace& trace, const GazeFindings& found) {
+data key_figures(const gaze::RecordingView& trace, const GazeFindings& found) {
     data all = list();
     const auto add = [&all](const char* label, const std::string& value, const char* unit,
                             const std::string& more) {
@@ -37,7 +37,7 @@ data key_figures(const gaze::GazeTrace& trace, const GazeFindings& found) {
         item.set("more", more);
         all << item;
     };
-    const double rate_hz = gaze::sample_rate_hz(trace.samples);
+    const double rate_hz = trace.rate_hz();
     add("Rate", rate_hz > 0.0 ? fmt::format("{:.4g}", rate_hz) : "unknown", "Hz",
         fmt::format("{} samples in {:.4g} s", trace.samples.size(), found.quality.duration_s));
     gaze::PerEye<std::uint64_t> seen{};
@@ -74,7 +74,7 @@ data figures_data(std::vector<DrawnFigure>& figures, Json& drawn) {
 
 data recording_data(const PageRecording& recording, std::size_t number, bool alone,
                     const std::string& name, Json& streams, Json& drawn) {
-    const gaze::GazeTrace& trace = recording.trace;
+    const gaze::RecordingView& trace = recording.trace;
     const GazeBins bins = gaze_bins(trace.samples, recording.found.events);
     RecordingFigures figures =
         recording_figures(trace, recording.found, bins, number, streams.size());

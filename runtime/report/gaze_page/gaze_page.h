@@ -13,7 +13,7 @@ namespace gazeloop::report::page {
 
 /// A recording and what was found in it.
 struct PageRecording {
-    const gaze::GazeTrace& trace;
+    gaze::RecordingView trace;
     const GazeFindings& found;
     std::string refused;  ///< why run and replay refuse it; empty: they do not
 };

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "runtime/memory/long_vector.h"
+
 namespace gazeloop::report::page {
 namespace {
 
@@ -17,7 +19,7 @@ double round_width(double least) {
 
 }  // namespace
 
-Histogram histogram(std::vector<double> values, double finest) {
+Histogram histogram(memory::LongVector<double> values, double finest) {
     constexpr double kBins = 40.0;
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
     Histogram found{.known = values.size()};

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "runtime/memory/long_vector.h"
+
 namespace gazeloop::report::page {
 
 /// How often a quantity lay where: about 40 bins of one width, from a multiple of it.
@@ -17,6 +19,6 @@ struct Histogram {
 
 /// Up to the 99th percentile of the finite ones; others are left out. `finest` > 0: no bin is
 /// narrower.
-[[nodiscard]] Histogram histogram(std::vector<double> values, double finest);
+[[nodiscard]] Histogram histogram(memory::LongVector<double> values, double finest);
 
 }  // namespace gazeloop::report::page

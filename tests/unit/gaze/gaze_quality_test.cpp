@@ -7,8 +7,14 @@
 #include <random>
 #include <vector>
 
+#include "runtime/gaze/sample_rate.h"
+
 namespace gazeloop::gaze {
 namespace {
+
+GazeQuality gaze_quality(const SampleRange& samples) {
+    return gaze::gaze_quality(samples, sample_rate_hz(samples));
+}
 
 /// The left eye looks at `right_deg` to the right; it is not seen where that is NaN.
 GazeSample sample(double time_ms, double right_deg) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <span>
 #include <vector>
 
 #include "runtime/gaze/events/event_statistics.h"
@@ -43,7 +44,7 @@ class Made {
     std::vector<GazeSample> samples;
 };
 
-void expect_whole(const std::vector<RecordedEvent>& events, const Made& made) {
+void expect_whole(std::span<const RecordedEvent> events, const Made& made) {
     ASSERT_FALSE(events.empty());
     EXPECT_EQ(events.front().begin_ns, made.samples.front().sampled.ns);
     EXPECT_EQ(events.back().end_ns, made.samples.back().sampled.ns);
@@ -69,7 +70,7 @@ TEST(RecordedEvents, ListsSaccadesWithTheirSize) {
         at_deg += amplitude;
     }
     made.rest(at_deg, 200);
-    const std::vector<RecordedEvent> events = recorded_events(made.samples);
+    const memory::LongVector<RecordedEvent> events = recorded_events(made.samples);
     expect_whole(events, made);
     std::vector<RecordedEvent> saccades;
     for (const RecordedEvent& event : events) {
@@ -97,7 +98,7 @@ TEST(RecordedEvents, TellsHowLongTheEyeWasUnseen) {
     made.rest(0.0, 200);
     made.rest(0.0, 499, false);  // 1 s
     made.rest(0.0, 200);
-    const std::vector<RecordedEvent> events = recorded_events(made.samples);
+    const memory::LongVector<RecordedEvent> events = recorded_events(made.samples);
     expect_whole(events, made);
     std::vector<std::int64_t> unseen_ms;
     for (const RecordedEvent& event : events) {
@@ -167,13 +168,13 @@ TEST(RecordedEvents, DoWithoutSamplesAndTimes) {
     EXPECT_EQ(event_statistics({}).duration_s, 0.0);
     Made one;
     one.look(1.0);
-    const std::vector<RecordedEvent> events = recorded_events(one.samples);
+    const memory::LongVector<RecordedEvent> events = recorded_events(one.samples);
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].duration_ms(), 0.0);
     EXPECT_EQ(event_statistics(events).fixations.per_minute, 0.0) << "no time, no rate";
     Made never;
     never.rest(0.0, 50, false);
-    const std::vector<RecordedEvent> unseen = recorded_events(never.samples);
+    const memory::LongVector<RecordedEvent> unseen = recorded_events(never.samples);
     ASSERT_EQ(unseen.size(), 1U);
     EXPECT_EQ(unseen[0].event, EyeEvent::Lost);
     EXPECT_EQ(unseen[0].unseen_ns, 0) << "nobody knows how long";

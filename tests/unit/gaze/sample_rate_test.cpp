@@ -65,7 +65,7 @@ TEST(SampleRate, DoesNotCountByNumbersThatDoNotCountByOne) {
     }
     EXPECT_NEAR(sample_rate_hz(samples), 100.0, 1e-9);
     samples[2].sampled = {};
-    EXPECT_NEAR(sample_rate_hz({samples.data(), 2}), 100.0, 1e-9);
+    EXPECT_NEAR(sample_rate_hz(SampleRange(samples).part(0, 2)), 100.0, 1e-9);
 }
 
 }  // namespace

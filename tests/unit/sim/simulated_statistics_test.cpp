@@ -9,6 +9,7 @@
 #include "runtime/gaze/events/gaze_predictor.h"
 #include "runtime/gaze/gaze_quality.h"
 #include "runtime/gaze/main_sequence.h"
+#include "runtime/gaze/sample_rate.h"
 #include "sim/eye_tracker.h"
 #include "sim/gaze_generator.h"
 #include "sim/person.h"
@@ -54,7 +55,8 @@ TEST(SimulatedStatistics, HaveTheNoiseThatIsSet) {
                            .head = kStill,
                            .tracker = {.rate_hz = 500.0, .noise_deg = noise_deg}},
                           60.0);
-        const auto precision = gaze::gaze_quality(trace.samples).precision[0];
+        const auto precision =
+            gaze::gaze_quality(trace.samples, gaze::sample_rate_hz(trace.samples)).precision[0];
         ASSERT_TRUE(precision);
         // On two axes, each of this SD: distances from the mean are sqrt(2) of it, steps twice it.
         EXPECT_NEAR(precision->sample_to_sample_deg, 2.0 * noise_deg, 0.1 * noise_deg);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/unit/drivers/trace/built_traces.h"
 #include "tests/unit/drivers/trace/clock/trace_rows.h"
 
 namespace gazeloop::drivers {
@@ -21,7 +22,7 @@ Expected<gaze::GazeTrace> built(const std::vector<TraceRow>& rows,
     for (const TraceRow& row : rows) {
         builder.add(row);
     }
-    return builder.finish(options);
+    return all_of(builder.finish(options));
 }
 
 std::string refusal(const std::vector<TraceRow>& rows) {
@@ -185,7 +186,7 @@ TEST(TraceBuilder, CountsWhatItsReaderFindsToo) {
                           .dropped = 1,
                           .span_ns = 0,
                           .text = "cut"});
-    const gaze::GazeTrace trace = value_or_throw(builder.finish({}));
+    const gaze::GazeTrace trace = value_or_throw(all_of(builder.finish({})));
     EXPECT_EQ(trace.report.rows, 9U);
     EXPECT_EQ(trace.report.rows_dropped(), 1U);
 }
@@ -207,7 +208,7 @@ TEST(TraceBuilder, DoesNotRefuseForACutLineButForTheRest) {
                               .rows = repeats,
                               .dropped = repeats,
                               .text = "again"});
-        const Expected<gaze::GazeTrace> trace = builder.finish({});
+        const Expected<gaze::GazeTrace> trace = all_of(builder.finish({}));
         return trace ? "accepted" : trace.error().message;
     };
     EXPECT_EQ(refusal_with(1, 0), "accepted");
@@ -225,7 +226,7 @@ TEST(TraceBuilder, SaysWhatStandsInPlaceOfATime) {
                 host ? std::optional{static_cast<std::int64_t>(row.line) * kMs} : std::nullopt;
             builder.add(row);
         }
-        const Expected<gaze::GazeTrace> trace = builder.finish({});
+        const Expected<gaze::GazeTrace> trace = all_of(builder.finish({}));
         return trace ? trace->report.findings().at(0).text : trace.error().message;
     };
     auto rows = good_rows(10);
@@ -260,7 +261,7 @@ TEST(TraceBuilder, TakesTheOtherClockWhereTheFirstIsUnreadable) {
         for (const TraceRow& row : rows) {
             builder.add(row);
         }
-        return builder.finish({});
+        return all_of(builder.finish({}));
     };
     auto rows = good_rows(50);
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -325,7 +326,7 @@ TEST(TraceBuilder, DoubtsRatesThatNoEyeTrackerHas) {
         for (const TraceRow& row : good_rows(count, 0, interval_ns)) {
             builder.add(row);
         }
-        return value_or_throw(builder.finish({})).report;
+        return value_or_throw(all_of(builder.finish({}))).report;
     };
     for (const std::int64_t usual_ns : {250 * kUs, 8'333 * kUs, 190 * kMs}) {
         EXPECT_EQ(report_of(usual_ns).count(TraceFindingKind::OddTimes).times, 0U) << usual_ns;

@@ -21,7 +21,7 @@ constexpr std::int64_t kThreeMs = 3 * kMs;
 
 /// Which of these readings are left out, where steps of 1 join and steps back are impossible.
 std::vector<std::size_t> left_out(const std::vector<int>& readings) {
-    const std::vector<bool> kept = readings_in_step(
+    const memory::LongVector<bool> kept = readings_in_step(
         readings.size(),
         {.joins = [&](std::size_t a, std::size_t b) { return readings[b] - readings[a] == 1; },
          .doubt =

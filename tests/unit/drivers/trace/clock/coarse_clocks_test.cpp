@@ -29,7 +29,7 @@ TEST(DeviceTimes, SpreadRowsOverTheStepOfACoarseClock) {
     for (std::size_t i = 0; i < 3000; ++i) {
         ASSERT_EQ(times.time_ns[i], static_cast<std::int64_t>(i) * 500 * kUs);
     }
-    EXPECT_EQ(times.step_ns, std::vector<std::int64_t>(3000, kMs));
+    EXPECT_EQ(times.step_ns, memory::LongVector<std::int64_t>(3000, kMs));
     EXPECT_EQ(times.interval_ns, 500 * kUs);
     ASSERT_THAT(times.findings, SizeIs(1));
     EXPECT_EQ(times.findings[0].kind, TraceFindingKind::CoarseTimes);

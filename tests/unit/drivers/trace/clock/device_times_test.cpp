@@ -28,7 +28,7 @@ TEST(DeviceTimes, OfAGoodTraceAreItsReadings) {
     EXPECT_THAT(times.sets, IsEmpty());
     EXPECT_EQ(times.interval_ns, kInterval);
     EXPECT_EQ(times.reading_ns.front(), 3 * kSecond);
-    EXPECT_EQ(times.step_ns, std::vector<std::int64_t>(100, 0));
+    EXPECT_EQ(times.step_ns, memory::LongVector<std::int64_t>(100, 0));
 }
 
 TEST(DeviceTimes, CountTicksOfOtherLengthsFromTheFirst) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 
 #include "tests/unit/drivers/trace/clock/trace_rows.h"
 
@@ -64,7 +65,7 @@ Fitted fitted(const std::vector<TraceRow>& rows) {
     return result;
 }
 
-bool increases(const std::vector<std::int64_t>& times) {
+bool increases(std::span<const std::int64_t> times) {
     return std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
 }
 
@@ -105,7 +106,7 @@ TEST(HostFit, LeavesTimesWithoutHostTimesAsTheyAre) {
     auto rows = good_rows(50);
     const auto [device, fit] = fitted(rows);
     EXPECT_EQ(fit.time_ns, device.time_ns);
-    EXPECT_EQ(fit.delay_ns, std::vector<std::optional<std::int64_t>>(50));
+    EXPECT_EQ(fit.delay_ns, memory::LongVector<std::optional<std::int64_t>>(50));
     EXPECT_EQ(fit.text, "the device's; no host times");
     rows[20].host_ns = 5;
     EXPECT_EQ(fitted(rows).fit.delay_ns[20], 0);
@@ -257,7 +258,7 @@ TEST(HostFit, GoesByTheDeviceWhereTheHostsClockStands) {
     }
     const auto [device, fit] = fitted(recording.rows);
     EXPECT_EQ(fit.time_ns, device.time_ns);
-    EXPECT_EQ(fit.delay_ns, std::vector<std::optional<std::int64_t>>(2'000));
+    EXPECT_EQ(fit.delay_ns, memory::LongVector<std::optional<std::int64_t>>(2'000));
     EXPECT_EQ(fit.text, "the device's; the host's stood still");
     expect_stand(fit.findings, 2, 2'000);
 }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "drivers/trace/clock/device_times.h"
@@ -16,14 +17,14 @@ namespace gazeloop::drivers {
 /// Of good_rows().
 inline constexpr std::int64_t kInterval = 8'333'333;
 
-inline bool increases(const std::vector<std::int64_t>& times) {
+inline bool increases(std::span<const std::int64_t> times) {
     return std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
 }
 
 /// The times of good_rows() without row `dropped`.
 inline void expect_good_but(const DeviceTimes& times, std::size_t count,
                             const std::vector<std::size_t>& dropped) {
-    std::vector<std::size_t> rows;
+    memory::LongVector<std::size_t> rows;
     for (std::size_t i = 0; i < count; ++i) {
         if (std::find(dropped.begin(), dropped.end(), i) == dropped.end()) {
             rows.push_back(i);

@@ -30,7 +30,7 @@ Ordered ordered(const std::vector<TraceRow>& rows) {
     for (const TraceRow& row : rows) {
         found.at_ns.push_back(*row.device_ticks);
     }
-    std::vector<std::size_t> all(rows.size());
+    memory::LongVector<std::size_t> all(rows.size());
     std::iota(all.begin(), all.end(), 0U);
     found.order = rows_in_order(RowsRead{rows}, found.at_ns, all, kInterval);
     return found;

@@ -2,52 +2,60 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <utility>
 
 #include "tests/unit/drivers/trace/clock/trace_rows.h"
 
 namespace gazeloop::drivers {
 namespace {
 
-/// The openness tells the rows of good_rows() apart.
-double which(const gaze::GazeSample& sample) { return sample.eyes[0].openness; }
+gaze::GazeSample sample_of(const KeptRow& row) {
+    gaze::GazeSample sample;
+    row.write_to(sample);
+    return sample;
+}
 
 TEST(RowsRead, HoldsClocksBesideWhatBecomesSamples) {
     auto rows = good_rows(3);
     rows[1].parallax_rad = 0.5;
+    rows[1].eyes[0].valid = false;
     rows[2].head = gaze::Pose{.position_m = {1.0, 2.0, 3.0}};
     RowsRead read{rows};
     ASSERT_EQ(read.size(), 3U);
     EXPECT_EQ(read[2].line, 4U);
     EXPECT_EQ(read[1].device_ticks, rows[1].device_ticks);
-    EXPECT_EQ(read.eyes(1)[1].openness, rows[1].eyes[1].openness);
-    constexpr std::array<std::size_t, 3> kAll{0, 1, 2};
-    const std::vector<gaze::GazeSample> samples = read.take(kAll);
-    ASSERT_EQ(samples.size(), 3U);
-    EXPECT_EQ(samples[1].parallax_rad, 0.5);
-    ASSERT_TRUE(samples[2].head.has_value());
-    EXPECT_EQ(samples[2].head->position_m.z, 3.0);
-    EXPECT_TRUE(read.empty());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const gaze::GazeSample sample = sample_of(read.kept(i));
+        for (const gaze::Eye eye : gaze::kEyes) {
+            const gaze::EyeRay& expected = rows[i].eyes[gaze::index(eye)];
+            const gaze::EyeRay& ray = sample.eyes[gaze::index(eye)];
+            EXPECT_EQ(read.kept(i).valid(eye), expected.valid);
+            EXPECT_EQ(ray.valid, expected.valid);
+            EXPECT_EQ(ray.direction, expected.direction);
+            EXPECT_EQ(ray.origin_m, expected.origin_m);
+            EXPECT_EQ(ray.openness, expected.openness);
+            EXPECT_EQ(ray.confidence, expected.confidence);
+        }
+        EXPECT_EQ(sample.parallax_rad, rows[i].parallax_rad);
+        EXPECT_EQ(sample.head.has_value(), rows[i].head.has_value());
+    }
+    EXPECT_EQ(sample_of(read.kept(2)).head->position_m.z, 3.0);
 }
 
-TEST(RowsRead, TakesRowsInAnyOrderAndLeavesOthersOut) {
-    const auto rows = good_rows(7);
-    const std::vector<std::vector<std::size_t>> orders{{0, 1, 2, 3, 4, 5, 6},
-                                                       {6, 5, 4, 3, 2, 1, 0},
-                                                       {6, 0, 1, 2, 3, 4, 5},
-                                                       {1, 2, 3, 4, 5, 6, 0},
-                                                       {2, 0, 6},
-                                                       {5},
-                                                       {0, 2, 4, 6},
-                                                       {3, 6, 1, 4},
-                                                       {}};
-    for (const std::vector<std::size_t>& order : orders) {
-        RowsRead read{rows};
-        const std::vector<gaze::GazeSample> samples = read.take(order);
-        ASSERT_EQ(samples.size(), order.size());
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            EXPECT_EQ(which(samples[i]), rows[order[i]].eyes[0].openness) << i;
-        }
+/// As rows that are compared with each other are asked for.
+TEST(RowsRead, GivesTwoRowsAtOnceHoweverFarApart) {
+    const auto rows = good_rows(20'000);
+    RowsRead moved{rows};
+    const RowsRead read = std::move(moved);
+    const auto openness = [&](const KeptRow& row) { return sample_of(row).eyes[0].openness; };
+    for (std::size_t i = 0; i < rows.size(); i += 97) {
+        const std::size_t k = (i * 7919) % rows.size();
+        const KeptRow& one = read.kept(i);
+        const KeptRow& other = read.kept(k);
+        ASSERT_EQ(openness(one), rows[i].eyes[0].openness) << i;
+        ASSERT_EQ(openness(other), rows[k].eyes[0].openness) << k;
+        EXPECT_EQ(one.same_ray(other, gaze::Eye::Left),
+                  rows[i].eyes[0].openness == rows[k].eyes[0].openness);
     }
 }
 

@@ -1,0 +1,33 @@
+#include "drivers/trace/row_samples.h"
+
+#include <utility>
+
+#include "runtime/time/span.h"
+
+namespace gazeloop::drivers {
+
+RowSamples::RowSamples(std::shared_ptr<const memory::Spool<KeptRow>> rows, Judged judged)
+    : rows_(std::move(rows)), reader_(*rows_), judged_(std::move(judged)) {}
+
+void RowSamples::read(std::size_t first, std::span<gaze::GazeSample> to) const {
+    std::size_t i = first;
+    for (gaze::GazeSample& sample : to) {
+        sample = {};
+        reader_[judged_.rows[i]].write_to(sample);
+        const std::int64_t time_ns = judged_.time_ns[i];
+        sample.sequence = judged_.numbers[i];
+        sample.device_ns = judged_.device_ns[i];
+        sample.sampled = {time_ns, time::StampKind::Modelled};
+        if (const auto& delay_ns = judged_.delay_ns[i]) {
+            sample.arrived = {time::saturated(static_cast<__int128>(time_ns) + *delay_ns),
+                              time::StampKind::Modelled};
+        }
+        if (judged_.step_ns[i] > 0) {
+            sample.uncertainty_ns = judged_.step_ns[i];
+        }
+        change_.apply_to(sample);
+        ++i;
+    }
+}
+
+}  // namespace gazeloop::drivers

@@ -1,0 +1,17 @@
+#include "runtime/gaze/gaze_trace.h"
+
+#include <utility>
+
+namespace gazeloop::gaze {
+
+GazeTrace in_memory(GazeRecording recording) {
+    GazeTrace trace{.file = std::move(recording.file),
+                    .format = std::move(recording.format),
+                    .device = std::move(recording.device),
+                    .samples = std::vector<GazeSample>(recording.samples->size()),
+                    .report = std::move(recording.report)};
+    recording.samples->read(0, trace.samples);
+    return trace;
+}
+
+}  // namespace gazeloop::gaze
