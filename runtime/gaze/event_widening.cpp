@@ -20,9 +20,9 @@ constexpr double kMostMoved_deg_per_s = 260.0;  // from a sample that shows it o
 constexpr double kQuiet = 2.0;
 constexpr double kMoves = 3.5;
 constexpr double kMoving_deg = 10.0;
-constexpr double kFlying_deg = 7.5;
-constexpr double kTakingOff_deg = 4.0;  // beyond that, at first
-constexpr double kTakingOff_s = 8e-3;
+constexpr double kFlying_deg = 5.0;
+constexpr double kTakingOff_deg = 7.0;  // beyond that, at first
+constexpr double kTakingOff_s = 15e-3;
 constexpr double kFoundAgain_deg = 5.0;
 constexpr double kCovered_s = 0.06;  // of the shortest blinks
 
