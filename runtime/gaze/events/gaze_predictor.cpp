@@ -44,7 +44,7 @@ constexpr double kRestingError_deg = 0.06;
 constexpr double kDrift_deg_per_s = 6.0;
 constexpr double kSwing_deg = 0.8;
 constexpr double kPursuitError = 0.6;
-constexpr double kSaccadeDeviations = 2.0;
+constexpr double kSaccadeDeviations = 1.4;
 constexpr double kSaccadeError = 0.15;  // of the speed
 
 constexpr double kLandingDeviations = 2.0;
