@@ -23,7 +23,7 @@ struct SaccadeInFlight {
 struct SaccadeTravel {
     double further_deg = 0.0;  ///< from now; 0 or more
     double sd_deg = 0.0;       ///< standard deviation of that
-    /// It goes at least so far, but for one time in four or more: see SaccadeForecast::after.
+    /// So far at least, but for one time in four (up to 20 ms ahead) to fifty (from 40 ms on).
     double at_least_deg = 0.0;
 };
 
