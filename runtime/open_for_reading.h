@@ -24,4 +24,16 @@ inline std::expected<std::ifstream, std::string> open_for_reading(
     return in;
 }
 
+/// The same of a regular file alone: of others, reading may never end.
+inline std::expected<std::ifstream, std::string> open_regular_file(
+    const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored) &&
+        !std::filesystem::is_regular_file(file, ignored) &&
+        !std::filesystem::is_directory(file, ignored)) {
+        return std::unexpected("it is no regular file");
+    }
+    return open_for_reading(file);
+}
+
 }  // namespace gazeloop

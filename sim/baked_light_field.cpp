@@ -1,10 +1,13 @@
 #include "sim/baked_light_field.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 #include <xxhash.h>
 
+#include <cerrno>
+#include <charconv>
 #include <span>
 #include <string>
 
@@ -31,6 +34,22 @@ std::string folder_name(const LightFieldBake& bake) {
                                             XXH3_64bits(shader.data(), shader.size_bytes())));
 }
 
+/// Folders that were being made are named by the process.
+void remove_what_killed_programs_left(const fs::path& folder) {
+    const std::string begin = folder.filename().string() + '.';
+    std::error_code error;
+    for (const fs::directory_entry& one : fs::directory_iterator(folder.parent_path(), error)) {
+        const std::string name = one.path().filename().string();
+        pid_t process = 0;
+        const char* const end = name.data() + name.size();
+        if (name.starts_with(begin) &&
+            std::from_chars(name.data() + begin.size(), end, process).ptr == end && process > 0 &&
+            (process == getpid() || (kill(process, 0) != 0 && errno == ESRCH))) {
+            fs::remove_all(one.path(), error);
+        }
+    }
+}
+
 }  // namespace
 
 Expected<fs::path> baked_light_field(const vulkan::Context& context, const LightFieldBake& bake,
@@ -41,12 +60,18 @@ Expected<fs::path> baked_light_field(const vulkan::Context& context, const Light
     if (fs::exists(file, error)) {
         return file;
     }
+    if (fs::exists(folder, error)) {
+        return std::unexpected(
+            Error{ErrorKind::BadInput,
+                  fmt::format("{}: is there without {}: remove it, and it is rendered again",
+                              folder.string(), file.filename().string())});
+    }
+    remove_what_killed_programs_left(folder);
     spdlog::info("the scene {}: rendering its {} views of {}x{} px into {}, once",
                  scene::kBakedLightField, bake.views * bake.views, bake.size_px, bake.size_px,
                  folder.string());
     // Whole or not at all, whoever else makes it at this time.
     const fs::path partial = fmt::format("{}.{}", folder.string(), getpid());
-    fs::remove_all(partial, error);  // of a process that was killed
     const auto scene = scene::make_scene(context, kScene);
     auto baked = bake_light_field(context, *scene, bake, partial,
                                   [&](std::uint32_t done, std::uint32_t total) {
@@ -82,7 +107,18 @@ std::unique_ptr<scene::Scene> make_scene(const vulkan::Context& context, std::st
     }
     const fs::path file =
         value_or_throw(baked_light_field(context, kBuiltInBake, files::cache_folder(), go_on));
-    return scene::make_scene(context, file.string(), options);
+    try {
+        return scene::make_scene(context, file.string(), options);
+    } catch (const SetupError& wrong) {
+        // Its views are nobody's but this program's.
+        if (wrong.kind() != ErrorKind::BadInput) {
+            throw;
+        }
+        throw SetupError(wrong.kind(),
+                         fmt::format("{}; if its views are damaged, remove {}, and they are "
+                                     "rendered again",
+                                     wrong.what(), file.parent_path().string()));
+    }
 }
 
 }  // namespace gazeloop::sim

@@ -18,7 +18,8 @@ inline constexpr LightFieldBake kBuiltInBake{
 
 /// The file of a light field of raymarch below `cache`, baked the first time: again where the scene
 /// or the bake is another one. Half of one is never found there. `go_on` false: it ends
-/// (Interrupted). Errors: as bake_light_field; (BadInput) a cache that cannot be written.
+/// (Interrupted). Errors: as bake_light_field; (BadInput) a cache that cannot be written, a folder
+/// of that name without the file.
 Expected<std::filesystem::path> baked_light_field(const vulkan::Context& context,
                                                   const LightFieldBake& bake,
                                                   const std::filesystem::path& cache,

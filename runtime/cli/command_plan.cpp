@@ -54,8 +54,9 @@ void add_plan_command(Command program) {
     options.log.add_to(app);
     options.add_settings_to(app);
     app.option("--method", command->request.method,
-               "full, kfr, acuity, layers, rings, sparse, quad, fixed or all");
-    app.option("--model", command->request.model, "guenter, geisler-perry, stelacsf, ashraf2025 or all");
+               "full, kfr, acuity, layers, rings, sparse, quad, interleaved, fixed or all");
+    app.option("--model", command->request.model,
+               "guenter, geisler-perry, stelacsf, ashraf2025 or all");
     app.option("--gaze", command->request.gaze, "direction of gaze, degrees to the right and up")
         .type("AZ,EL");
     app.option("--eye", command->eye, "left or right").one_of({"left", "right"});

@@ -57,6 +57,7 @@ void TradeOptions::add_to(Command command) {
     measured.push_back(
         command.flag("--published-grid", asked.published,
                      "also every sigma and alpha of the KFR paper's pilot study (58 points)"));
+    measured.back().not_with(worth).not_with(fitted);
     measured.push_back(
         command.option("--frames", asked.frames, "frames at the display's rate (4); 1: a still")
             .number_between(1, 100'000));
@@ -92,6 +93,10 @@ void TradeOptions::add_to(Command command) {
                            .option("--shard", asked.shard,
                                    "measure every N-th point alone, from the I-th on (1/1)")
                            .type("I/N"));
+    // What is looked for is not kept, and each shard would look for it anew.
+    measured[measured.size() - 2].not_with(fitted);
+    // Every part is held against the method as it is, in the same turns.
+    measured.back().not_with(worth).not_with(fitted);
     Option merge =
         command
             .option("--merge", asked.merge,

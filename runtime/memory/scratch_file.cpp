@@ -27,8 +27,9 @@ std::unexpected<Error> refusal(const std::string& folder, int reason) {
 
 }  // namespace
 
-Expected<ScratchFile> ScratchFile::make() {
-    std::string folder = environment_value("TMPDIR").value_or("/var/tmp");
+std::string scratch_folder() { return environment_value("TMPDIR").value_or("/var/tmp"); }
+
+Expected<ScratchFile> ScratchFile::make(const std::string& folder) {
     int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (file < 0 && (errno == EOPNOTSUPP || errno == EISDIR)) {  // a file system without such
         std::string name = folder + "/gazeloop-XXXXXX";
@@ -40,7 +41,7 @@ Expected<ScratchFile> ScratchFile::make() {
     if (file < 0) {
         return refusal(folder, errno);
     }
-    return ScratchFile(std::move(folder), file);
+    return ScratchFile(folder, file);
 }
 
 ScratchFile::ScratchFile(std::string folder, int descriptor)
@@ -92,11 +93,22 @@ Expected<void> ScratchFile::read(std::size_t at, std::span<std::byte> bytes) con
     return {};
 }
 
-Expected<void*> ScratchFile::map(std::size_t bytes) {
-    // The disk's room is taken now: a page without any would be a SIGBUS.
+Expected<void> ScratchFile::reserve(std::size_t bytes) {
     if (const int no_room = posix_fallocate(descriptor_, 0, static_cast<off_t>(bytes));
         no_room != 0) {
-        return refusal(folder_, no_room);
+        return std::unexpected(
+            Error{ErrorKind::BadInput,
+                  fmt::format("{}: no room for a scratch file of {} MiB ({}); let TMPDIR name a "
+                              "folder that is on a disk and has room",
+                              folder_, (bytes >> 20U) + 1, std::strerror(no_room))});
+    }
+    return {};
+}
+
+Expected<void*> ScratchFile::map(std::size_t bytes) {
+    // A page without the disk's room would be a SIGBUS.
+    if (auto room = reserve(bytes); !room) {
+        return std::unexpected(std::move(room.error()));
     }
     void* const block = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, 0);
     if (block == MAP_FAILED) {

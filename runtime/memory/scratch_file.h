@@ -8,21 +8,26 @@
 
 namespace gazeloop::memory {
 
-/// A file without a name, so that nothing of it is left however the program ends, in the folder
-/// that TMPDIR names, else in /var/tmp, which is on a disk where /tmp may not be. Its owner alone
+/// Where large files go that only this process needs: what TMPDIR names, else /var/tmp, which is on
+/// a disk where /tmp may not be.
+[[nodiscard]] std::string scratch_folder();
+
+/// A file without a name, so that nothing of it is left however the program ends. Its owner alone
 /// may read it.
 class ScratchFile {
   public:
     /// Errors (BadInput), here and below: the folder is named, with the reason and what to do.
-    static Expected<ScratchFile> make();
+    static Expected<ScratchFile> make(const std::string& folder = scratch_folder());
     ScratchFile(const ScratchFile&) = delete;
     ScratchFile& operator=(const ScratchFile&) = delete;
     ScratchFile(ScratchFile&& other) noexcept;
     ScratchFile& operator=(ScratchFile&& other) noexcept;
     ~ScratchFile();
 
+    /// Takes the disk's room for so many bytes, zeros, now: no later write of them can lack it.
+    [[nodiscard]] Expected<void> reserve(std::size_t bytes);
     [[nodiscard]] Expected<void> write(std::size_t at, std::span<const std::byte> bytes);
-    /// Precondition: so much was written there.
+    /// Precondition: so much was written or reserved there.
     [[nodiscard]] Expected<void> read(std::size_t at, std::span<std::byte> bytes) const;
 
     /// So many bytes of zeros, mapped, for which the disk has room; munmap() frees them, and the

@@ -109,6 +109,9 @@ std::string comparison_text(const Comparison& comparison) {
     if (measured.eye_found) {
         fmt::format_to(out, "  eye found   {}\n", delay_text(*measured.eye_found));
     }
+    for (const std::string& warning : measured.warnings) {
+        fmt::format_to(out, "  warning     {}\n", warning);
+    }
     return text;
 }
 
@@ -116,6 +119,7 @@ Json comparison_json(const Comparison& comparison) {
     return {{"source", comparison.measured.source},
             {"measured", delay_json(comparison.measured.eye_lost)},
             {"eye_found", delay_json(comparison.measured.eye_found)},
+            {"warnings", comparison.measured.warnings},
             {"modelled",
              {{"frames", comparison.modelled.frames},
               {"kind", time::name(comparison.modelled.kind)},

@@ -66,6 +66,17 @@ std::optional<MeasuredDelay> delay(const Fields& fields, const std::string& of) 
     return result;
 }
 
+std::vector<std::string> warnings(const Json& json) {
+    std::vector<std::string> texts;
+    for (const Json& one : json.value("warnings", Json::array())) {
+        if (!one.is_string()) {
+            throw std::invalid_argument("'/warnings' are no texts");
+        }
+        texts.push_back(one.get<std::string>());
+    }
+    return texts;
+}
+
 }  // namespace
 
 Expected<Measurement> parse_measurement(std::string_view text, const std::string& source) {
@@ -94,14 +105,15 @@ Expected<Measurement> parse_measurement(std::string_view text, const std::string
         return Measurement{.source = source,
                            .eye_lost = delay(fields, "/eye_lost"),
                            .eye_found = delay(fields, "/eye_found"),
-                           .pulsed = pulsed.get<bool>()};
+                           .pulsed = pulsed.get<bool>(),
+                           .warnings = warnings(json)};
     } catch (const std::invalid_argument& error) {
         return refuse(error.what());
     }
 }
 
 Expected<Measurement> read_measurement(const std::filesystem::path& file) {
-    auto in = open_for_reading(file);
+    auto in = open_regular_file(file);
     if (!in) {
         return std::unexpected(Error{ErrorKind::BadInput, fmt::format("{}: cannot be read ({})",
                                                                       file.string(), in.error())});

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "runtime/error.h"
 
@@ -29,6 +30,7 @@ struct Measurement {
     std::optional<MeasuredDelay> eye_found;
     bool pulsed =
         false;  ///< the patch's light: timed by the middle of its emission, else its begin
+    std::vector<std::string> warnings{};  ///< what the measurement itself says it may be wrong by
 };
 
 /// Errors (BadInput): not such a file, of another version, or with figures that cannot be. Names

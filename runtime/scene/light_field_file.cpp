@@ -131,7 +131,7 @@ std::map<Place, std::filesystem::path> find_views(const std::filesystem::path& f
 }
 
 std::vector<std::byte> bytes_of(const std::filesystem::path& file) {
-    auto in = open_for_reading(file);
+    auto in = open_regular_file(file);
     if (!in) {
         throw gltf::Refusal("", "it cannot be read (" + in.error() + ")");
     }
@@ -309,7 +309,7 @@ std::string view_file_name(std::uint32_t row, std::uint32_t column) {
 }
 
 Expected<LightFieldSource> open_light_field(const std::filesystem::path& file) {
-    auto in = open_for_reading(file);
+    auto in = open_regular_file(file);
     if (!in) {
         return refuse(
             fmt::format("{}: the light field cannot be read ({})", file.string(), in.error()));

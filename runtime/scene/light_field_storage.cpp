@@ -68,25 +68,31 @@ Expected<LightFieldStorage> choose_storage(const light_field::LightField& field,
     if (const auto widest_m = field.lens.every_view ? std::nullopt : widest_lens_m(field, layers)) {
         remedies += fmt::format("a lens of lightfield.aperture_m = {:.4g}, ", *widest_m);
     }
-    if (!views.compressed) {
+    constexpr std::uint64_t kBc1Share = 8;
+    if (!views.compressed && layers * kBc1Share >= needed) {
         remedies += "lightfield.compression = bc1 (an eighth, with loss), ";
     }
     // An image of more layers than the device has cannot be asked about.
     const std::uint64_t needed_bytes = needed <= limits.most_layers
                                            ? limits.image_bytes(needed)
                                            : std::uint64_t{needed} * views.bytes;
-    const double shrink = std::sqrt(static_cast<double>(layers) / needed);
+    const auto smaller_px = static_cast<std::uint32_t>(
+        views.width_px * std::sqrt(static_cast<double>(layers) / needed));
+    if (smaller_px > 0) {
+        remedies += fmt::format("views of {} px across (gazeloop simulate light-field --size), ",
+                                smaller_px);
+    }
     return std::unexpected(Error{
         ErrorKind::BadInput,
         fmt::format("{}: two eyes' pictures are made of up to {} of the {} views of {}x{} px at a "
                     "time, which take {} MiB of the GPU's memory; they may take {} "
                     "(lightfield.memory_mib), which holds {} (this device: {} views and {} MiB in "
-                    "one image). These would fit: {}views of {} px across (gazeloop simulate "
-                    "light-field --size); or allow more",
+                    "one image). {}{}allow more",
                     views.name, needed, all, views.width_px, views.height_px,
                     mib(needed_bytes + (needed < all ? staging : 0)), limits.most_bytes >> 20U,
-                    layers, limits.most_layers, limits.most_image_bytes >> 20U, remedies,
-                    static_cast<std::uint32_t>(views.width_px * shrink))});
+                    layers, limits.most_layers, limits.most_image_bytes >> 20U,
+                    remedies.empty() ? "" : "These would fit: ",
+                    remedies.empty() ? "" : remedies + "or ")});
 }
 
 }  // namespace gazeloop::scene

@@ -84,7 +84,8 @@ LightFieldViews::LightFieldViews(const vulkan::Context& context, const LightFiel
         };
     }
     if (storage_.streamed) {
-        scratch_.emplace(value_or_throw(files::ScratchFile::create(views_ * view_bytes_)));
+        scratch_.emplace(value_or_throw(memory::ScratchFile::make()));
+        value_or_throw(scratch_->reserve(views_ * view_bytes_));
         value_or_throw(source.read(prepare, [&](std::uint32_t view, const auto& texels) {
             return scratch_->write(view * view_bytes_, texels);
         }));

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/files/scratch_file.h"
 #include "runtime/light_field/lens.h"
 #include "runtime/light_field/resident_views.h"
+#include "runtime/memory/scratch_file.h"
 #include "runtime/scene/light_field_file.h"
 #include "runtime/scene/light_field_memory.h"
 #include "runtime/scene/light_field_storage.h"
@@ -55,7 +55,7 @@ class LightFieldViews {
     LightFieldStorage storage_;
     vulkan::LayeredImage image_;
     vulkan::HostBuffer staging_;
-    std::optional<files::ScratchFile> scratch_;
+    std::optional<memory::ScratchFile> scratch_;
     light_field::ResidentViews resident_;
 
     std::uint64_t loaded_ = 0;

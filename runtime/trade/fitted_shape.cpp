@@ -21,6 +21,9 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 using SettingTexts = std::vector<std::pair<std::string, std::string>>;
 
+/// By which a buffer whose texels take turns has little left of how it began.
+constexpr std::size_t kFewestFrames = 4;
+
 std::unexpected<Error> refuse(std::string text) {
     return std::unexpected(Error{ErrorKind::Usage, "--fitted: " + std::move(text)});
 }
@@ -80,6 +83,11 @@ class Fit {
   private:
     /// The start of the search; the published exponent.
     static constexpr double kAlpha = 4.0;
+    static constexpr double kLeastSigma = 0.5;
+    static constexpr double kMostSigma = 16.0;
+    /// The share by which the samples of two shapes that are compared may differ from what is asked
+    /// for: small pictures have few steps.
+    static constexpr double kWithin = 0.04;
 
     [[nodiscard]] bool takes_turns() const { return fit_.method == "interleaved"; }
 
@@ -138,27 +146,44 @@ class Fit {
             all.insert(all.end(), set.begin(), set.end());
             return all;
         };
-        // Samples fall as sigma rises.
-        double fewest_sigma = 0.5;
-        double most_sigma = 16.0;
-        constexpr int kHalvings = 16;
+        // Samples fall as sigma rises, in steps: a buffer has whole columns, rows and tiles.
+        double below = kLeastSigma;
+        double above = kMostSigma;
+        constexpr int kHalvings = 12;
         for (int i = 0; i < kHalvings; ++i) {
-            const double middle = std::sqrt(fewest_sigma * most_sigma);
+            const double middle = std::sqrt(below * above);
             const auto samples = planned(with(middle));
             // What cannot be planned is too coarse, as far as a picture's size decides it.
-            if (samples && *samples > wanted) {
-                fewest_sigma = middle;
-            } else {
-                most_sigma = middle;
+            (samples && *samples > wanted ? below : above) = middle;
+        }
+        // The nearest around, where steps are not all downwards.
+        std::optional<SweepPoint> nearest;
+        double least_off = kWithin;
+        constexpr int kAround = 6;
+        for (int i = -kAround; i <= kAround; ++i) {
+            const SettingTexts set_here = with(below * (1.0 + 0.005 * i));
+            const auto samples = planned(set_here);
+            const double off = samples ? std::abs(*samples / wanted - 1.0) : kInfinite;
+            if (off <= least_off) {
+                least_off = off;
+                nearest = SweepPoint{.method = fit_.method, .settings = set_here};
             }
         }
-        constexpr double kWithin = 0.02;
-        const SettingTexts found = with(fewest_sigma);
-        const auto samples = planned(found);
-        if (!samples || std::abs(*samples / wanted - 1.0) > kWithin) {
-            return std::nullopt;
+        return nearest;
+    }
+
+    /// "2.1, 5.4 and none", by the buffer's shape in force.
+    std::string reachable() {
+        const gaze::EyeView& view = question_.comparison.view;
+        const double pixels = static_cast<double>(view.width_px) * view.height_px;
+        std::vector<std::string> texts;
+        for (const char* const sigma : {"1", "2", "3"}) {
+            const auto samples =
+                planned({{"kfr.sigma", sigma},
+                         {"interleaved.every", takes_turns() ? every_ : std::string("4")}});
+            texts.push_back(samples ? fmt::format("{:.3g}", pixels / *samples) : "none");
         }
-        return SweepPoint{.method = fit_.method, .settings = found};
+        return fmt::format("{}, {} and {}", texts[0], texts[1], texts[2]);
     }
 
     /// Infinite where a point is none or fails.
@@ -226,8 +251,11 @@ class Fit {
         const auto least = std::ranges::min_element(*losses);
         if (!(*least < kInfinite)) {
             return refuse(fmt::format(
-                "no kfr.sigma gives {:g} times fewer samples than pixels that can be rendered",
-                fit_.fewer));
+                "no kfr.sigma gives {:g} times fewer samples than pixels in a picture that is "
+                "worth "
+                "drawing; kfr.sigma 1, 2 and 3 give {}: name another --fewer, or larger pictures "
+                "(render.scale)",
+                fit_.fewer, reachable()));
         }
         const auto chosen = static_cast<std::size_t>(least - losses->begin());
         every_ = choices[chosen];
@@ -260,6 +288,12 @@ Expected<FittedShape> fitted_shape(const vulkan::Context& context, const SweepQu
                         "--methods kfr or --methods interleaved alone",
                         fit.method));
     }
+    if (fit.method == "interleaved" && question.cases.front().directions.size() < kFewestFrames) {
+        return refuse(
+            fmt::format("the first frame of interleaved shades everything: give --frames "
+                        "{} or more",
+                        kFewestFrames));
+    }
     return Fit(context, question, values, settings, hooks, fit).run();
 }
 
@@ -273,9 +307,10 @@ std::string fitted_toml(const FittedShape& fitted, const FitQuestion& fit,
     const std::size_t frames = question.cases.front().directions.size();
     std::string text = fmt::format(
         "# Made by: {}\n# {}, {}x{} px an eye, {} frame{}, {} sample{} per cell; {}.\n"
-        "# At {:g} times fewer samples than pixels the first figure is {:.4g}, {:.4g} with {}.\n",
+        "# At {:g} times fewer samples than pixels{} the first figure is {:.4g}, {:.4g} with {}.\n",
         made_by, question.display, view.width_px, view.height_px, frames, frames == 1 ? "" : "s",
-        question.samples, question.samples == 1 ? "" : "s", cases, fit.fewer, fitted.loss_after,
+        question.samples, question.samples == 1 ? "" : "s", cases, fit.fewer,
+        fit.method == "interleaved" ? " (in a frame that follows others)" : "", fitted.loss_after,
         fitted.loss_before, fitted.before.settings_text());
     std::map<std::string, std::string> groups{
         {"render", fmt::format("method = \"{}\"\n", fit.method)}};

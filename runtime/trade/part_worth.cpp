@@ -3,7 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 namespace gazeloop::trade {
 namespace {
@@ -39,14 +42,28 @@ bool same_figures(const SweepRow& a, const SweepRow& b) {
         });
 }
 
-PartWorth worth_of(const SweepRow& row, const SweepRow& base) {
-    PartWorth part{.change = row.point.settings_text(), .error = row.error};
+/// Whether a change as worth_points() makes it switches something off: a filter's size is changed
+/// to the least only.
+bool takes_away(const std::string& key, const std::string& value) {
+    constexpr std::array<std::string_view, 4> kOff{"false", "nothing", "none", "off"};
+    const bool is_size = std::ranges::all_of(value, [](char c) { return c >= '0' && c <= '9'; });
+    return std::ranges::find(kOff, value) != kOff.end() || (is_filter(key) && is_size);
+}
+
+PartWorth worth_of(const SweepRow& row, const SweepRow& base, unsigned rounds) {
+    const auto& [key, value] = row.point.settings.front();
+    PartWorth part{.change = row.point.settings_text(),
+                   .error = row.error,
+                   .takes_away = takes_away(key, value)};
     if (!row.error.empty()) {
         return part;
     }
     part.time = base.speedup / row.speedup;
+    constexpr unsigned kLeastRounds = 3;
+    constexpr double kLeastChange = 0.03;
     part.time_is_clear =
-        row.time.least_ms > base.time.greatest_ms || row.time.greatest_ms < base.time.least_ms;
+        rounds >= kLeastRounds && std::abs(part.time - 1.0) > kLeastChange &&
+        (row.time.least_ms > base.time.greatest_ms || row.time.greatest_ms < base.time.least_ms);
     part.cells = row.cells / base.cells;
     part.same = same_figures(row, base);
     const quality::QualityFigure& figure = row.figures.front();
@@ -82,18 +99,34 @@ std::string PartWorth::verdict() const {
                    : "better";
 }
 
-std::optional<MethodWorth> method_worth(const std::vector<SweepRow>& rows) {
+std::optional<MethodWorth> method_worth(const SweepSubject& subject,
+                                        const std::vector<SweepRow>& rows) {
     const SweepRow* const base = unchanged(rows);
     if (base == nullptr) {
         return std::nullopt;
     }
-    MethodWorth worth{.method = base->point.method, .figure = base->figures.front().key};
+    MethodWorth worth{.method = base->point.method,
+                      .figure = base->figures.front().key,
+                      .still = subject.frames == 1};
     for (const SweepRow& row : rows) {
         if (row.point.method == base->point.method && !row.point.settings.empty()) {
-            worth.parts.push_back(worth_of(row, *base));
+            worth.parts.push_back(worth_of(row, *base, subject.rounds));
         }
     }
     return worth;
+}
+
+std::string worth_note(const MethodWorth& worth) {
+    std::string needless;
+    for (const PartWorth& part : worth.parts) {
+        needless += part.is_needless() ? " --set " + part.change : std::string();
+    }
+    std::string text =
+        worth.still ? "One frame shows nothing of what needs several: what is kept, and what is "
+                      "mixed with it. --frames 8 would. "
+                    : "";
+    return text + (needless.empty() ? "Nothing that is on is needless here."
+                                    : fmt::format("Needless here, so leave it off:{}", needless));
 }
 
 std::string worth_text(const MethodWorth& worth) {
@@ -101,7 +134,6 @@ std::string worth_text(const MethodWorth& worth) {
         "\nWhat each part of {} costs and is worth: one setting changed at a time\n{:36} {:>7} "
         "{:>7} {:>12}\n",
         worth.method, "change", "time", "cells", worth.figure);
-    std::string needless;
     for (const PartWorth& part : worth.parts) {
         if (part.error.empty()) {
             text += fmt::format("{:36} {:>6.2f}x {:>6.2f}x {:>12} {}\n", part.change, part.time,
@@ -110,17 +142,11 @@ std::string worth_text(const MethodWorth& worth) {
         } else {
             text += fmt::format("{:36} failed: {}\n", part.change, part.error);
         }
-        if (part.is_needless()) {
-            needless += " --set " + part.change;
-        }
     }
-    text += fmt::format(
-        "time, cells: over those without the change. {}: by how much it is worse; "
-        "same: no figure changes in its last bit.\n",
-        worth.figure);
-    text += needless.empty() ? "Nothing that is on is needless here.\n"
-                             : fmt::format("Needless here, so leave it off:{}\n", needless);
-    return text;
+    return text + fmt::format(
+                      "time, cells: over those without the change. {}: by how much it is "
+                      "worse; same: no figure changes in its last bit.\n{}\n",
+                      worth.figure, worth_note(worth));
 }
 
 nlohmann::ordered_json worth_json(const MethodWorth& worth) {

@@ -69,6 +69,22 @@ class CaseSweep {
         return all_timed ? Expected<void>{} : time_all();
     }
 
+    /// Says of every point that is not judged why its case cannot be rendered.
+    Expected<void> fail(const std::string& why) {
+        for (const Contender& contender : contenders_) {
+            if (contender.known) {
+                continue;
+            }
+            const JudgedPoint judged{.of_case = at_case_, .point = contender.point, .error = why};
+            if (auto kept = hooks_.judged(judged); !kept) {
+                return kept;
+            }
+            record_.judged.push_back(judged);
+        }
+        say(why);
+        return {};
+    }
+
   private:
     struct Contender {
         std::size_t point = 0;
@@ -428,10 +444,19 @@ Expected<void> sweep(const vulkan::Context& context, const SweepQuestion& questi
                      const SweptValues& values, settings::Settings& settings,
                      const SweepHooks& hooks, SweepRecord& record) {
     for (std::size_t at_case = 0; at_case < question.cases.size(); ++at_case) {
-        if (auto done =
-                CaseSweep(context, question, at_case, values, settings, hooks, record).run();
-            !done) {
-            return done;
+        CaseSweep one(context, question, at_case, values, settings, hooks, record);
+        try {
+            if (auto done = one.run(); !done) {
+                return done;
+            }
+        } catch (const SetupError& error) {
+            // Of several scenes one that cannot be shown takes nothing from the others.
+            if (error.kind() != ErrorKind::BadInput || question.cases.size() == 1) {
+                throw;
+            }
+            if (auto failed = one.fail(error.what()); !failed) {
+                return failed;
+            }
         }
     }
     return {};

@@ -198,7 +198,7 @@ ordered_json sweep_json(const SweepReport& report) {
     }
     const std::vector<SweepRow>& rows = report.summed_rows();
     json["equal_quality"] = levels_json(rows);
-    if (const auto worth = method_worth(rows)) {
+    if (const auto worth = method_worth(subject, rows)) {
         json["worth"] = worth_json(*worth);
     }
     if (report.with_fits) {

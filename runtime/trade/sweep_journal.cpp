@@ -27,7 +27,7 @@ std::unexpected<Error> refuse(const std::string& name, std::string_view why) {
 }
 
 Expected<std::string> text_of(const fs::path& file) {
-    auto in = open_for_reading(file);
+    auto in = open_regular_file(file);
     if (!in) {
         return refuse(file.string(), fmt::format("cannot be read ({})", in.error()));
     }

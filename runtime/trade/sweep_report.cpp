@@ -204,7 +204,7 @@ std::string sweep_text(const SweepReport& report) {
     }
     const std::vector<SweepRow>& rows = report.summed_rows();
     text += levels_text(rows);
-    if (const auto worth = method_worth(rows)) {
+    if (const auto worth = method_worth(subject, rows)) {
         text += worth_text(*worth);
     }
     if (report.with_fits) {

@@ -223,7 +223,7 @@ TEST(SceneFiles, OfLightFieldsThatDoNotFitNeedRoomOnADisk) {
     const std::string nowhere = (folder / "none").string();
     ProgramResult result = run_gazeloop(run, {.environment = {{"TMPDIR", nowhere}}});
     EXPECT_EQ(result.exit_code, 3);
-    EXPECT_THAT(result.err, HasSubstr(nowhere + ": a scratch file cannot be made"));
+    EXPECT_THAT(result.err, HasSubstr(nowhere + ": no scratch file"));
     EXPECT_THAT(result.err, HasSubstr("TMPDIR"));
 
     std::filesystem::create_directory(nowhere);
@@ -234,7 +234,7 @@ TEST(SceneFiles, OfLightFieldsThatDoNotFitNeedRoomOnADisk) {
                      "mount -t tmpfs -o size=4m none '" + nowhere + "' && exec \"$@\"", "sh"}});
     EXPECT_EQ(result.exit_code, 3);
     EXPECT_THAT(result.err,
-                HasSubstr(nowhere + ": a scratch file of 15 MiB finds no room (No space left"));
+                HasSubstr(nowhere + ": no room for a scratch file of 15 MiB (No space left"));
 
     std::filesystem::resize_file(folder / "field" / "view_07_03.png", 900);
     result = run_gazeloop(run);

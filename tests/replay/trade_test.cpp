@@ -260,6 +260,7 @@ TEST(Trade, FitsABuffersShapeThatRunsTake) {
     const ProgramResult none = trade({"--methods", "kfr", "--fitted", toml, "--fewer", "900"});
     EXPECT_EQ(none.exit_code, 2) << none.err;
     EXPECT_THAT(none.err, HasSubstr("no kfr.sigma gives 900 times fewer"));
+    EXPECT_THAT(none.err, HasSubstr("name another --fewer"));
 }
 
 TEST(Trade, GivesTheSameQualityTwice) {
@@ -282,6 +283,22 @@ TEST(Trade, GoesOnWherePointsFail) {
     ASSERT_EQ(points.size(), 3U);
     EXPECT_TRUE(points[1].contains("figures"));
     EXPECT_THAT(points[2].at("error").get<std::string>(), HasSubstr("layers.n"));
+}
+
+TEST(Trade, ReportsTheScenesThatCanBeShown) {
+    const ScratchFolder folder;
+    const std::string none = folder.file("none.lightfield");
+    const ProgramResult result =
+        trade({"--scenes", none + ",raymarch", "--methods", "kfr", "--sigma", "2", "--frames", "1",
+               "--rounds", "1", "--metric", "psnr", "--json", "-"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("none.lightfield"));
+    const json points = json::parse(result.out).at("points");
+    ASSERT_EQ(points.size(), 4U);
+    EXPECT_TRUE(points[0].contains("error") && points[1].contains("error"));
+    EXPECT_TRUE(points[3].contains("figures"));
+    // Alone, it is an input that cannot be read.
+    EXPECT_EQ(trade({"--scene", none, "--frames", "1"}).exit_code, 3);
 }
 
 TEST(Trade, RefusesWhatItCannotSweep) {
@@ -315,6 +332,12 @@ TEST(Trade, RefusesWhatItCannotSweep) {
              {{"--gaze", "0,0", "--gaze", "0,0"}, 2, "--gaze 0,0 is there twice"},
              {{"--scene", "raymarch", "--scenes", "gallery"}, 2, "--scenes excludes --scene"},
              {{"--merge", "j", "--methods", "kfr"}, 2, "--methods excludes --merge"},
+             {{"--merge", "/dev/zero"}, 3, "it is no regular file"},
+             {{"--resume", "/dev/full"}, 3, "it is no regular file"},
+             {{"--worth", "kfr", "--published-grid"}, 2, "excludes"},
+             {{"--worth", "kfr", "--shard", "1/2"}, 2, "excludes"},
+             {{"--methods", "kfr", "--fitted", "f", "--resume", "j"}, 2, "excludes"},
+             {{"--methods", "interleaved", "--fitted", "/tmp/f", "--frames", "1"}, 2, "--frames 4"},
              {{"--merge", "j", "--metric", "flip"}, 2, "--metric excludes --merge"},
              {{"--merge", "j", "--spp", "2"}, 2, "--merge excludes --spp"},
              {{"--budget-ms", "0"}, 2, "--budget-ms"},

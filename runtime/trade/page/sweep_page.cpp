@@ -223,7 +223,7 @@ data links(const SweepReport& report, bool is_recommended) {
     for (std::size_t i = 0; i < shown.size(); ++i) {
         add(fmt::format("case-{}", i), title_of(*shown[i], report));
     }
-    if (method_worth(report.summed_rows())) {
+    if (method_worth(report.subject, report.summed_rows())) {
         add("worth", "What each part is worth");
     }
     add("equal", "At equal quality");
@@ -274,11 +274,11 @@ std::string sweep_page(const SweepReport& report) {
     }
     page.set("sheets", sheets);
     page.set("pass_tables", pass_tables);
-    if (const auto worth = method_worth(rows)) {
+    if (const auto worth = method_worth(report.subject, rows)) {
         data item("note",
                   fmt::format("Each setting of {} changed alone: time and cells over those "
-                              "without the change. Same: no figure changes in its last bit.",
-                              worth->method));
+                              "without the change. Same: no figure changes in its last bit. {}",
+                              worth->method, worth_note(*worth)));
         item.set("table", table_data(worth_table(*worth)));
         page.set("worth", item);
     }

@@ -21,11 +21,9 @@ Json result() {
                       {"uncertain_ms", 1.25},
                       {"min_ms", 40},
                       {"max_ms", 53.125}};
-    return {{"format", "gazeloop-probe"},
-            {"version", 1},
-            {"eye_lost", delays},
-            {"eye_found", {{"trials", 0}, {"mean_ms", nullptr}}},
-            {"patch", {{"pulsed", true}}}};
+    return {{"format", "gazeloop-probe"},  {"version", 1},
+            {"eye_lost", delays},          {"eye_found", {{"trials", 0}, {"mean_ms", nullptr}}},
+            {"patch", {{"pulsed", true}}}, {"warnings", {"the lamp is overexposed"}}};
 }
 
 TEST(Measurement, IsReadAsWritten) {
@@ -37,6 +35,10 @@ TEST(Measurement, IsReadAsWritten) {
     EXPECT_FALSE(read->eye_found);
     EXPECT_TRUE(read->pulsed);
     EXPECT_EQ(read->source, "r.json");
+    EXPECT_THAT(read->warnings, testing::ElementsAre("the lamp is overexposed"));
+    const std::string text =
+        comparison_text({.measured = *read, .modelled = {}, .begin_to_middle_ms = std::nullopt});
+    EXPECT_THAT(text, HasSubstr("warning     the lamp is overexposed"));
 }
 
 TEST(Measurement, WhatCannotBeIsNamed) {
@@ -53,6 +55,7 @@ TEST(Measurement, WhatCannotBeIsNamed) {
         return json.dump();
     };
     EXPECT_THAT(refusal(with("/format", "other")), HasSubstr("'format' is another"));
+    EXPECT_THAT(refusal(with("/warnings", 3)), HasSubstr("'/warnings' are no texts"));
     EXPECT_THAT(refusal(with("/version", 2)), HasSubstr("'version' is not 1"));
     EXPECT_THAT(refusal(with("/eye_lost/trials", -1)), HasSubstr("'/eye_lost/trials' is no count"));
     EXPECT_THAT(refusal(with("/eye_lost/mean_ms", "46")), HasSubstr("'/eye_lost/mean_ms' is no"));

@@ -24,7 +24,7 @@ using tests::made_sweep;
 /// kfr as it is (2 ms a frame), without what no picture needs (1 ms), and with what makes it worse
 /// and faster (.5 ms).
 SweepRecord worth_sweep() {
-    SweepRecord record = made_sweep();
+    SweepRecord record = made_sweep(1, 2, 3);
     record.points = {{.method = "full"},
                      {.method = "kfr"},
                      {.method = "kfr", .settings = {{"render.lp_gaussian", "off"}}},
@@ -42,9 +42,10 @@ SweepRecord worth_sweep() {
     return record;
 }
 
-MethodWorth worth_of(const SweepRecord& record) {
-    return method_worth(sheets_of(record).front().rows).value();
+std::optional<MethodWorth> worth_in(const SweepRecord& record) {
+    return method_worth(record.subject, sheets_of(record).front().rows);
 }
+MethodWorth worth_of(const SweepRecord& record) { return worth_in(record).value(); }
 
 TEST(PartWorth, HoldsEachChangeAgainstTheMethodAsItIs) {
     const MethodWorth worth = worth_of(worth_sweep());
@@ -67,7 +68,7 @@ TEST(PartWorth, HoldsEachChangeAgainstTheMethodAsItIs) {
 
 TEST(PartWorth, SaysNothingOfTimesThatOverlapAndSeesTheLastBit) {
     SweepRecord record = worth_sweep();
-    record.turns[0].times[2].pass_ms = {1.5, 1.5};  // of the first of two rounds
+    record.turns[0].times[2].pass_ms = {1.5, 1.5};  // of the first of three rounds
     record.turns[1].times[2].pass_ms = {1.5, 1.5};
     EXPECT_EQ(worth_of(record).parts[0].verdict(), "changes no picture");
     record = worth_sweep();
@@ -86,18 +87,45 @@ TEST(PartWorth, SaysNothingOfTimesThatOverlapAndSeesTheLastBit) {
     EXPECT_GT(worth_of(record).parts[1].loss, 0.0);
 }
 
+TEST(PartWorth, CallsNeedlessOnlyWhatIsSwitchedOffAndWhatRoundsShow) {
+    SweepRecord record = worth_sweep();
+    EXPECT_TRUE(worth_of(record).parts[0].is_needless());
+    record.subject.rounds = 2;  // too few to tell
+    EXPECT_FALSE(worth_of(record).parts[0].time_is_clear);
+    record.subject.rounds = 3;
+    for (const char* const on : {"on", "scene", "8"}) {
+        record.points[2].settings.front().second = on;
+        EXPECT_EQ(worth_of(record).parts[0].is_needless(), std::string_view(on) == "8") << on;
+    }
+    record.points[2].settings = {{"interleaved.every", "8"}};
+    EXPECT_FALSE(worth_of(record).parts[0].is_needless());
+    record.points[2].settings = {{"kfr.disc", "false"}};
+    EXPECT_TRUE(worth_of(record).parts[0].is_needless());
+    for (TimedTurn& turn : record.turns) {
+        turn.times[2].pass_ms = {0.5, 1.45};  // of 2: within 3 %
+    }
+    EXPECT_EQ(worth_of(record).parts[0].verdict(), "changes no picture");
+    record.subject.frames = 1;
+    record.turns.resize(3);
+    for (unsigned round = 0; round < 3; ++round) {
+        record.turns[round].round = round;
+        record.turns[round].frame = 0;
+    }
+    EXPECT_THAT(worth_text(worth_of(record)), HasSubstr("One frame shows nothing of what needs"));
+}
+
 TEST(PartWorth, IsOfSuchSweepsAlone) {
-    EXPECT_FALSE(method_worth({}));
-    EXPECT_FALSE(method_worth(sheets_of(made_sweep()).front().rows));  // none as it is
+    EXPECT_FALSE(method_worth({}, {}));
+    EXPECT_FALSE(worth_in(made_sweep()));  // none as it is
     SweepRecord record = worth_sweep();
     record.points[3].settings.emplace_back("kfr.sigma", "3");
-    EXPECT_FALSE(method_worth(sheets_of(record).front().rows));
+    EXPECT_FALSE(worth_in(record));
     record = worth_sweep();
     record.points[3].method = "acuity";
-    EXPECT_FALSE(method_worth(sheets_of(record).front().rows));
+    EXPECT_FALSE(worth_in(record));
     record = worth_sweep();
     record.judged[1] = {.of_case = 0, .point = 1, .error = "no"};
-    EXPECT_FALSE(method_worth(sheets_of(record).front().rows));
+    EXPECT_FALSE(worth_in(record));
     // A part that fails says so, beside the others.
     record = worth_sweep();
     record.judged[3] = {.of_case = 0, .point = 3, .error = "no hole allowed"};

@@ -6,16 +6,17 @@
 #include <cstdlib>
 #include <vector>
 
-#include "runtime/files/scratch_file.h"
+#include "runtime/memory/scratch_file.h"
 #include "tests/support/temporary_folder.h"
 
-namespace gazeloop::files {
+namespace gazeloop::memory {
 namespace {
 
 TEST(ScratchFile, GivesBackWhatWasWrittenAndLeavesNothing) {
     const tests::TemporaryFolder folder;
-    auto file = ScratchFile::create(1 << 20, folder.path());
+    auto file = ScratchFile::make(folder.path());
     ASSERT_TRUE(file.has_value()) << file.error().message;
+    ASSERT_TRUE(file->reserve(1 << 20).has_value());
     EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "it has no name";
     const std::vector<std::byte> written(1000, std::byte{42});
     ASSERT_TRUE(file->write(5000, written).has_value());
@@ -30,16 +31,16 @@ TEST(ScratchFile, GivesBackWhatWasWrittenAndLeavesNothing) {
 
 TEST(ScratchFile, SaysWhereThereIsNoRoomForIt) {
     const tests::TemporaryFolder folder;
-    const auto nowhere = ScratchFile::create(10, folder / "none");
+    const auto nowhere = ScratchFile::make(folder / "none");
     ASSERT_FALSE(nowhere.has_value());
     EXPECT_EQ(nowhere.error().kind, ErrorKind::BadInput);
-    EXPECT_THAT(nowhere.error().message,
-                testing::AllOf(testing::HasSubstr("none: a scratch file cannot be made"),
-                               testing::HasSubstr("TMPDIR")));
-    const auto endless = ScratchFile::create(std::uint64_t{1} << 60U, folder.path());
+    EXPECT_THAT(nowhere.error().message, testing::AllOf(testing::HasSubstr("none: no scratch file"),
+                                                        testing::HasSubstr("TMPDIR")));
+    const auto endless = ScratchFile::make(folder.path()).value().reserve(std::size_t{1} << 60U);
     ASSERT_FALSE(endless.has_value());
-    EXPECT_THAT(endless.error().message, testing::HasSubstr("of 1099511627777 MiB finds no room"));
+    EXPECT_THAT(endless.error().message,
+                testing::HasSubstr("no room for a scratch file of 1099511627777 MiB"));
 }
 
 }  // namespace
-}  // namespace gazeloop::files
+}  // namespace gazeloop::memory
