@@ -1,4 +1,5 @@
 #include "runtime/report/gaze_page/gaze_page.h"
+#include "runtime/memory/long_vector.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST(GazeHistogram, CountsEveryFiniteNumberOnce) {
-    std::vector<double> values;
+    memory::LongVector<double> values;
     for (int i = 0; i < 1000; ++i) {
         values.push_back(i * 0.37);
     }
@@ -34,7 +35,8 @@ TEST(GazeHistogram, CountsEveryFiniteNumberOnce) {
     EXPECT_EQ(found.first, 0.0);
     EXPECT_EQ(found.above, 1U) << "all else is within the bin of the 99th percentile";
     EXPECT_EQ(histogram({}, 1.0).counts.size(), 0U);
-    EXPECT_EQ(histogram(std::vector<double>(5, 3.0), 1.0).counts, (std::vector<std::uint64_t>{5}));
+    EXPECT_EQ(histogram(memory::LongVector<double>(5, 3.0), 1.0).counts,
+              (std::vector<std::uint64_t>{5}));
     EXPECT_EQ(histogram({-5.0, -5.0, 5.0}, 1.0).first, -5.0);
 }
 
