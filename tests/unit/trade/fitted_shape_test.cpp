@@ -105,8 +105,8 @@ TEST(FittedShape, IsWrittenAsSettings) {
     EXPECT_THAT(toml, HasSubstr("# Made by: gazeloop trade\n# a display, 100x80 px an eye, 2 "
                                 "frames, 1 sample per cell;"));
     EXPECT_THAT(toml,
-                HasSubstr("At 20 times fewer samples than pixels the first figure is 0.6, 0.7 "
-                          "with kfr.sigma=2."));
+                HasSubstr("At 20 times fewer samples than pixels (in a frame that follows others) "
+                          "the first figure is 0.6, 0.7 with kfr.sigma=2."));
     EXPECT_THAT(toml, HasSubstr("\n[interleaved]\nevery = \"8\"\n"));
     EXPECT_THAT(toml, HasSubstr("\n[kfr]\nsigma = 2.5\naspect = 0.4\nkernel = \"table\"\n"
                                 "kernel_samples = \"0,0;0.5,0.1;1,1\"\n"));
