@@ -67,7 +67,7 @@ PictureHeader read_picture_header(std::span<const std::byte> bytes, const std::s
     } else if (starts_with(bytes, "\xFF\xD8\xFF")) {
         header = read_jpeg_header(bytes, place);
     } else {
-        refuse(place, fmt::format("is {}; glTF has PNG and JPEG, export it as one of them",
+        refuse(place, fmt::format("is {}; PNG and JPEG are read, export it as one of them",
                                   other_kind(bytes)));
     }
     if (header.width == 0 || header.height == 0 ||
