@@ -29,8 +29,11 @@ namespace {
 constexpr int kRows = 12'000;
 
 /// Gaze that jumps every 300 ms, with noise, so that no two rows are alike.
-double azimuth_deg(int i) { return 9.0 * std::sin(1.7 * (i / 60)) + 0.01 * std::sin(31.0 * i); }
-double elevation_deg(int i) { return 5.0 * std::cos(2.3 * (i / 60)) + 0.01 * std::cos(17.0 * i); }
+int fixation(int i) { return i / 60; }
+double azimuth_deg(int i) { return 9.0 * std::sin(1.7 * fixation(i)) + 0.01 * std::sin(31.0 * i); }
+double elevation_deg(int i) {
+    return 5.0 * std::cos(2.3 * fixation(i)) + 0.01 * std::cos(17.0 * i);
+}
 
 /// Rows in which something is to be found: two change places, one says nothing that is understood.
 int place(int i) { return i == 500 ? 501 : i == 501 ? 500 : i; }
@@ -40,7 +43,7 @@ gaze::GazeTrace made(int rows) {
     gaze::GazeTrace trace{.file = "made", .format = "gazeloop", .device = "Made"};
     for (int i = 0; i < rows; ++i) {
         gaze::GazeSample& sample = trace.samples.emplace_back();
-        sample.sequence = static_cast<std::uint64_t>(i + (i > 900 ? 3 : 0));
+        sample.sequence = static_cast<std::uint64_t>(i) + (i > 900 ? 3 : 0);
         sample.device_ns = place(i) * 5'000'000LL;
         sample.sampled = {i * 5'000'000LL, time::StampKind::Modelled};
         sample.arrived = {sample.device_ns + 3'000'000 + (i * 7919) % 900'000,
