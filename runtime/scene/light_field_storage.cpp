@@ -87,12 +87,12 @@ Expected<LightFieldStorage> choose_storage(const light_field::LightField& field,
         fmt::format("{}: two eyes' pictures are made of up to {} of the {} views of {}x{} px at a "
                     "time, which take {} MiB of the GPU's memory; they may take {} "
                     "(lightfield.memory_mib), which holds {} (this device: {} views and {} MiB in "
-                    "one image). {}{}allow more",
+                    "one image). {}",
                     views.name, needed, all, views.width_px, views.height_px,
                     mib(needed_bytes + (needed < all ? staging : 0)), limits.most_bytes >> 20U,
                     layers, limits.most_layers, limits.most_image_bytes >> 20U,
-                    remedies.empty() ? "" : "These would fit: ",
-                    remedies.empty() ? "" : remedies + "or ")});
+                    remedies.empty() ? "Allow more"
+                                     : fmt::format("These would fit: {}or allow more", remedies))});
 }
 
 }  // namespace gazeloop::scene
