@@ -8,9 +8,8 @@ GazeTrace in_memory(GazeRecording recording) {
     GazeTrace trace{.file = std::move(recording.file),
                     .format = std::move(recording.format),
                     .device = std::move(recording.device),
-                    .samples = std::vector<GazeSample>(recording.samples->size()),
+                    .samples = recording.samples->take(),
                     .report = std::move(recording.report)};
-    recording.samples->read(0, trace.samples);
     return trace;
 }
 

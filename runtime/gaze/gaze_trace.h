@@ -36,7 +36,7 @@ struct GazeRecording {
     std::string file{};
     std::string format{};
     std::string device{};
-    std::shared_ptr<const SampleSource> samples{};  ///< never null
+    std::shared_ptr<SampleSource> samples{};  ///< never null
     TraceReport report{};
 };
 

@@ -19,6 +19,12 @@ class SampleSource {
     [[nodiscard]] virtual std::size_t size() const = 0;
     /// Precondition: first + to.size() <= size().
     virtual void read(std::size_t first, std::span<GazeSample> to) const = 0;
+    /// All of them, for whoever reads no more from here: what is in memory is not copied.
+    [[nodiscard]] virtual std::vector<GazeSample> take() {
+        std::vector<GazeSample> all(size());
+        read(0, all);
+        return all;
+    }
 };
 
 /// Samples one after the other, as often as they are asked for, in memory or from a SampleSource,

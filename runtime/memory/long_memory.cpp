@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 #include <new>
+#include <set>
 #include <stop_token>
 #include <thread>
 #include <utility>
@@ -35,8 +36,15 @@ class Blocks {
 
     void* allocate(std::size_t bytes) {
         const std::scoped_lock lock(mutex_);
+        if (limit_ == kNoLimit) {
+            // As any vector's: what a growing one gives up is used again, without new faults.
+            void* const block = ::operator new(bytes);
+            counts_.in_memory += bytes;
+            return block;
+        }
         if (bytes <= limit_ && counts_.in_memory <= limit_ - bytes) {
             void* const block = mapped_memory(bytes);
+            mapped_.insert(block);
             counts_.in_memory += bytes;
             return block;
         }
@@ -50,8 +58,13 @@ class Blocks {
     /// Under the lock to the end: what stands there next is not to be let go of.
     void release(void* block, std::size_t bytes) {
         const std::scoped_lock lock(mutex_);
-        (in_files_.erase(block) > 0 ? counts_.in_files : counts_.in_memory) -= bytes;
-        munmap(block, bytes);
+        const bool in_file = in_files_.erase(block) > 0;
+        (in_file ? counts_.in_files : counts_.in_memory) -= bytes;
+        if (in_file || mapped_.erase(block) > 0) {
+            munmap(block, bytes);
+        } else {
+            ::operator delete(block, bytes);
+        }
     }
 
     [[nodiscard]] LongBlocks counts() {
@@ -135,6 +148,7 @@ class Blocks {
     std::size_t limit_ = kNoLimit;
     LongBlocks counts_;
     std::map<void*, std::size_t> in_files_;
+    std::set<void*> mapped_;  ///< in memory, made under a limit
     std::string folder_in_memory_;  ///< of scratch files since the limit was set; empty: none
 };
 

@@ -8,8 +8,8 @@ namespace gazeloop::memory {
 
 class ScratchFile;
 
-/// A block of so many bytes or more is long: it is mapped by itself, and may lie in a scratch file.
-/// Shorter ones are as new makes them.
+/// A block of so many bytes or more is long: under a MemoryLimit it is mapped by itself, and may
+/// lie in a scratch file. Shorter ones, and all without a limit, are as new makes them.
 inline constexpr std::size_t kLongBlock = std::size_t{256} << 10U;
 
 /// A block for a vector that grows with a recording (long_vector.h). Throws SetupError (BadInput)

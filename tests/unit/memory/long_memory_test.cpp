@@ -157,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Spooled,
                                          Spool<std::uint64_t>::kBuffered + 1,
                                          5 * Spool<std::uint64_t>::kBuffered + 17));
 
-TEST(Spooled, StaysInMemoryWhereNoScratchFileCanBeAndNoLimitIs) {
+TEST(Spooled, StaysInMemoryWhereNoLimitIs) {
     const ScratchIn nowhere("/nonexistent/folder");
     Spool<std::uint64_t> spool;
     for (std::size_t i = 0; i < 3 * Spool<std::uint64_t>::kBuffered; ++i) {
