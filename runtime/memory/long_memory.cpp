@@ -148,7 +148,7 @@ class Blocks {
     std::size_t limit_ = kNoLimit;
     LongBlocks counts_;
     std::map<void*, std::size_t> in_files_;
-    std::set<void*> mapped_;  ///< in memory, made under a limit
+    std::set<void*> mapped_;        ///< in memory, made under a limit
     std::string folder_in_memory_;  ///< of scratch files since the limit was set; empty: none
 };
 

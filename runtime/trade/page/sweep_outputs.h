@@ -14,7 +14,7 @@ struct SweepOutputs {
     std::string json{};
     std::string html{};
     std::string fitted{};  ///< fitted_toml(); written before anything is measured
-    std::string front{};  ///< a governor's levels
+    std::string front{};   ///< a governor's levels
     bool text = true;
 };
 
