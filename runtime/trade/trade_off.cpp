@@ -194,6 +194,12 @@ std::vector<SweepPoint> fitted_points(const vulkan::Context& context, const Trad
                                       const SweepQuestion& question, const SweptValues& values,
                                       settings::Settings& settings, const SweepHooks& hooks) {
     const FitQuestion fit{.method = request.methods, .fewer = request.fewer};
+    for (const char* const key : {"kfr.sigma", "interleaved.every"}) {
+        if (!settings.is_built_in(key)) {
+            hooks.progress(fmt::format("{} has no effect with --fitted, which finds its own",
+                                       settings.with_origin(key)));
+        }
+    }
     const FittedShape fitted =
         value_or_throw(fitted_shape(context, question, values, settings, hooks, fit));
     value_or_throw(report::write_text(request.outputs.fitted,

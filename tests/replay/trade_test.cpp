@@ -257,7 +257,9 @@ TEST(Trade, FitsABuffersShapeThatRunsTake) {
     EXPECT_THAT(run.out, HasSubstr("kfr.kernel                   = 'table'"));
     EXPECT_THAT(trade({"--fitted", toml}).err, HasSubstr("no log-polar buffer"));
     EXPECT_EQ(trade({"--fewer", "4"}).exit_code, 2);
-    const ProgramResult none = trade({"--methods", "kfr", "--fitted", toml, "--fewer", "900"});
+    const ProgramResult none =
+        trade({"--methods", "kfr", "--fitted", toml, "--fewer", "900", "--set", "kfr.sigma=3"});
+    EXPECT_THAT(none.err, HasSubstr("has no effect with --fitted"));
     EXPECT_EQ(none.exit_code, 2) << none.err;
     EXPECT_THAT(none.err, HasSubstr("no kfr.sigma gives 900 times fewer"));
     EXPECT_THAT(none.err, HasSubstr("name another --fewer"));
