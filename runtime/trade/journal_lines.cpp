@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -90,12 +91,26 @@ quality::ContrastShares shares_of(const json& line) {
     return shares;
 }
 
+std::uint64_t hash_of(const json& value) {
+    const auto text = value.get<std::string>();
+    std::uint64_t hash = 0;
+    const char* const end = text.data() + text.size();
+    const auto [read, error] = std::from_chars(text.data(), end, hash, 16);
+    if (error != std::errc{} || read != end) {
+        throw std::runtime_error("the reference's hash is no hexadecimal number of 64 bits");
+    }
+    return hash;
+}
+
 JudgedPoint judged_of(const json& line, const SweepRecord& record) {
     JudgedPoint judged{.of_case = index_of(line.at("case"), record.cases.size(), "case"),
                        .point = index_of(line.at("point"), record.points.size(), "point"),
                        .error = line.value("error", "")};
     if (line.contains("contrast_shares")) {  // of sweeps of before there are none
         judged.shares = shares_of(line.at("contrast_shares"));
+    }
+    if (line.contains("reference")) {  // likewise
+        judged.reference_hash = hash_of(line.at("reference"));
     }
     if (!judged.error.empty()) {
         return judged;
@@ -197,6 +212,9 @@ std::string judged_line(const JudgedPoint& judged) {
                                    {"between", judged.shares->between},
                                    {"beyond", judged.shares->beyond},
                                    {"contrast", judged.shares->contrast}};
+    }
+    if (judged.reference_hash) {
+        line["reference"] = fmt::format("{:016x}", *judged.reference_hash);
     }
     if (!judged.error.empty()) {
         line["error"] = judged.error;

@@ -1,6 +1,7 @@
 #include "runtime/trade/sweep.h"
 
 #include <fmt/core.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <memory>
@@ -11,6 +12,8 @@
 #include "runtime/methods/registry.h"
 #include "runtime/render/off_screen.h"
 #include "runtime/render/scene_options.h"
+#include "runtime/scene/light_field_file.h"
+#include "runtime/scene/scene_file.h"
 #include "runtime/trade/point_picture.h"
 #include "runtime/trade/settings_of_point.h"
 #include "runtime/trade/time_left.h"
@@ -18,6 +21,10 @@
 
 namespace gazeloop::trade {
 namespace {
+
+std::uint64_t hash_of(const render::LinearPicture& picture) {
+    return XXH3_64bits(picture.pixels.data(), picture.pixels.size() * sizeof(glm::vec3));
+}
 
 /// One case's points.
 class CaseSweep {
@@ -45,6 +52,9 @@ class CaseSweep {
                     found->known = true;
                     found->failed = !judged.error.empty();
                 }
+                if (judged.reference_hash) {
+                    hash_before_ = judged.reference_hash;
+                }
             }
         }
         for (const TimedTurn& turn : record.turns) {
@@ -57,12 +67,16 @@ class CaseSweep {
     Expected<void> run() {
         const std::size_t known = count_known();
         const bool all_timed = timed_.size() == std::size_t{question_.rounds} * frames();
-        if (known == contenders_.size() && all_timed) {
+        if (known == contenders_.size() && all_timed && !may_change()) {
             return {};
         }
         if (known < contenders_.size()) {
             if (auto judged = judge_all(); !judged) {
                 return judged;
+            }
+        } else if (hash_before_) {
+            if (auto same = render_reference(1); !same) {
+                return same;
             }
         }
         reference_.clear();
@@ -93,6 +107,10 @@ class CaseSweep {
         std::unique_ptr<render::OffScreen> renderer;
     };
 
+    /// Whether the scene may be another one by the same name.
+    [[nodiscard]] bool may_change() const {
+        return scene::is_scene_file(case_.scene) || scene::is_light_field_file(case_.scene);
+    }
     [[nodiscard]] std::size_t frames() const { return case_.directions.size(); }
     [[nodiscard]] std::size_t count_known() const {
         return static_cast<std::size_t>(std::ranges::count(contenders_, true, &Contender::known));
@@ -162,16 +180,18 @@ class CaseSweep {
 
     [[nodiscard]] gaze::Eye eye() const { return question_.comparison.eye; }
 
-    Expected<void> render_reference() {
+    /// The first `count` frames of the reference.
+    /// Errors: also BadInput where its first frame is not what it was when the sweep began.
+    Expected<void> render_reference(std::size_t count) {
         const gaze::EyeView& view_of_eye = question_.views[gaze::index(eye())];
-        const std::uint64_t bytes = std::uint64_t{view_of_eye.width_px} * view_of_eye.height_px *
-                                    sizeof(glm::vec3) * frames();
+        const std::uint64_t bytes =
+            std::uint64_t{view_of_eye.width_px} * view_of_eye.height_px * sizeof(glm::vec3) * count;
         if (bytes > kMostReferenceBytes) {
             return std::unexpected(Error{
                 ErrorKind::Usage,
                 fmt::format("the reference's {} frames would take {} MiB of memory, over {}: fewer "
                             "--frames, or smaller pictures (--set render.scale=0.5)",
-                            frames(), bytes >> 20U, kMostReferenceBytes >> 20U)});
+                            count, bytes >> 20U, kMostReferenceBytes >> 20U)});
         }
         const auto passes = methods::find_method("full")->passes(values_.methods, settings_);
         if (!passes) {
@@ -181,14 +201,24 @@ class CaseSweep {
         config.samples = question_.reference_samples;
         config.camera = render::camera_of(values_.render);
         const auto full = renderer(scene({.light_field = values_.light_field}), *passes, config);
-        for (std::size_t frame = 0; frame < frames(); ++frame) {
+        for (std::size_t frame = 0; frame < count; ++frame) {
             if (auto stopped = stop_if_interrupted(); !stopped) {
                 return stopped;
             }
             full->render(view(frame), fovea(frame));
             reference_.push_back(full->linear_picture(eye()));
+            if (frame == 0 && hash_before_ && *hash_before_ != hash_of(reference_.front())) {
+                return std::unexpected(Error{
+                    ErrorKind::BadInput,
+                    fmt::format("'{}' is not what it was when this sweep began: its files or the "
+                                "driver have changed, so that figures from before do not "
+                                "compare; name another file for --resume",
+                                case_.scene)});
+            }
         }
-        say(fmt::format("{} frames of the reference rendered", reference_.size()));
+        if (count == frames()) {
+            say(fmt::format("{} frames of the reference rendered", count));
+        }
         return {};
     }
 
@@ -214,7 +244,7 @@ class CaseSweep {
     }
 
     Expected<void> judge_all() {
-        if (auto rendered = render_reference(); !rendered) {
+        if (auto rendered = render_reference(frames()); !rendered) {
             return rendered;
         }
         const auto shares = reference_shares();
@@ -247,6 +277,7 @@ class CaseSweep {
             }
             if (contender.point == 0) {
                 judged->shares = *shares;
+                judged->reference_hash = hash_of(reference_.front());
             }
             if (auto kept = hooks_.judged(*judged); !kept) {
                 return kept;
@@ -436,6 +467,7 @@ class CaseSweep {
     std::vector<Contender> contenders_;
     std::set<std::pair<unsigned, std::size_t>> timed_;  ///< round, frame
     std::vector<render::LinearPicture> reference_;
+    std::optional<std::uint64_t> hash_before_;  ///< of its first frame, when the sweep began
 };
 
 }  // namespace

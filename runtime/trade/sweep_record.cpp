@@ -119,12 +119,20 @@ Expected<SweepRecord> merged(std::vector<SweepRecord> records,
                 fmt::format("{} and {} are not of one sweep: {}", names[0], names[i], difference)});
         }
         for (JudgedPoint& one : records[i].judged) {
-            const bool there = std::ranges::any_of(all.judged, [&](const JudgedPoint& other) {
+            const auto there = std::ranges::find_if(all.judged, [&](const JudgedPoint& other) {
                 return other.of_case == one.of_case && other.point == one.point;
             });
-            if (!there) {  // each shard has full resolution
+            if (there == all.judged.end()) {
                 all.judged.push_back(std::move(one));
-            }
+            } else if (there->reference_hash && one.reference_hash &&
+                       there->reference_hash != one.reference_hash) {
+                return std::unexpected(Error{
+                    ErrorKind::BadInput,
+                    fmt::format("{} and {} do not compare: full resolution of '{}' is not the "
+                                "same picture in both; measure one of them again where the "
+                                "scene's files and the driver are those of the other",
+                                names[0], names[i], all.cases[one.of_case].scene)});
+            }  // else each shard has full resolution
         }
         std::ranges::move(records[i].turns, std::back_inserter(all.turns));
         all.torn_bytes += records[i].torn_bytes;

@@ -69,6 +69,9 @@ struct JudgedPoint {
     std::string heat_map{};  ///< where it differs from the reference, likewise
     /// Of the reference, mean of the frames that were judged; with full resolution's point alone.
     std::optional<quality::ContrastShares> shares{};
+    /// Of the reference's first frame; with full resolution's point alone. By it is known whether a
+    /// scene, or the driver, is another one when the sweep goes on.
+    std::optional<std::uint64_t> reference_hash{};
 };
 
 /// What each pass of a point took in one frame, ms, in the order of its passes; 0: did not run.

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/gltf_file.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::tests {
@@ -122,6 +123,37 @@ TEST(Trade, MeasuresNothingTwiceAndLosesNothingThatWasMeasured) {
     EXPECT_EQ(refused.exit_code, 3);
     EXPECT_THAT(refused.err, HasSubstr("kfr.alpha=2"));
     EXPECT_EQ(text_of(journal), again);
+}
+
+TEST(Trade, DoesNotGoOnWithAnotherSceneOfTheSameName) {
+    const ScratchFolder folder;
+    const auto write_scene = [&](double height) {
+        GltfFile file = one_triangle();
+        file.document["nodes"][0]["scale"] = {1.0, height, 1.0};
+        const std::vector<std::byte> bytes = file.glb();
+        return folder.write("a.glb", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    };
+    const std::string scene = write_scene(1.0);
+    const std::string journal = folder.file("trade.journal");
+    const std::vector<std::string> asked{"--scene",  scene,  "--methods", "kfr",  "--sigma",  "1.8",
+                                         "--alpha",  "4",    "--frames",  "1",    "--rounds", "2",
+                                         "--metric", "psnr", "--resume",  journal};
+    ASSERT_EQ(trade(asked).exit_code, 0);
+    const std::string all = text_of(journal);
+    ASSERT_EQ(trade(asked).exit_code, 0);
+    ASSERT_EQ(write_scene(0.8), scene);
+    // Complete, with a round to be timed, with a point to be judged.
+    std::string left = all;
+    for (int missing = 0; missing < 4; ++missing) {
+        ASSERT_EQ(folder.write("trade.journal", left), journal);
+        const ProgramResult result = trade(asked);
+        EXPECT_EQ(result.exit_code, 3) << missing << result.err;
+        EXPECT_THAT(result.err, HasSubstr("a.glb' is not what it was when this sweep began"));
+        EXPECT_EQ(text_of(journal), left);
+        left = left.substr(0, left.rfind('\n', left.size() - 2) + 1);
+    }
+    ASSERT_EQ(write_scene(1.0), scene);
+    EXPECT_EQ(trade(asked).exit_code, 0);
 }
 
 TEST(Trade, SplitsASweepAndMergesIt) {

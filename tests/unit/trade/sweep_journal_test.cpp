@@ -49,6 +49,7 @@ TEST(SweepJournal, GivesBackAllThatItWasTold) {
     }
     record.turns[2].times[1].energy_j.reset();
     record.judged[0].shares = {.kept = 0.25, .between = 0.5, .beyond = 0.25, .contrast = 0.125};
+    record.judged[0].reference_hash = 0xFEDCBA9876543210;
     {
         SweepRecord nothing = record;
         nothing.judged.clear();
@@ -66,6 +67,7 @@ TEST(SweepJournal, GivesBackAllThatItWasTold) {
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(difference_of(*read, record), "");
     EXPECT_EQ(text_of(*read), text_of(record));
+    EXPECT_EQ(read->judged[0].reference_hash, record.judged[0].reference_hash);
     EXPECT_EQ(read->torn_bytes, 0U);
     // Reports of both are the same, to the last bit.
     EXPECT_EQ(sweep_csv(report_of(*read)), sweep_csv(report_of(record)));
@@ -141,6 +143,7 @@ TEST(SweepJournal, NamesTheLineThatIsDamaged) {
              {good + "{\"case\":0,\"point\":0,\"contrast_shares\":{\"kept\":0.7,\"between\":0.7,"
                      "\"beyond\":0,\"contrast\":1}}\n",
               "over 1"},
+             {good + "{\"case\":0,\"point\":0,\"reference\":\"not hexadecimal\"}\n", "hash"},
              {good + "{\"case\":0,\"round\":9,\"frame\":0,\"ms\":[]}\n", "no round 9"}}) {
         const auto read = parse_journal(bad, "j");
         ASSERT_FALSE(read) << why;
@@ -199,6 +202,20 @@ TEST(Shards, AreOfOneSweepEachOnce) {
     SweepRecord other = shard_of(whole, 1, 2, 1.0);
     other.subject.device = "another device";
     EXPECT_FALSE(merged({shard_of(whole, 0, 2, 1.0), other}, {"a", "b"}));
+}
+
+TEST(Shards, AreOfTheSameScene) {
+    SweepRecord one = shard_of(made_sweep(), 0, 2, 1.0);
+    SweepRecord other = shard_of(made_sweep(), 1, 2, 1.0);
+    one.judged[0].reference_hash = 1;
+    EXPECT_TRUE(merged({one, other}, {"a", "b"}));  // of a sweep of before, which has none
+    other.judged[0].reference_hash = 1;
+    EXPECT_TRUE(merged({one, other}, {"a", "b"}));
+    other.judged[0].reference_hash = 2;
+    const auto both = merged({one, other}, {"a", "b"});
+    ASSERT_FALSE(both);
+    EXPECT_THAT(both.error().message, HasSubstr("a and b do not compare"));
+    EXPECT_THAT(both.error().message, HasSubstr("'scene0'"));
 }
 
 TEST(Shards, AreReadFromText) {
