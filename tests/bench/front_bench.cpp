@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,74 +15,15 @@
 #include "runtime/scene/scenes.h"
 #include "runtime/trade/equal_quality.h"
 #include "runtime/trade/sweep_report.h"
-#include "sim/gaze_generator.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/persons_gaze.h"
 #include "tests/bench/swept.h"
 
 namespace gazeloop::bench {
 namespace {
 
-constexpr const char* kOurs = "interleaved";
 constexpr std::size_t kFrames = 20;
 constexpr std::size_t kFirstInFixation = 8;
-/// Parameters were chosen with seed 1.
-constexpr std::uint64_t kSeed = 11;
-
-enum class Gaze : std::uint8_t { OverASaccade, InFixation };
-
-trade::SweepPoint interleaved(const char* sigma, const char* every,
-                              std::vector<std::pair<std::string, std::string>> more = {}) {
-    std::vector<std::pair<std::string, std::string>> settings{{"kfr.sigma", sigma},
-                                                              {"interleaved.every", every}};
-    settings.insert(settings.end(), more.begin(), more.end());
-    return {.method = kOurs, .settings = std::move(settings)};
-}
-
-/// A disc of which half is shaded in each frame: as the picture moves, most is lost there.
-const std::vector<std::pair<std::string, std::string>> kDiscInTwo{{"interleaved.disc_every", "2"}};
-
-/// A simulated person's gaze and head, a sample for each frame of the display.
-gaze::GazeTrace person(Gaze gaze, double frame_seconds) {
-    sim::GazeSimulation simulation{.seed = kSeed};
-    simulation.tracker.rate_hz = 1.0 / frame_seconds;
-    simulation.eye.blinks_per_min = 0.0;
-    if (gaze == Gaze::InFixation) {
-        simulation.eye.saccade_deg = 0.0;
-    }
-    constexpr double kSeconds = 10.0;
-    return sim::generate_gaze(simulation, kSeconds);
-}
-
-/// The frame from which a case begins: six frames before the first saccade of over 4 degrees.
-std::size_t first_frame(const gaze::GazeTrace& trace, Gaze gaze) {
-    constexpr std::size_t kBefore = 6;
-    constexpr std::size_t kLater = 4;
-    if (gaze == Gaze::InFixation) {
-        return 0;
-    }
-    for (std::size_t at = kBefore; at + kFrames < trace.samples.size(); ++at) {
-        const glm::dvec3 from = trace.samples[at].eyes[0].direction;
-        const glm::dvec3 to = trace.samples[at + kLater].eyes[0].direction;
-        if (glm::dot(from, to) < std::cos(glm::radians(4.0))) {
-            return at - kBefore;
-        }
-    }
-    throw SetupError(ErrorKind::Usage, "front: the simulated person makes no saccade");
-}
-
-trade::CaseQuestion case_of(std::string_view scene, Gaze gaze, double frame_seconds) {
-    trade::CaseQuestion of_case = still(scene, kFrames);
-    of_case.gaze = fmt::format("simulated, seed {}", kSeed);
-    const gaze::GazeTrace trace = person(gaze, frame_seconds);
-    const std::size_t first = first_frame(trace, gaze);
-    of_case.heads.resize(kFrames);
-    for (std::size_t frame = 0; frame < kFrames; ++frame) {
-        const gaze::GazeSample& sample = trace.samples.at(first + frame);
-        of_case.directions[frame] = {sample.eyes[0].direction, sample.eyes[1].direction};
-        of_case.heads[frame] = sample.head.value_or(gaze::Pose{});
-    }
-    return of_case;
-}
 
 /// What each setting is worth: the same point with one of them as it is without the method.
 struct Ingredient {
@@ -105,7 +44,7 @@ std::vector<Ingredient> ingredients() {
 }
 
 trade::SweepQuestion question(const display::DisplayProfile& display, const Options& options,
-                              Gaze gaze) {
+                              PersonsGaze gaze) {
     constexpr std::uint32_t kScale = 2;  // of the display's sides
     constexpr std::uint32_t kOther = 32;
     trade::SweepQuestion asked =
@@ -114,9 +53,9 @@ trade::SweepQuestion question(const display::DisplayProfile& display, const Opti
     asked.views[1].width_px = kOther;
     asked.views[1].height_px = kOther;
     asked.comparison.frame_seconds = asked.frame_seconds;
-    asked.first_judged = gaze == Gaze::InFixation ? kFirstInFixation : 0;
+    asked.first_judged = gaze == PersonsGaze::InFixation ? kFirstInFixation : 0;
     for (const char* const scene : {"raymarch", "gallery"}) {
-        asked.cases.push_back(case_of(scene, gaze, asked.frame_seconds));
+        asked.cases.push_back(seen_by_person(scene, gaze, kFrames, asked.frame_seconds));
     }
     return asked;
 }
@@ -168,7 +107,7 @@ double reference_over_full(const vulkan::Context& context, const trade::SweepQue
 }
 
 /// `reference_ratio`: reference_over_full().
-void add_savings(const std::vector<trade::SweepRow>& rows, const char* name, Gaze gaze,
+void add_savings(const std::vector<trade::SweepRow>& rows, const char* name, PersonsGaze gaze,
                  double reference_ratio, std::vector<Figure>& figures) {
     const trade::SweepRow& published = row_of(rows, published_kfr());
     const double level = published.figures.front().mean;
@@ -178,7 +117,7 @@ void add_savings(const std::vector<trade::SweepRow>& rows, const char* name, Gaz
     };
     add("quality_of_kfr", level, "", std::nullopt, "lower");
     add("kfr_samples_ratio", published.fewer_cells, "x");
-    const auto saving = trade::saving_at(rows, kOurs, level);
+    const auto saving = trade::saving_at(rows, kInterleaved, level);
     if (!saving) {
         fmt::print(stderr, "{}: no point is as good as the published one\n", name);
         return;
@@ -186,7 +125,7 @@ void add_savings(const std::vector<trade::SweepRow>& rows, const char* name, Gaz
     constexpr double kAverageTarget = 12.0;
     constexpr double kFixationTarget = 18.0;
     add("samples_ratio", saving->fewer_cells, "x",
-        gaze == Gaze::InFixation ? kFixationTarget : kAverageTarget);
+        gaze == PersonsGaze::InFixation ? kFixationTarget : kAverageTarget);
     add("rays_ratio", saving->fewer_cells, "x", 20.0);
     add("time_ratio", saving->speedup, "x", 8.0);
     add("time_ratio_over_16_rays", saving->speedup * reference_ratio, "x");
@@ -235,19 +174,13 @@ std::vector<Figure> front(const Options& options) {
     const vulkan::Context context({}, nullptr);
     const display::DisplayProfile display = value_or_throw(profiles::load_display("vive_pro_eye"));
     std::vector<Figure> figures;
-    for (const auto& [name, gaze] :
-         {std::pair{"average", Gaze::OverASaccade}, std::pair{"fixation", Gaze::InFixation}}) {
+    for (const auto& [name, gaze] : {std::pair{"average", PersonsGaze::OverASaccade},
+                                     std::pair{"fixation", PersonsGaze::InFixation}}) {
         if (!options.wants(name)) {
             continue;
         }
-        // From better than the published point to much fewer samples.
-        const std::vector<trade::SweepPoint> points{published_kfr(),
-                                                    interleaved("1.4", "8", kDiscInTwo),
-                                                    interleaved("1.6", "8", kDiscInTwo),
-                                                    interleaved("1.8", "8", kDiscInTwo),
-                                                    interleaved("2", "8", kDiscInTwo),
-                                                    interleaved("1.8", "8"),
-                                                    interleaved("2.2", "8")};
+        std::vector<trade::SweepPoint> points = interleaved_points();
+        points.insert(points.begin(), published_kfr());
         LossByFrame by_frame;
         const trade::SweepQuestion asked = question(display, options, gaze);
         const auto sheets = swept(context, asked, points,
@@ -265,7 +198,8 @@ std::vector<Figure> front(const Options& options) {
         for (const Ingredient& one : ingredients()) {
             points.push_back(one.without);
         }
-        const auto sheets = swept(context, question(display, options, Gaze::OverASaccade), points);
+        const auto sheets =
+            swept(context, question(display, options, PersonsGaze::OverASaccade), points);
         const trade::SweepSheet mean = trade::mean_sheet(sheets);
         for (const Ingredient& one : ingredients()) {
             const trade::SweepRow& row = row_of(mean.rows, one.without);

@@ -31,6 +31,22 @@ trade::SweepPoint published_kfr() {
     return {.method = "kfr", .settings = {{"kfr.sigma", "1.8"}, {"kfr.alpha", "4"}}};
 }
 
+trade::SweepPoint interleaved(const char* sigma, const char* every,
+                              const std::vector<std::pair<std::string, std::string>>& more) {
+    trade::SweepPoint point{.method = kInterleaved,
+                            .settings = {{"kfr.sigma", sigma}, {"interleaved.every", every}}};
+    point.settings.insert(point.settings.end(), more.begin(), more.end());
+    return point;
+}
+
+std::vector<trade::SweepPoint> interleaved_points() {
+    // A disc of which half is shaded in each frame: as the picture moves, most is lost there.
+    const std::vector<std::pair<std::string, std::string>> half{{"interleaved.disc_every", "2"}};
+    return {interleaved("1.4", "8", half), interleaved("1.6", "8", half),
+            interleaved("1.8", "8", half), interleaved("2", "8", half),
+            interleaved("1.8", "8"),       interleaved("2.2", "8")};
+}
+
 trade::CaseQuestion still(std::string_view scene, std::size_t frames) {
     return {.scene = std::string(scene),
             .gaze = "0,0",

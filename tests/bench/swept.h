@@ -1,7 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runtime/display/display_profile.h"
@@ -20,6 +22,15 @@ trade::SweepQuestion question_of(const display::DisplayProfile& display, vk::Ext
 
 /// KFR as its paper chose it: sigma 1.8, alpha 4.
 [[nodiscard]] trade::SweepPoint published_kfr();
+
+inline constexpr const char* kInterleaved = "interleaved";
+
+/// With one of so many texels shaded in each frame, and what else is set: key, text.
+trade::SweepPoint interleaved(const char* sigma, const char* every,
+                              const std::vector<std::pair<std::string, std::string>>& more = {});
+
+/// From better than the published point of KFR to much fewer samples.
+std::vector<trade::SweepPoint> interleaved_points();
 
 /// So many frames of a scene with the gaze ahead.
 trade::CaseQuestion still(std::string_view scene, std::size_t frames);

@@ -13,6 +13,7 @@
 #include "runtime/trade/measured_sweep.h"
 #include "runtime/trade/sweep_report.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/persons_gaze.h"
 #include "tests/bench/swept.h"
 
 namespace gazeloop::bench {
@@ -33,6 +34,9 @@ const std::array kQuickSizes{Size{"fove0", {160, 180}, false}};
 /// The other eye's picture: the smallest that every method takes.
 constexpr std::uint32_t kOtherEye_px = 8;
 constexpr const char* kEqualQuality = "equal-quality";
+/// A history needs frames: so many, where the reference's pictures take less than 2 GiB.
+constexpr std::size_t kFrames = 20;
+constexpr std::size_t kFewerFrames = 10;
 
 struct Headlined {
     const char* name;
@@ -87,10 +91,12 @@ std::optional<trade::Saving> saving_of_varied(const std::vector<trade::SweepRow>
     return trade::saving_at(ours, "ours", level);
 }
 
-/// What is asked of one size: the methods, and whether equal quality is.
+/// What is asked of one size: the methods, and whether equal quality is, by what keeps no history
+/// and by `interleaved`.
 struct Asked {
     std::vector<Headlined> methods;
     bool equal_quality = false;
+    bool interleaved = false;
 
     Asked(const Options& options, const std::string& size) {
         for (const Headlined& one : kHeadlined) {
@@ -99,8 +105,10 @@ struct Asked {
             }
         }
         equal_quality = options.wants(fmt::format("{}-{}", kEqualQuality, size));
+        interleaved = options.wants(fmt::format("{}-{}", kInterleaved, size));
     }
-    [[nodiscard]] bool anything() const { return equal_quality || !methods.empty(); }
+    [[nodiscard]] bool without_history() const { return equal_quality || !methods.empty(); }
+    [[nodiscard]] bool anything() const { return interleaved || without_history(); }
 };
 
 void add_headlines(const trade::SweepSheet& sheet, const Asked& asked,
@@ -144,17 +152,64 @@ void add_headlines(const trade::SweepSheet& sheet, const Asked& asked,
     }
 }
 
-/// One frame of a picture of this size, the gaze ahead. One eye's alone, as the papers measure it.
-trade::SweepQuestion headline_question(const Size& size, const Options& options) {
+/// `interleaved` where it is as good as the published point, along a person's gaze.
+void add_interleaved(const trade::SweepSheet& sheet, const std::string& size,
+                     std::vector<Figure>& figures) {
+    const trade::SweepRow& full = row_of(sheet.rows, {.method = "full"});
+    const trade::SweepRow& published = row_of(sheet.rows, published_kfr());
+    const std::string scene = std::filesystem::path(sheet.of.scene).stem().string();
+    const double level = published.figures.front().mean;
+    const auto saving = trade::saving_at(sheet.rows, kInterleaved, level);
+    if (!saving) {
+        fmt::print(stderr, "{}: no point is as good as the published one\n", scene);
+        return;
+    }
+    const auto add = [&](const char* metric, double value, const char* unit,
+                         const char* better = "higher") {
+        figures.push_back({"headline", fmt::format("{}-{}", kInterleaved, size),
+                           fmt::format("{} {}", scene, metric), value, unit, better});
+    };
+    add("speedup", saving->speedup, "x");
+    add("speedup_over_kfr", saving->speedup / published.speedup, "x");
+    add("samples", full.cells / saving->fewer_cells, "", "lower");
+    add("bound_share", saving->fewer_cells / full.cells_over_fewest, "");
+    add("quality", level, "", "lower");
+}
+
+/// A picture of this size, of one eye alone, as the papers measure it; no case yet.
+trade::SweepQuestion question_without_cases(const Size& size, const Options& options) {
     const display::DisplayProfile display = value_or_throw(profiles::load_display(size.display));
     trade::SweepQuestion question = question_of(display, size.extent, options, 16);
     question.views[1] =
         display::profile_view(display, gaze::Eye::Right, kOtherEye_px, kOtherEye_px);
-    for (const std::string_view scene : scene::scene_names()) {
+    return question;
+}
+
+std::vector<std::string> scenes_of(const Options& options) {
+    std::vector<std::string> scenes(scene::scene_names().begin(), scene::scene_names().end());
+    scenes.insert(scenes.end(), options.scenes.begin(), options.scenes.end());
+    return scenes;
+}
+
+/// One frame, the gaze ahead.
+trade::SweepQuestion headline_question(const Size& size, const Options& options) {
+    trade::SweepQuestion question = question_without_cases(size, options);
+    for (const std::string& scene : scenes_of(options)) {
         question.cases.push_back(still(scene, 1));
     }
-    for (const std::string& scene : options.scenes) {
-        question.cases.push_back(still(scene, 1));
+    return question;
+}
+
+/// Frames over a saccade of a simulated person.
+trade::SweepQuestion person_question(const Size& size, const Options& options) {
+    trade::SweepQuestion question = question_without_cases(size, options);
+    question.comparison.frame_seconds = question.frame_seconds;
+    const std::uint64_t bytes =
+        std::uint64_t{size.extent.width} * size.extent.height * sizeof(glm::vec3) * kFrames;
+    const std::size_t frames = bytes < std::uint64_t{1} << 31U ? kFrames : kFewerFrames;
+    for (const std::string& scene : scenes_of(options)) {
+        question.cases.push_back(
+            seen_by_person(scene, PersonsGaze::OverASaccade, frames, question.frame_seconds));
     }
     return question;
 }
@@ -169,6 +224,17 @@ std::vector<Figure> headline(const Options& options) {
         const std::string text = fmt::format("{}x{}", size.extent.width, size.extent.height);
         const Asked asked(options, text);
         if (!asked.anything() || (options.cases.empty() && size.only_by_name)) {
+            continue;
+        }
+        if (asked.interleaved) {
+            std::vector<trade::SweepPoint> points = interleaved_points();
+            points.insert(points.begin(), published_kfr());
+            for (const trade::SweepSheet& sheet :
+                 swept(context, person_question(size, options), points)) {
+                add_interleaved(sheet, text, figures);
+            }
+        }
+        if (!asked.without_history()) {
             continue;
         }
         const std::vector<trade::SweepPoint> varied = asked.equal_quality
