@@ -8,11 +8,24 @@
 #include <vector>
 
 namespace gazeloop::light_field {
+namespace {
+
+/// A lighter view counts as one that weighs nothing. It is what the rounding of distances makes of
+/// cameras that are a whole spacing outside the opening: a lens over a camera asked for its four
+/// neighbours too.
+constexpr double kLeastWeight = 1e-9;
+
+}  // namespace
+
+double reach_m(const LightField& field) {
+    return field.lens.aperture_m + (1.0 - kLeastWeight) * field.cameras.spacing_m;
+}
 
 std::uint32_t most_views(const LightField& field) {
     const CameraGrid& cameras = field.cameras;
     // In spacings. Wider by what rounding of distances may do.
-    const double radius = (field.lens.aperture_m / cameras.spacing_m + 1.0) * (1.0 + 1e-9);
+    constexpr double kRounding = 1e-12;
+    const double radius = reach_m(field) / cameras.spacing_m + kRounding;
     if (field.lens.every_view || radius > std::hypot(cameras.columns, cameras.rows)) {
         return cameras.count();
     }
@@ -56,7 +69,8 @@ ViewsInLens::ViewsInLens(const LightField& field, const glm::dvec3& eye_m) : fie
 
 double ViewsInLens::weight(const glm::dvec2& camera_m) const {
     const double outside_m = glm::distance(camera_m, middle_m_) - field_.lens.aperture_m;
-    return std::clamp(1.0 - outside_m / field_.cameras.spacing_m, 0.0, 1.0);
+    const double weight = std::clamp(1.0 - outside_m / field_.cameras.spacing_m, 0.0, 1.0);
+    return weight < kLeastWeight ? 0.0 : weight;
 }
 
 }  // namespace gazeloop::light_field

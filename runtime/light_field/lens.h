@@ -23,6 +23,9 @@ struct LightField {
     Lens lens;
 };
 
+/// Cameras that are nearer to the lens's middle than this weigh something.
+[[nodiscard]] double reach_m(const LightField& field);
+
 /// No fewer than the views that one eye's picture may be made of, wherever the eye is: at most a
 /// tenth more for a lens that is wider than three spacings. Precondition: check(cameras).
 [[nodiscard]] std::uint32_t most_views(const LightField& field);

@@ -60,6 +60,52 @@ TEST(Lens, TakesAsManyViewsAsItsOpeningCovers) {
     EXPECT_EQ(views_of(field, {}).size(), 625U);
 }
 
+// Without an opening it lies between its nearest cameras, of which there are at most four: one
+// where it stands over a camera, two on the line between two. All places are in spacings from the
+// middle one's camera; rounding makes no fifth view of any.
+TEST(Lens, WithoutAnOpeningTakesTheNearestViewsAlone) {
+    struct Place {
+        glm::dvec2 at;
+        std::size_t views;
+    };
+    for (const double spacing_m : {0.005, 0.0031, 0.1, 1.0 / 3.0}) {
+        const LightField field{.cameras = {.columns = 25, .rows = 25, .spacing_m = spacing_m},
+                               .lens = {.aperture_m = 0.0}};
+        for (int column = -12; column <= 12; ++column) {
+            for (int row = -12; row <= 12; ++row) {
+                const glm::dvec2 camera = glm::dvec2(column, row);
+                ASSERT_EQ(views_of(field, {spacing_m * camera, 0.0}).size(), 1U)
+                    << column << ' ' << row << ' ' << spacing_m;
+            }
+        }
+        for (const auto& [at, views] :
+             {Place{{0.5, 0.0}, 2},
+              {{3.0, -7.5}, 2},
+              {{0.5, 0.5}, 4},
+              {{-4.7, 8.4}, 4},
+              // Over .71 from the nearest corner, a cell's farthest one is a spacing away.
+              {{2.1, 2.1}, 3},
+              // On the rim, at a corner of it, and outside: where the rectangle ends.
+              {{12.0, 0.0}, 1},
+              {{12.0, 3.5}, 2},
+              {{12.0, 12.0}, 1},
+              {{11.5, 11.5}, 4},
+              {{900.0, 0.0}, 1},
+              {{900.0, 3.5}, 2},
+              {{-900.0, 900.0}, 1},
+              {{0.5, -13.0}, 2}}) {
+            EXPECT_EQ(views_of(field, {spacing_m * at, 0.0}).size(), views)
+                << at.x << ' ' << at.y << ' ' << spacing_m;
+        }
+        EXPECT_EQ(most_views(field), 4U);
+    }
+    const LightField row{.cameras = {.columns = 9, .rows = 1}, .lens = {.aperture_m = 0.0}};
+    EXPECT_EQ(most_views(row), 2U);
+    const LightField one{.cameras = {.columns = 1, .rows = 1}, .lens = {.aperture_m = 0.0}};
+    EXPECT_EQ(most_views(one), 1U);
+    EXPECT_EQ(views_of(one, {9.0, 0.0, 0.0}).size(), 1U);
+}
+
 // Between cameras, weights are continuous: what a moved eye sees changes by as little as it moved.
 TEST(Lens, LetsNoViewJumpIn) {
     const LightField field{.cameras = {.columns = 9, .rows = 9, .spacing_m = 0.005},
