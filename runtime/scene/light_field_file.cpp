@@ -39,6 +39,9 @@ std::unexpected<Error> refuse(const std::string& what) {
 class Problems {
   public:
     void add(std::string problem) { all_.push_back(std::move(problem)); }
+    void add(const Problems& others) {
+        all_.insert(all_.end(), others.all_.begin(), others.all_.end());
+    }
     [[nodiscard]] bool any() const { return !all_.empty(); }
     [[nodiscard]] Error error(const std::filesystem::path& file) const {
         const auto listed = std::span(all_).first(std::min(all_.size(), kMostListed));
@@ -143,20 +146,22 @@ std::vector<std::byte> bytes_of(const std::filesystem::path& file) {
 
 using Views = std::map<Place, std::filesystem::path>;
 
-/// The size of the first view that has one.
+/// The size of the first view that has one; else all views are problems.
 struct Size {
     std::uint32_t width_px = 0;
     std::uint32_t height_px = 0;
 };
 Size size_of(const Views& views, Problems& problems) {
+    Problems of_all;
     for (const auto& [place, view] : views) {
         try {
             const gltf::PictureHeader header = gltf::read_picture_header(bytes_of(view), "", {});
             return {header.width, header.height};
         } catch (const gltf::Refusal& refusal) {
-            problems.add(fmt::format("{}: {}", view.filename().string(), refusal.what()));
+            of_all.add(fmt::format("{}: {}", view.filename().string(), refusal.what()));
         }
     }
+    problems.add(of_all);
     return {};
 }
 
@@ -180,12 +185,11 @@ LightFieldSource::Texels decode(const std::filesystem::path& file, const Size& e
     return std::move(image.texels);
 }
 
-/// Decodes as many views at once as there are processors. After the first one that is damaged they
-/// are only looked at.
-Expected<void> read_views(const std::filesystem::path& file, const Views& views, const Size& size,
+/// Decodes as many views at once as there are processors. After the first one that is damaged, and
+/// where there are problems already, they are only looked at.
+Expected<void> read_views(const Views& views, const Size& size,
                           const LightFieldSource::Prepare& prepare,
-                          const LightFieldSource::Take& take) {
-    Problems problems;
+                          const LightFieldSource::Take& take, Problems& problems) {
     const std::size_t at_once = std::max(1U, std::thread::hardware_concurrency());
     std::deque<std::pair<std::string, std::future<LightFieldSource::Texels>>> under_way;
     std::uint32_t taken = 0;
@@ -222,9 +226,6 @@ Expected<void> read_views(const std::filesystem::path& file, const Views& views,
         if (auto done = take_first(); !done) {
             return done;
         }
-    }
-    if (problems.any()) {
-        return std::unexpected(problems.error(file));
     }
     return {};
 }
@@ -321,11 +322,13 @@ Expected<LightFieldSource> open_light_field(const std::filesystem::path& file) {
     Problems problems;
     const auto views =
         find_views(file.parent_path().empty() ? "." : file.parent_path(), *grid, problems);
-    if (problems.any()) {
-        return std::unexpected(problems.error(file));
-    }
+    const bool complete = !problems.any();
     const Size size = size_of(views, problems);
-    if (size.width_px == 0) {
+    if (size.width_px > 0 && !complete) {
+        // It is refused anyway, so that this costs no second decoding: with what else is wrong.
+        (void)read_views(views, size, {}, {}, problems);
+    }
+    if (size.width_px == 0 || !complete) {
         return std::unexpected(problems.error(file));
     }
     return LightFieldSource{.name = file.string(),
@@ -334,7 +337,9 @@ Expected<LightFieldSource> open_light_field(const std::filesystem::path& file) {
                             .height_px = size.height_px,
                             .read = [file, views, size](const LightFieldSource::Prepare& prepare,
                                                         const LightFieldSource::Take& take) {
-                                return read_views(file, views, size, prepare, take);
+                                Problems damaged;
+                                auto read = read_views(views, size, prepare, take, damaged);
+                                return damaged.any() ? std::unexpected(damaged.error(file)) : read;
                             }};
 }
 

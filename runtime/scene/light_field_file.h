@@ -52,7 +52,8 @@ struct LightFieldSource {
 /// The views that lie beside a light field's file: PNG or JPEG pictures of 8 bits per channel and
 /// one size, whose names end in row and column ("view_03_07.png", "3-7.jpg"). Errors (BadInput): as
 /// read_light_field; views that are missing, there twice, or beyond the grid, and names without row
-/// and column, in one list. Reading it finds those that are damaged or of another size.
+/// and column, in one list with those that are damaged or of another size. Where only such are,
+/// reading it finds them.
 [[nodiscard]] Expected<LightFieldSource> open_light_field(const std::filesystem::path& file);
 
 }  // namespace gazeloop::scene

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <span>
 #include <sstream>
 
 #include "runtime/scene/light_field_file.h"
@@ -133,6 +134,24 @@ TEST_F(LightFieldFile, ListsViewsOfAnotherSizeAndDamagedOnes) {
     EXPECT_THAT(found, HasSubstr("view_00_02.png: it has 2x4 px, those before it 4x2"));
     EXPECT_THAT(found, HasSubstr("view_01_00.png: "));
     EXPECT_THAT(found, HasSubstr("view_01_01.png: "));
+}
+
+// In one message with what is missing: who mends one finds no other afterwards.
+TEST_F(LightFieldFile, ListsWhatIsMissingWithWhatIsDamaged) {
+    std::filesystem::remove(folder_ / view_file_name(0, 1));
+    write(folder_ / view_file_name(0, 0), std::as_bytes(std::span("GIF89a")));
+    write(folder_ / view_file_name(1, 0), picture(2, 4, 0));
+    const auto whole = picture(4, 2, 7);
+    write(folder_ / view_file_name(1, 2), std::span(whole).first(whole.size() / 2));
+    const auto field = open_light_field(file());
+    ASSERT_FALSE(field.has_value());
+    const std::string& found = field.error().message;
+    EXPECT_THAT(found, HasSubstr("view_00_01.png is missing"));
+    EXPECT_THAT(found, HasSubstr("view_01_00.png: it has 2x4 px, those before it 4x2"));
+    EXPECT_THAT(found, HasSubstr("view_01_02.png: "));
+    const std::size_t first = found.find("view_00_00.png: ");
+    ASSERT_NE(first, std::string::npos);
+    EXPECT_EQ(found.find("view_00_00.png: ", first + 1), std::string::npos) << "once";
 }
 
 TEST_F(LightFieldFile, OfNothingButDamagedViewsListsThem) {
