@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/light_field/likely_views.h"
 #include "runtime/vulkan/memory.h"
 
 namespace gazeloop::scene {
@@ -71,6 +72,7 @@ class LightFieldScene : public Scene {
     [[nodiscard]] std::optional<std::string> account() const override {
         return content_->views.account();
     }
+    [[nodiscard]] ViewWaits view_waits() const override { return content_->views.waits(); }
     [[nodiscard]] vk::DescriptorSetLayout inputs() const override { return *content_->layout; }
     [[nodiscard]] std::unique_ptr<Scene> for_renderer(const RendererPictures& pictures) override;
 
@@ -85,7 +87,7 @@ class LightFieldScene : public Scene {
 class LightFieldOfRenderer final : public LightFieldScene {
   public:
     LightFieldOfRenderer(const std::shared_ptr<Content>& shared, std::uint32_t slots)
-        : LightFieldScene(shared) {
+        : LightFieldScene(shared), likely_(shared->field) {
         const vk::raii::Device& device = content().context.device();
         const std::uint32_t sets = slots * static_cast<std::uint32_t>(gaze::kEyeCount);
         const std::array sizes{vk::DescriptorPoolSize(Type::eCombinedImageSampler, sets),
@@ -123,6 +125,7 @@ class LightFieldOfRenderer final : public LightFieldScene {
                 [&](const light_field::WeightedView& view) { wanted_.push_back(view.view); });
         }
         content().views.bring(wanted_);
+        fetch_ahead(views);
         const double focus_m = field.lens.focus_m;
         const glm::dvec2 shares = 0.5 / (focus_m * field.cameras.half_tangents);
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
@@ -147,6 +150,22 @@ class LightFieldOfRenderer final : public LightFieldScene {
         vk::raii::DescriptorSet set{nullptr};
     };
 
+    /// What the next frame may ask for, if the head goes on as it came.
+    void fetch_ahead(const gaze::StereoView& views) {
+        if (!content().views.fetches_ahead()) {
+            return;
+        }
+        gaze::PerEye<light_field::MovingLens> lenses;
+        for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
+            const glm::dvec2 middle_m =
+                light_field::ViewsInLens(content().field, views[e].pose.position_m).middle_m();
+            lenses[e] = {middle_m,
+                         last_middles_m_ ? middle_m - (*last_middles_m_)[e] : glm::dvec2(0.0)};
+        }
+        last_middles_m_ = {lenses[0].middle_m, lenses[1].middle_m};
+        content().views.fetch_ahead(likely_.after(lenses));
+    }
+
     void make_slot(EyeSlot& at) const {
         const vk::raii::Device& device = content().context.device();
         at.lens = vulkan::HostBuffer(
@@ -167,6 +186,8 @@ class LightFieldOfRenderer final : public LightFieldScene {
     vk::raii::DescriptorPool pool_{nullptr};
     std::vector<gaze::PerEye<EyeSlot>> slots_;
     std::vector<std::uint32_t> wanted_;  ///< views of the frame
+    light_field::LikelyViews likely_;
+    std::optional<gaze::PerEye<glm::dvec2>> last_middles_m_;  ///< of the lenses, a frame before
 };
 
 std::unique_ptr<Scene> LightFieldScene::for_renderer(const RendererPictures& pictures) {

@@ -21,6 +21,10 @@ std::vector<settings::SettingRow> rows_of(LightFieldSettings& light_field) {
          "need "
          "it",
          Whole{&light_field.memory_mib, 1, 1 << 20}, Concerns::Machine},
+        {"lightfield.prefetch",
+         "load views that do not fit into that memory before frames ask for them, as the head "
+         "moves",
+         &light_field.prefetch, Concerns::Machine},
     };
 }
 

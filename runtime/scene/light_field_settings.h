@@ -16,6 +16,7 @@ struct LightFieldSettings {
     double aperture_m = 0.01;
     std::int64_t memory_mib = 1024;
     std::string compression = "none";
+    bool prefetch = true;
 
     [[nodiscard]] light_field::Lens lens() const {
         return {.focus_m = focus_m, .aperture_m = aperture_m};
@@ -23,7 +24,8 @@ struct LightFieldSettings {
 
     [[nodiscard]] LightFieldMemory memory() const {
         return {.most_bytes = static_cast<std::uint64_t>(memory_mib) << 20U,
-                .compressed = compression == "bc1"};
+                .compressed = compression == "bc1",
+                .fetch_ahead = prefetch};
     }
 
     friend bool operator==(const LightFieldSettings&, const LightFieldSettings&) = default;

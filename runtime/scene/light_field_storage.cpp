@@ -56,14 +56,24 @@ Expected<LightFieldStorage> choose_storage(const light_field::LightField& field,
     if (most_layers_within(limits.most_bytes, limits, all) == all) {
         return LightFieldStorage{.layers = all, .staged = std::min(kStaged, all)};
     }
-    const std::uint64_t staging = kStaged * views.bytes;
-    const std::uint32_t layers = limits.most_bytes > staging
-                                     ? most_layers_within(limits.most_bytes - staging, limits, all)
-                                     : 0;
+    const auto layers_beside = [&](std::uint32_t staged) {
+        const std::uint64_t taken = staged * views.bytes;
+        return limits.most_bytes > taken
+                   ? most_layers_within(limits.most_bytes - taken, limits, all)
+                   : 0;
+    };
     const std::uint32_t needed = needed_views(field);
+    for (std::uint32_t ahead = limits.most_ahead; ahead > 0; --ahead) {
+        if (const std::uint32_t layers = layers_beside(kStaged + ahead); layers >= needed + ahead) {
+            return LightFieldStorage{
+                .layers = layers, .staged = kStaged, .ahead = ahead, .streamed = true};
+        }
+    }
+    const std::uint32_t layers = layers_beside(kStaged);
     if (layers >= needed) {
         return LightFieldStorage{.layers = layers, .staged = kStaged, .streamed = true};
     }
+    const std::uint64_t staging = kStaged * views.bytes;
     std::string remedies;
     if (const auto widest_m = field.lens.every_view ? std::nullopt : widest_lens_m(field, layers)) {
         remedies += fmt::format("a lens of lightfield.aperture_m = {:.4g}, ", *widest_m);

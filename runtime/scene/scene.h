@@ -11,6 +11,7 @@
 #include "runtime/gaze/eye.h"
 #include "runtime/gaze/view.h"
 #include "runtime/light_field/lens.h"
+#include "runtime/scene/view_waits.h"
 #include "runtime/vulkan/pass_recorder.h"
 #include "runtime/vulkan/pipelines.h"
 
@@ -50,6 +51,9 @@ class Scene {
 
     /// What it did from frame to frame that a user should know of, for people; none: nothing.
     [[nodiscard]] virtual std::optional<std::string> account() const { return std::nullopt; }
+
+    /// How its frames waited for views of a light field until now.
+    [[nodiscard]] virtual ViewWaits view_waits() const { return {}; }
 
     /// The same scene for the pictures of one renderer, which asks it instead. Null: this one
     /// serves all. It must not outlive this.

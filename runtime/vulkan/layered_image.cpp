@@ -143,8 +143,8 @@ void make_readable(const Context& context, const LayeredImage& image) {
     });
 }
 
-void replace_layers(const Context& context, const LayeredImage& image, vk::Buffer from,
-                    std::span<const LayerSource> layers) {
+void replace_layers(const vk::raii::CommandBuffer& commands, const LayeredImage& image,
+                    vk::Buffer from, std::span<const LayerSource> layers) {
     const vk::ImageAspectFlags aspect = image.range().aspectMask;
     std::vector<vk::ImageMemoryBarrier2> before;
     std::vector<vk::BufferImageCopy> copies;
@@ -156,12 +156,9 @@ void replace_layers(const Context& context, const LayeredImage& image, vk::Buffe
                             vk::Offset3D{}, vk::Extent3D(image.extent(), 1));
         after.push_back(to_be_read(image, range));
     }
-    run_once(context, [&](const vk::raii::CommandBuffer& commands) {
-        commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, before));
-        commands.copyBufferToImage(from, image.image(), vk::ImageLayout::eTransferDstOptimal,
-                                   copies);
-        commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, after));
-    });
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, before));
+    commands.copyBufferToImage(from, image.image(), vk::ImageLayout::eTransferDstOptimal, copies);
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, after));
 }
 
 }  // namespace gazeloop::vulkan

@@ -77,10 +77,10 @@ struct LayerSource {
     vk::DeviceSize offset = 0;
 };
 
-/// Fills some layers of an image of one level that shaders read: frames that were submitted before
-/// still see what was there, later ones what is now. Waits for the device. Precondition: its usage
-/// has TransferDst, the buffer's TransferSrc.
-void replace_layers(const Context& context, const LayeredImage& image, vk::Buffer from,
-                    std::span<const LayerSource> layers);
+/// Records that some layers of an image of one level that shaders read are filled: frames that were
+/// submitted before still see what was there, later ones what is now. Precondition: its usage has
+/// TransferDst, the buffer's TransferSrc.
+void replace_layers(const vk::raii::CommandBuffer& commands, const LayeredImage& image,
+                    vk::Buffer from, std::span<const LayerSource> layers);
 
 }  // namespace gazeloop::vulkan

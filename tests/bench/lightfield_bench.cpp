@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
@@ -207,80 +208,122 @@ class Measurement {
     std::vector<std::unique_ptr<TimedMethod>> methods_;
 };
 
-/// What it costs to keep no more views than two lenses can ask for, and those of one frame at a
-/// time: a head that goes past the cameras, half a spacing a frame. And what BC1 loses.
+/// A head that goes past the cameras, half a spacing a frame, and begins again on the left.
+std::vector<double> way_across_m(const light_field::CameraGrid& cameras) {
+    std::vector<double> across_m;
+    const double reach_m = cameras.half_extent_m().x;
+    for (double at_m = -reach_m; at_m < reach_m; at_m += cameras.spacing_m / 2.0) {
+        across_m.push_back(at_m);
+    }
+    return across_m;
+}
+
+/// A way to keep the views, and how its frames waited.
+struct Kept {
+    const char* name;
+    std::unique_ptr<scene::Scene> scene;
+    std::unique_ptr<TimedMethod> method{};
+    scene::ViewWaits before{};  ///< the first frame that is timed
+};
+
+/// What it costs to keep no more views than two lenses can ask for, and those that are on their
+/// way: with frames that wait for all they lack, and with views that are fetched ahead. And what
+/// BC1 loses.
 void add_memory_figures(const vulkan::Context& context, const std::filesystem::path& file,
                         const Sizes& sizes, unsigned rounds, std::vector<Figure>& figures) {
     const light_field::CameraGrid cameras = value_or_throw(scene::open_light_field(file)).cameras;
-    scene::SceneOptions options;
-    options.light_field.aperture_m = kNarrowLens_m;
-    const auto whole = scene::make_scene(context, file.string(), options);
-    options.light_field.compression = "bc1";
-    const auto packed = scene::make_scene(context, file.string(), options);
-    options.light_field.compression = "none";
     const std::uint64_t view_bytes = std::uint64_t{4} * sizes.view_px * sizes.view_px;
-    constexpr std::uint32_t kStagedViews = 5;  // and what the image takes beside its views
+    // Four that frames load through, twelve that are fetched ahead, twice, and what the image takes
+    // beside its views.
+    constexpr std::uint32_t kBeside = 29;
     const std::uint32_t needed =
         2 * light_field::most_views({cameras, {.aperture_m = kNarrowLens_m}});
-    options.light_field.memory_mib =
-        static_cast<std::int64_t>(((needed + kStagedViews) * view_bytes >> 20U) + 1);
-    const auto streamed = scene::make_scene(context, file.string(), options);
+    const auto kept = [&](const char* name, const char* compression, bool whole, bool prefetch) {
+        scene::SceneOptions options;
+        options.light_field.aperture_m = kNarrowLens_m;
+        options.light_field.compression = compression;
+        options.light_field.prefetch = prefetch;
+        if (!whole) {
+            options.light_field.memory_mib =
+                static_cast<std::int64_t>(((needed + kBeside) * view_bytes >> 20U) + 1);
+        }
+        return Kept{name, scene::make_scene(context, file.string(), options)};
+    };
+    std::vector<Kept> all;
+    all.push_back(kept("resident", "none", true, false));
+    all.push_back(kept("streamed", "none", false, false));
+    all.push_back(kept("fetched ahead", "none", false, true));
+    all.push_back(kept("bc1", "bc1", true, false));
+    const Kept& resident = all.front();
+    const Kept& packed = all.back();
 
     const render::RendererConfig config = config_of(sizes);
-    const double reach_m = cameras.half_extent_m().x;
-    const double step_m = cameras.spacing_m / 2.0;
-    std::vector<double> across_m;
-    for (double at_m = -reach_m; at_m < reach_m; at_m += step_m) {
-        across_m.push_back(at_m);
-    }
+    const std::vector<double> across_m = way_across_m(cameras);
     const auto put = [&](const std::string& metric, double value, const char* unit,
                          const char* better) {
         figures.push_back({"lightfield", "memory", metric, value, unit, better});
     };
     for (const char* const name : {"full", "kfr3d"}) {
-        const auto timed = [&](scene::Scene& scene) {
-            return TimedMethod(context, name, scene, tests::passes_by(name, {{"kfr.sigma", "2.0"}}),
-                               config, across_m.size());
-        };
-        TimedMethod of_whole = timed(*whole);
-        TimedMethod of_streamed = timed(*streamed);
-        TimedMethod of_packed = timed(*packed);
         const gaze::FrameFovea fovea = render::fovea_ahead(frame_at(0.0, config).views);
         double worst_db = std::numeric_limits<double>::max();
-        for (TimedMethod* const method : {&of_whole, &of_streamed, &of_packed}) {
-            method->warm_up(context, frame_at(0.0, config).views);
+        for (Kept& one : all) {
+            one.method = std::make_unique<TimedMethod>(
+                context, name, *one.scene, tests::passes_by(name, {{"kfr.sigma", "2.0"}}), config,
+                across_m.size());
+            one.method->warm_up(context, frame_at(0.0, config).views);
+            one.before = one.scene->view_waits();
         }
         for (unsigned round = 0; round < rounds; ++round) {
             for (std::size_t i = 0; i < across_m.size(); ++i) {
-                for (TimedMethod* const method : {&of_whole, &of_streamed, &of_packed}) {
-                    method->frame(i, frame_at(across_m[i], config), fovea);
+                for (const Kept& one : all) {
+                    one.method->frame(i, frame_at(across_m[i], config), fovea);
                 }
                 if (round == 0) {
-                    const auto picture = of_whole.picture(context, gaze::Eye::Left);
+                    const auto picture = resident.method->picture(context, gaze::Eye::Left);
                     quality::Plane equal(picture.width, picture.height);
                     std::ranges::fill(equal.values, 1.0F / static_cast<float>(equal.values.size()));
                     worst_db = std::min(
                         worst_db,
-                        quality::psnr_db(picture, of_packed.picture(context, gaze::Eye::Left),
+                        quality::psnr_db(picture, packed.method->picture(context, gaze::Eye::Left),
                                          equal, quality::RowWork()));
                 }
             }
         }
-        const std::vector<double> resident_ms = of_whole.frame_elapsed_ms();
-        const std::vector<double> streamed_ms = of_streamed.frame_elapsed_ms();
-        const std::vector<double> packed_ms = of_packed.frame_elapsed_ms();
-        double longest_wait_ms = 0.0;
-        for (std::size_t i = 0; i < resident_ms.size(); ++i) {
-            longest_wait_ms = std::max(longest_wait_ms, streamed_ms[i] - resident_ms[i]);
-        }
         const std::string of = fmt::format("{} ", name);
+        const std::vector<double> resident_ms = resident.method->frame_elapsed_ms();
         put(of + "resident", median(resident_ms), "ms", "lower");
-        put(of + "streamed over resident", median(streamed_ms) / median(resident_ms), "x", "lower");
-        put(of + "streamed, longest wait", longest_wait_ms, "ms", "lower");
-        put(of + "bc1 over resident", median(packed_ms) / median(resident_ms), "x", "lower");
+        for (const Kept& one : all) {
+            if (&one == &resident) {
+                continue;
+            }
+            put(of + one.name + " over resident",
+                median(one.method->frame_elapsed_ms()) / median(resident_ms), "x", "lower");
+            if (&one == &packed) {
+                continue;
+            }
+            // Before the gaze is read, against the same frame whose views are all there: of the
+            // first frame, after the jump, and of the others.
+            std::vector<double> waits_ms = one.method->frame_begin_ms();
+            const std::vector<double> none_ms = resident.method->frame_begin_ms();
+            std::ranges::transform(waits_ms, none_ms, waits_ms.begin(), std::minus{});
+            put(of + one.name + ", wait after a jump", waits_ms.front(), "ms", "lower");
+            waits_ms.erase(waits_ms.begin());
+            put(of + one.name + ", median wait", median(waits_ms), "ms", "lower");
+            put(of + one.name + ", longest wait", std::ranges::max(waits_ms), "ms", "lower");
+            const scene::ViewWaits waits = one.scene->view_waits();
+            const double frames = static_cast<double>(rounds * across_m.size());
+            put(of + one.name + ", frames that waited",
+                1e2 * static_cast<double>(waits.frames - one.before.frames) / frames, "%", "lower");
+            put(of + one.name + ", frames late",
+                1e2 * static_cast<double>(waits.late_frames - one.before.late_frames) / frames, "%",
+                "lower");
+        }
         put(of + "bc1, worst picture", worst_db, "dB", "higher");
     }
-    fmt::print(stderr, "lightfield: {}\n", streamed->account().value_or("all views fit"));
+    for (const Kept& one : all) {
+        fmt::print(stderr, "lightfield, {}: {}\n", one.name,
+                   one.scene->account().value_or("all views fit"));
+    }
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ TimedMethod::TimedMethod(const vulkan::Context& context, std::string name, scene
       renderer_(std::make_unique<render::FrameRenderer>(context, scene, passes, config)),
       frame_ms_(frames),
       frame_processor_ms_(frames),
-      frame_elapsed_ms_(frames) {}
+      frame_elapsed_ms_(frames),
+      frame_begin_ms_(frames) {}
 
 void TimedMethod::warm_up(const vulkan::Context& context, const gaze::StereoView& views) {
     render::warm_up(context, *renderer_, views);
@@ -44,7 +45,11 @@ void TimedMethod::frame(std::size_t index, render::FrameView view, const gaze::F
     const auto begin = std::chrono::steady_clock::now();
     const double begin_s = process_seconds();
     renderer_->wait_for_slot();
+    const auto before_begin = std::chrono::steady_clock::now();
     renderer_->begin(view);
+    const std::chrono::duration<double, std::milli> begun =
+        std::chrono::steady_clock::now() - before_begin;
+    frame_begin_ms_.at(index).push_back(begun.count());
     samples_ += static_cast<double>(renderer_->finish(fovea).shaded());
     ++frames_;
     renderer_->wait_idle();
@@ -70,6 +75,8 @@ double TimedMethod::ms() const { return mean(frame_ms()); }
 double TimedMethod::processor_ms() const { return mean(medians(frame_processor_ms_)); }
 
 std::vector<double> TimedMethod::frame_elapsed_ms() const { return medians(frame_elapsed_ms_); }
+
+std::vector<double> TimedMethod::frame_begin_ms() const { return medians(frame_begin_ms_); }
 
 double TimedMethod::pass_ms(std::string_view pass) const {
     const auto at = renderer_->passes().find(pass);

@@ -35,6 +35,8 @@ class TimedMethod {
     [[nodiscard]] double processor_ms() const;
     /// Likewise, on the wall, with all that a frame waits for.
     [[nodiscard]] std::vector<double> frame_elapsed_ms() const;
+    /// Likewise, of what goes before the gaze is read: a scene's own work, and what that waits for.
+    [[nodiscard]] std::vector<double> frame_begin_ms() const;
     [[nodiscard]] const frame::PassList& passes() const { return renderer_->passes(); }
     /// Mean of all frames.
     [[nodiscard]] double pass_ms(std::size_t pass) const {
@@ -58,6 +60,7 @@ class TimedMethod {
     std::vector<std::vector<double>> frame_ms_;
     std::vector<std::vector<double>> frame_processor_ms_;
     std::vector<std::vector<double>> frame_elapsed_ms_;
+    std::vector<std::vector<double>> frame_begin_ms_;
     std::array<double, frame::kMostPasses> pass_ms_{};
 };
 

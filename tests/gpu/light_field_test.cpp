@@ -12,6 +12,7 @@
 #include "runtime/error.h"
 #include "runtime/render/srgb.h"
 #include "runtime/scene/light_field_scene.h"
+#include "runtime/scene/view_stream.h"
 #include "sim/baked_light_field.h"
 #include "sim/light_field_baker.h"
 #include "tests/support/frame_renderer_fixture.h"
@@ -285,7 +286,7 @@ TEST_F(LightField, ThatDoesNotFitIsShownTheSame) {
     const std::uint32_t needed =
         light_field::most_views({.cameras = known_views().cameras, .lens = lens});
     ASSERT_LT(2 * needed, 25U) << "or nothing would have to go";
-    const scene::LightFieldMemory memory{.most_bytes = room_for(2 * needed)};
+    const scene::LightFieldMemory memory{.most_bytes = room_for(2 * needed), .fetch_ahead = false};
     for (const char* const method : {"full", "kfr", "kfr3d"}) {
         const auto whole = known(lens);
         const auto part = known(lens, memory);
@@ -313,6 +314,94 @@ TEST_F(LightField, ThatDoesNotFitIsShownTheSame) {
     }
 }
 
+/// Eyes that go slowly past the cameras and back, a tenth of their spacing a frame.
+std::vector<glm::dvec3> passing() {
+    std::vector<glm::dvec3> eyes;
+    for (int i = 0; i <= 80; ++i) {
+        eyes.emplace_back(0.005 * (i <= 40 ? i - 20 : 60 - i), 0.013, 0.0);
+    }
+    return eyes;
+}
+
+// What is fetched ahead spares frames waits, and changes no pixel: neither while they pass the
+// cameras, nor where the eyes jump and it was all for nothing.
+TEST_F(LightField, ThatIsFetchedAheadIsShownTheSameAndWaitsLess) {
+    const RendererConfig config = pictures(48, 40);
+    const light_field::Lens lens{.focus_m = 1.0, .aperture_m = 0.0};
+    const std::uint64_t room = room_for(8 + 2 * 3);
+    for (const auto& eyes : {passing(), wandering()}) {
+        const auto whole = known(lens);
+        const auto waiting = known(lens, {.most_bytes = room, .fetch_ahead = false});
+        const auto ahead = known(lens, {.most_bytes = room});
+        const auto again = known(lens, {.most_bytes = room});
+        const auto shown = [&](scene::Scene& scene) {
+            OffScreen renderer(context(), scene, tests::passes_by("full"), config);
+            std::vector<std::uint64_t> hashes;
+            for (const glm::dvec3& eye_m : eyes) {
+                FrameRequest at = look(config, eye_m, {30, 20});
+                at.views[1].pose.position_m = eye_m + glm::dvec3{0.03, 0.0, 0.0};
+                hashes.push_back(
+                    renderer.render(at.frame_view(), at.fovea()).gpu.pixel_hash.value());
+            }
+            return hashes;
+        };
+        const auto expected = shown(*whole);
+        EXPECT_EQ(shown(*waiting), expected);
+        EXPECT_EQ(shown(*ahead), expected);
+        EXPECT_EQ(shown(*again), expected);
+        EXPECT_THAT(waiting->account().value(), testing::HasSubstr("14 of 25 views"));
+        EXPECT_THAT(waiting->account().value(), testing::Not(testing::HasSubstr("ahead")));
+        const std::string account = ahead->account().value();
+        EXPECT_THAT(account, testing::HasSubstr("11 of 25 views"));
+        unsigned fetched = 0;
+        unsigned wanted = 0;
+        const std::size_t at = account.find("; ");
+        ASSERT_NE(at, std::string::npos) << account;
+        ASSERT_EQ(
+            std::sscanf(account.c_str() + at, "; %u views were fetched ahead, %u of them asked for",
+                        &fetched, &wanted),
+            2)
+            << account;
+        EXPECT_GE(fetched, wanted);
+        // Who waited for what nobody fetched follows from the eyes' way alone, not from the time.
+        EXPECT_EQ(ahead->view_waits().views, again->view_waits().views);
+        EXPECT_EQ(ahead->view_waits().frames, again->view_waits().frames);
+        if (eyes.size() == passing().size()) {
+            EXPECT_GT(wanted, 20U) << account;
+            EXPECT_LT(4 * ahead->view_waits().views, waiting->view_waits().views)
+                << account << " / " << waiting->account().value();
+            EXPECT_GT(waiting->view_waits().frames, 8U);
+        }
+    }
+}
+
+// A view that the thread cannot read is no failure until a frame asks for it.
+TEST_F(LightField, ThatCannotBeFetchedAheadFailsOnlyWhenAskedFor) {
+    constexpr std::uint64_t kBytes = std::uint64_t{4} * 8 * 8;
+    const vulkan::LayeredImage image(context(), {.extent = vk::Extent2D(8, 8),
+                                                 .format = vk::Format::eR8G8B8A8Srgb,
+                                                 .usage = vk::ImageUsageFlagBits::eSampled |
+                                                          vk::ImageUsageFlagBits::eTransferDst,
+                                                 .layers = 4,
+                                                 .view = vk::ImageViewType::e2DArray});
+    vulkan::make_readable(context(), image);
+    auto file = memory::ScratchFile::make();
+    ASSERT_TRUE(file.has_value());
+    ASSERT_TRUE(file->reserve(5 * kBytes).has_value());
+    scene::ViewStream stream(context(), image, *std::move(file), 9, kBytes,
+                             {.layers = 4, .staged = 1, .ahead = 2, .streamed = true});
+    const auto bring = [&](std::vector<std::uint32_t> views) { stream.bring(views); };
+    const auto fetch_ahead = [&](std::vector<std::uint32_t> views) { stream.fetch_ahead(views); };
+    bring({0});
+    fetch_ahead({7, 1});  // 7 is beyond the file's end
+    for (int frame = 0; frame < 20; ++frame) {
+        bring({0, 1});
+        fetch_ahead({7, 2});
+    }
+    EXPECT_EQ(stream.waits().views, 1U) << "1 was there";
+    EXPECT_THROW(bring({7}), SetupError);
+}
+
 // Frames in flight still see the views that they were recorded with, though later ones replace
 // them.
 TEST_F(LightField, ReplacesNoViewsThatFramesInFlightRead) {
@@ -320,7 +409,8 @@ TEST_F(LightField, ReplacesNoViewsThatFramesInFlightRead) {
     config.frames_in_flight = 3;
     const light_field::Lens lens{.focus_m = 1.0, .aperture_m = 0.0};
     const auto whole = known(lens);
-    const auto part = known(lens, {.most_bytes = room_for(10)});
+    const auto part = known(lens, {.most_bytes = room_for(10), .fetch_ahead = false});
+    const auto ahead = known(lens, {.most_bytes = room_for(12)});
     const auto hashes = [&](scene::Scene& scene) {
         const OffScreenTargets targets(context(), config.extents, config.format);
         FrameRenderer renderer(context(), scene, tests::passes_by("full"), config);
@@ -348,6 +438,8 @@ TEST_F(LightField, ReplacesNoViewsThatFramesInFlightRead) {
     const auto of_whole = hashes(*whole);
     EXPECT_EQ(of_whole.size(), wandering().size());
     EXPECT_EQ(hashes(*part), of_whole);
+    EXPECT_EQ(hashes(*ahead), of_whole);
+    EXPECT_THAT(ahead->account().value(), testing::HasSubstr("fetched ahead"));
 }
 
 TEST_F(LightField, ThatCannotFitIsRefusedWithWhatWould) {

@@ -1,7 +1,9 @@
 // Scenes from files, as users run them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <fstream>
 
 #include "tests/support/encoded_pictures.h"
@@ -142,8 +144,8 @@ std::string light_field_to_pass(const TemporaryFolder& folder) {
     return (folder / "field" / "views.lightfield").string();
 }
 
-// What a frame waited for depends on the viewer's path alone: a replay waits for the same, and one
-// with room for all views shows the same.
+// What a frame waited for and what was fetched ahead depends on the viewer's path alone: a replay
+// does the same, and one that fetches nothing, or has room for all views, shows the same.
 TEST(SceneFiles, OfLightFieldsThatDoNotFitAreReplayedBitByBit) {
     const TemporaryFolder folder;
     const std::string field = light_field_to_pass(folder);
@@ -178,16 +180,31 @@ TEST(SceneFiles, OfLightFieldsThatDoNotFitAreReplayedBitByBit) {
         ASSERT_EQ(run.exit_code, 0) << run.err;
         EXPECT_THAT(run.err, HasSubstr("225 views take 14 MiB, more than they may"));
         const auto account = [](const std::string& said) {
-            const std::size_t at = said.find("12 of 225 views at a time");
-            return at == std::string::npos ? "" : said.substr(at, said.find('\n', at) - at);
+            const std::size_t at = said.find(" of 225 views at a time");
+            if (at == std::string::npos) {
+                return std::string();
+            }
+            // Which of the views that were fetched ahead were late is the machine's.
+            const std::string line = said.substr(at - 2, said.find('\n', at) - at + 2);
+            return line.substr(0, line.find(" of them asked for"));
         };
-        EXPECT_THAT(account(run.err), HasSubstr("frames waited for")) << run.err;
+        EXPECT_THAT(account(run.err), HasSubstr("10 of 225 views")) << run.err;
+        EXPECT_THAT(account(run.err), HasSubstr("frames waited for"));
+        EXPECT_THAT(account(run.err), HasSubstr("views were fetched ahead, "));
 
         const ProgramResult again =
             run_gazeloop({"replay", session, "--hash", "--set", "lightfield.memory_mib=1"});
         ASSERT_EQ(again.exit_code, 0) << again.err;
         EXPECT_THAT(again.out, HasSubstr("pictures equal in 120 of 120 frames")) << method;
         EXPECT_EQ(account(again.err), account(run.err));
+
+        const ProgramResult waiting =
+            run_gazeloop({"replay", session, "--hash", "--set", "lightfield.memory_mib=1", "--set",
+                          "lightfield.prefetch=false"});
+        ASSERT_EQ(waiting.exit_code, 0) << waiting.err;
+        EXPECT_THAT(waiting.out, HasSubstr("pictures equal in 120 of 120 frames")) << method;
+        EXPECT_THAT(account(waiting.err), HasSubstr("12 of 225 views"));
+        EXPECT_THAT(account(waiting.err), testing::Not(HasSubstr("ahead")));
 
         // What may be taken of memory is the machine's, and not recorded.
         const ProgramResult whole = run_gazeloop({"replay", session, "--hash"});
@@ -199,6 +216,57 @@ TEST(SceneFiles, OfLightFieldsThatDoNotFitAreReplayedBitByBit) {
         ASSERT_EQ(report.exit_code, 0) << report.err;
         EXPECT_THAT(report.out, HasSubstr(account(run.err)));
     }
+}
+
+// A trade's times are those of passes: that frames waited before them is said.
+TEST(SceneFiles, OfLightFieldsThatDoNotFitAreSaidToWaitInATrade) {
+    const TemporaryFolder folder;
+    const std::string field = light_field_to_pass(folder);
+    const auto trade = [&](const char* memory_mib) {
+        return run_gazeloop({"trade",
+                             "--scene",
+                             field,
+                             "--methods",
+                             "kfr",
+                             "--sigma",
+                             "2",
+                             "--alpha",
+                             "4",
+                             "--gaze",
+                             "0,0",
+                             "--frames",
+                             "45",
+                             "--rounds",
+                             "1",
+                             "--metric",
+                             "psnr",
+                             "--set",
+                             "render.scale=0.05",
+                             "--set",
+                             "render.camera=fly-6",
+                             "--set",
+                             "lightfield.aperture_m=0",
+                             "--set",
+                             fmt::format("lightfield.memory_mib={}", memory_mib),
+                             "--json",
+                             "-"});
+    };
+    const ProgramResult streamed = trade("1");
+    ASSERT_EQ(streamed.exit_code, 0) << streamed.err;
+    EXPECT_THAT(streamed.err, HasSubstr("of 90 timed frames waited for "));
+    const auto points = nlohmann::json::parse(streamed.out).at("points");
+    ASSERT_EQ(points.size(), 2U);
+    std::uint64_t frames = 0;
+    for (const auto& point : points) {
+        EXPECT_EQ(point.at("timed_frames"), 45);
+        EXPECT_GE(point.at("waited_views"), point.at("waited_frames"));
+        frames += point.at("waited_frames").get<std::uint64_t>();
+    }
+    EXPECT_GT(frames, 0U);
+    const ProgramResult whole = trade("64");
+    ASSERT_EQ(whole.exit_code, 0) << whole.err;
+    EXPECT_THAT(whole.err, testing::Not(HasSubstr("waited")));
+    EXPECT_EQ(nlohmann::json::parse(whole.out).at("points")[0].at("waited_frames"), 0);
 }
 
 // Where the views wait must have room for them all, before any is decoded.

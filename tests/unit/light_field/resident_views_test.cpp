@@ -89,6 +89,104 @@ TEST(ResidentViews, AreThoseOfAListInTheOrderOfUse) {
     }
 }
 
+std::vector<std::uint32_t> fetched(ResidentViews& views, const List& likely, std::uint32_t most) {
+    List loads;
+    for (const ResidentViews::Load& load : views.fetch_ahead(likely, most)) {
+        EXPECT_EQ(views.layer_of(load.view), load.layer);
+        loads.push_back(load.view);
+    }
+    return loads;
+}
+
+TEST(ResidentViews, AreFetchedAheadInFreeLayersAndTheOldest) {
+    ResidentViews views(9, 4);
+    (void)loaded(views, {0, 1});
+    (void)loaded(views, {2});
+    EXPECT_EQ(fetched(views, {2, 5, 6, 7}, 9), (List{5, 6, 7})) << "0 and 1 were asked for before";
+    EXPECT_TRUE(views.is_resident(2)) << "it is asked for now";
+    (void)loaded(views, {2});
+    EXPECT_EQ(fetched(views, {8}, 9), List{8}) << "not likely any more: one of them goes";
+    (void)loaded(views, {2});
+    EXPECT_EQ(fetched(views, {4, 3, 1}, 2), (List{4, 3})) << "as many as may be";
+    EXPECT_TRUE(views.is_resident(2));
+}
+
+TEST(ResidentViews, ThatAreLikelierStay) {
+    ResidentViews views(9, 3);
+    (void)loaded(views, {0});
+    EXPECT_EQ(fetched(views, {1, 2, 3, 4}, 9), (List{1, 2})) << "there is no room for 3 and 4";
+    (void)loaded(views, {0});
+    EXPECT_EQ(fetched(views, {1, 2, 3, 4}, 9), List{}) << "and none is fetched again and again";
+    (void)loaded(views, {0});
+    EXPECT_EQ(fetched(views, {1, 5, 2}, 9), List{5});
+    EXPECT_EQ(views.fetched(), 3U);
+    EXPECT_EQ(views.fetched_and_wanted(), 0U);
+    EXPECT_FALSE(views.is_resident(2)) << "the least likely went";
+    EXPECT_EQ(loaded(views, {5, 1}), List{});
+    EXPECT_EQ(views.fetched_and_wanted(), 2U);
+}
+
+// A view that went again before it was asked for was fetched for nothing; one that was asked for
+// counts once.
+TEST(ResidentViews, ThatWereFetchedCountOnceWhenAskedFor) {
+    ResidentViews views(9, 2);
+    (void)loaded(views, {0});
+    EXPECT_EQ(fetched(views, {1}, 9), List{1});
+    EXPECT_EQ(loaded(views, {1}), List{});
+    (void)loaded(views, {1});
+    EXPECT_EQ(views.fetched_and_wanted(), 1U);
+    EXPECT_EQ(fetched(views, {2}, 9), List{2});
+    EXPECT_EQ(loaded(views, {3, 4}), (List{3, 4}));
+    EXPECT_EQ(loaded(views, {2}), List{2});
+    EXPECT_EQ(views.fetched(), 2U);
+    EXPECT_EQ(views.fetched_and_wanted(), 1U);
+}
+
+// However much is fetched ahead: what a frame asks for is there, each in a layer of its own, and
+// stays while others come.
+TEST(ResidentViews, OfTheLastRequestStayWhateverIsFetched) {
+    std::mt19937 random(11);
+    constexpr std::uint32_t kViews = 40;
+    for (const std::uint32_t layers : {5U, 12U, 39U}) {
+        ResidentViews views(kViews, layers);
+        const auto some = [&](std::size_t most) {
+            std::set<std::uint32_t> chosen;
+            const std::size_t count = 1 + random() % most;
+            while (chosen.size() < count) {
+                chosen.insert(static_cast<std::uint32_t>(random() % kViews));
+            }
+            List list(chosen.begin(), chosen.end());
+            std::ranges::shuffle(list, random);
+            return list;
+        };
+        for (int request = 0; request < 400; ++request) {
+            const List wanted = some(layers);
+            (void)loaded(views, wanted);
+            const List layers_before = [&] {
+                List of;
+                for (const std::uint32_t view : wanted) {
+                    of.push_back(views.layer_of(view));
+                }
+                return of;
+            }();
+            const std::uint32_t most = static_cast<std::uint32_t>(random() % 6);
+            ASSERT_LE(fetched(views, some(20), most).size(), most);
+            std::set<std::uint32_t> in_layers;
+            for (std::uint32_t view = 0; view < kViews; ++view) {
+                if (views.is_resident(view)) {
+                    ASSERT_TRUE(in_layers.insert(views.layer_of(view)).second);
+                }
+            }
+            for (std::size_t i = 0; i < wanted.size(); ++i) {
+                ASSERT_TRUE(views.is_resident(wanted[i]));
+                ASSERT_EQ(views.layer_of(wanted[i]), layers_before[i]);
+            }
+        }
+        EXPECT_LE(views.fetched_and_wanted(), views.fetched());
+        EXPECT_GT(views.fetched_and_wanted(), 0U);
+    }
+}
+
 // A replay asks for the same and loads the same.
 TEST(ResidentViews, FollowFromTheRequestsAlone) {
     const auto run = [] {

@@ -135,8 +135,9 @@ const std::map<Concerns, std::set<std::string>> kConcerns{
     {Concerns::Machine,
      {"layer.blend", "layer.eye_gaze", "layer.foveation", "layer.gaze", "layer.mar",
       "layer.periphery", "layer.quad_views", "layer.record", "layer.unknown_applications",
-      "lightfield.memory_mib", "monitor.interval_s", "monitor.window_s", "openxr.patience_s",
-      "profile.budget", "target.name", "target.validation", "vulkan.device", "vulkan.validation"}}};
+      "lightfield.memory_mib", "lightfield.prefetch", "monitor.interval_s", "monitor.window_s",
+      "openxr.patience_s", "profile.budget", "target.name", "target.validation", "vulkan.device",
+      "vulkan.validation"}}};
 
 TEST(ProgramSettings, EachConcernsWhatItShould) {
     const ProgramSettings settings;

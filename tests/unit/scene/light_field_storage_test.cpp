@@ -60,6 +60,32 @@ TEST(LightFieldStorage, StreamsWhatDoesNotFitWithinItsMemory) {
     }
 }
 
+// Two lenses without an opening: the four nearest cameras of each, and no more.
+TEST(LightFieldStorage, WithoutAnOpeningTakesEightViews) {
+    const auto eight = choose_storage(field(0.0), views(), limits(12 * 4 + 1));
+    ASSERT_TRUE(eight.has_value()) << eight.error().message;
+    EXPECT_EQ(eight->layers, 8U);
+    const auto seven = choose_storage(field(0.0), views(), limits(11 * 4 + 1));
+    ASSERT_FALSE(seven.has_value());
+    EXPECT_THAT(seven.error().message, testing::HasSubstr("up to 8 of the 625"));
+}
+
+// What may be fetched ahead takes the room of no view that a frame can ask for.
+TEST(LightFieldStorage, FetchesAheadWhatIsLeftOver) {
+    for (const std::uint32_t over : {0U, 1U, 2U, 3U, 7U, 15U, 16U, 100U}) {
+        StorageLimits some = limits((8 + 4 + over) * 4 + 1);
+        some.most_ahead = 8;
+        const auto storage = choose_storage(field(0.0), views(), some);
+        ASSERT_TRUE(storage.has_value()) << storage.error().message;
+        EXPECT_TRUE(storage->streamed);
+        EXPECT_EQ(storage->ahead, std::min(over / 2, 8U));
+        EXPECT_EQ(storage->layers, 8 + over - storage->ahead);
+        EXPECT_EQ(storage->staged, 4U);
+        some.most_ahead = 0;
+        EXPECT_EQ(choose_storage(field(0.0), views(), some)->layers, 8 + over);
+    }
+}
+
 TEST(LightFieldStorage, OfBlocksKeepsAllInAnEighth) {
     StorageLimits eighth = limits(320);
     eighth.image_bytes = [](std::uint32_t layers) { return image_bytes(layers) / 8; };
