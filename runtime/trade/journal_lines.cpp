@@ -49,6 +49,13 @@ double finite_not_negative(const json& value, const char* what) {
     return found;
 }
 
+std::uint64_t views_waited_for(const json& value) {
+    if (!value.is_number_unsigned()) {
+        throw std::runtime_error(fmt::format("a number of views is {}", value.dump()));
+    }
+    return value.get<std::uint64_t>();
+}
+
 /// A whole number from 1 to `most`.
 std::uint64_t count_of(const json& line, const char* key, std::uint64_t most) {
     const json& value = line.at(key);
@@ -143,6 +150,8 @@ TimedTurn turn_of(const json& line, const SweepRecord& record) {
         .frame = index_of(line.at("frame"), record.subject.frames, "frame")};
     // Of sweeps of before there is no energy.
     const json* const energies = line.contains("joules") ? &line.at("joules") : nullptr;
+    // And where none waited for views, nothing of that.
+    const json* const waits = line.contains("waited_views") ? &line.at("waited_views") : nullptr;
     for (const json& one : line.at("ms")) {
         PointTime time{.point = index_of(one.at(0), record.points.size(), "point")};
         if (energies != nullptr) {
@@ -150,6 +159,9 @@ TimedTurn turn_of(const json& line, const SweepRecord& record) {
             if (!energy.is_null()) {
                 time.energy_j = finite_not_negative(energy, "a frame's energy");
             }
+        }
+        if (waits != nullptr) {
+            time.waited_views = views_waited_for(waits->at(turn.times.size()));
         }
         for (std::size_t pass = 1; pass < one.size(); ++pass) {
             time.pass_ms.push_back(finite_not_negative(one.at(pass), "a pass's time"));
@@ -244,9 +256,13 @@ std::string judged_line(const JudgedPoint& judged) {
 std::string turn_line(const TimedTurn& turn) {
     auto times = ordered_json::array();
     auto energies = ordered_json::array();
+    auto waits = ordered_json::array();
     bool any_energy = false;
+    bool any_waits = false;
     for (const PointTime& time : turn.times) {
         any_energy |= time.energy_j.has_value();
+        any_waits |= time.waited_views > 0;
+        waits.push_back(time.waited_views);
         energies.push_back(time.energy_j ? ordered_json(*time.energy_j) : ordered_json());
         auto of_point = ordered_json::array({time.point});
         for (const double ms : time.pass_ms) {
@@ -260,6 +276,9 @@ std::string turn_line(const TimedTurn& turn) {
                       {"ms", std::move(times)}};
     if (any_energy) {
         line["joules"] = std::move(energies);
+    }
+    if (any_waits) {
+        line["waited_views"] = std::move(waits);
     }
     return line.dump();
 }

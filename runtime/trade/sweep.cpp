@@ -102,8 +102,9 @@ class CaseSweep {
   private:
     struct Contender {
         std::size_t point = 0;
-        bool known = false;   ///< judged
-        bool failed = false;  ///< and why is in its record
+        bool known = false;                   ///< judged
+        bool failed = false;                  ///< and why is in its record
+        const scene::Scene* scene = nullptr;  ///< of the renderer
         std::unique_ptr<render::OffScreen> renderer;
     };
 
@@ -317,8 +318,9 @@ class CaseSweep {
         config.camera = render::camera_of(values_.render);
         config.lp_gaussian = render::lp_gaussian_of(values_.render);
         config.antialiasing = render::antialiasing_of(values_.render);
-        contender.renderer = renderer(
-            scene(render::scene_options(values_.render, values_.light_field)), *passes, config);
+        scene::Scene& shown = scene(render::scene_options(values_.render, values_.light_field));
+        contender.scene = &shown;
+        contender.renderer = renderer(shown, *passes, config);
         return {};
     }
 
@@ -425,6 +427,11 @@ class CaseSweep {
         return hooks_.joules ? hooks_.joules() : std::nullopt;
     }
 
+    [[nodiscard]] static std::uint64_t views_waited_for(const scene::Scene& scene) {
+        const scene::ViewWaits waits = scene.view_waits();
+        return waits.views + waits.late_views;
+    }
+
     /// One frame by all points that work, to and fro, so that none always comes after the same one:
     /// whoever follows full resolution finds its caches full of that.
     Expected<TimedTurn> render_turn(unsigned round, std::size_t frame) {
@@ -438,6 +445,7 @@ class CaseSweep {
             if (!contender.renderer) {
                 continue;
             }
+            const std::uint64_t waited_before = views_waited_for(*contender.scene);
             const std::optional<double> before = joules();
             const frame::FrameGpuRecord gpu =
                 contender.renderer->render(view(frame), fovea(frame)).gpu;
@@ -445,6 +453,7 @@ class CaseSweep {
             if (const std::optional<double> after = joules(); before && after) {
                 time.energy_j = *after - *before;
             }
+            time.waited_views = views_waited_for(*contender.scene) - waited_before;
             for (std::size_t pass = 0; pass < contender.renderer->renderer().passes().size();
                  ++pass) {
                 time.pass_ms.push_back(1e-6 * static_cast<double>(gpu.passes[pass].value_or(0)));

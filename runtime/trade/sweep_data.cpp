@@ -49,6 +49,9 @@ ordered_json row_json(const SweepRow& row, std::uint32_t samples) {
     entry["speedup"] = finite(row.speedup);
     entry["energy_mj"] = row.energy_mj ? finite(*row.energy_mj) : ordered_json();
     entry["less_energy"] = row.less_energy ? finite(*row.less_energy) : ordered_json();
+    entry["timed_frames"] = row.timed_frames;
+    entry["waited_frames"] = row.waited_frames;
+    entry["waited_views"] = row.waited_views;
     auto figures = ordered_json::object();
     for (const quality::QualityFigure& figure : row.figures) {
         figures[figure.key] = {{"mean", finite(figure.mean)},

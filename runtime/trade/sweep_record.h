@@ -81,6 +81,8 @@ struct PointTime {
     /// What the processor took meanwhile, J, from the frame's beginning until all is done; none:
     /// unknown.
     std::optional<double> energy_j{};
+    /// Views of a light field that the frame waited for before its passes began.
+    std::uint64_t waited_views = 0;
 };
 
 /// One frame by all points in turns, of one machine.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "runtime/trade/equal_quality.h"
 #include "runtime/trade/part_worth.h"
@@ -133,6 +134,37 @@ std::vector<std::string> failures(const SweepReport& report) {
     return found;
 }
 
+std::string waits_text(const SweepSheet& sheet) {
+    std::uint64_t timed = 0;
+    std::uint64_t frames = 0;
+    std::uint64_t views = 0;
+    for (const SweepRow& row : sheet.rows) {
+        timed += row.timed_frames;
+        frames += row.waited_frames;
+        views += row.waited_views;
+    }
+    if (frames == 0) {
+        return {};
+    }
+    return fmt::format(
+        "{} of {} timed frames waited for {} views of the light field, which does not fit into "
+        "lightfield.memory_mib: their times tell the passes, and not the waits. Points take turns, "
+        "so that one waits for what the others then find.",
+        frames, timed, views);
+}
+
+std::vector<std::string> warnings(const SweepReport& report) {
+    std::vector<std::string> found;
+    for (const SweepSheet& sheet : report.sheets) {
+        if (std::string waits = waits_text(sheet); !waits.empty()) {
+            found.push_back(report.sheets.size() == 1
+                                ? std::move(waits)
+                                : fmt::format("{}: {}", case_text(sheet.of), waits));
+        }
+    }
+    return found;
+}
+
 std::string case_text(const SweepCase& of_case) {
     return fmt::format("scene {}, gaze {}", of_case.scene, of_case.gaze);
 }
@@ -194,6 +226,9 @@ std::string sweep_text(const SweepReport& report) {
         text += fmt::format("\n{}\n{}", case_text(sheet.of), table_text(sheet));
         if (const std::string shares = shares_text(sheet); !shares.empty()) {
             text += shares + '\n';
+        }
+        if (const std::string waits = waits_text(sheet); !waits.empty()) {
+            text += waits + '\n';
         }
     }
     if (!report.mean.rows.empty()) {

@@ -34,6 +34,14 @@ struct SweepReport {
 /// all is well.
 [[nodiscard]] std::vector<std::string> failures(const SweepReport& report);
 
+/// That timed frames of a case waited for views of its light field, which their times do not tell;
+/// empty: none did.
+[[nodiscard]] std::string waits_text(const SweepSheet& sheet);
+
+/// What is not as it should be of the cases that were measured, each with its case where there are
+/// several.
+[[nodiscard]] std::vector<std::string> warnings(const SweepReport& report);
+
 /// Tables, dearest point first; then what equal quality costs, fits, and the recommendation.
 /// Precondition: choose() takes the question.
 [[nodiscard]] std::string sweep_text(const SweepReport& report);

@@ -33,6 +33,8 @@ struct Round {
     double ms = 0.0;
     double full_ms = 0.0;  ///< of full resolution in the same turns
     std::vector<double> pass_ms{};
+    std::uint64_t waited_frames = 0;
+    std::uint64_t waited_views = 0;
     std::optional<double> energy_j{0.0};  ///< none: of one of the turns it is not known
     std::optional<double> full_j{0.0};
 
@@ -40,6 +42,8 @@ struct Round {
         ++frames;
         ms += sum(time.pass_ms);
         full_ms += sum(full.pass_ms);
+        waited_frames += time.waited_views > 0 ? 1 : 0;
+        waited_views += time.waited_views;
         energy_j =
             energy_j && time.energy_j ? std::optional(*energy_j + *time.energy_j) : std::nullopt;
         full_j = full_j && full.energy_j ? std::optional(*full_j + *full.energy_j) : std::nullopt;
@@ -81,6 +85,9 @@ void add_times(SweepRow& row, const JudgedPoint& judged, const Rounds& rounds,
         }
         const auto count = static_cast<double>(round.frames);
         round_ms.push_back(round.ms / count);
+        row.timed_frames += round.frames;
+        row.waited_frames += round.waited_frames;
+        row.waited_views += round.waited_views;
         ratios.push_back(round.ms > 0.0 ? round.full_ms / round.ms : 0.0);
         if (round.energy_j) {
             energies_mj.push_back(1e3 * *round.energy_j / count);
@@ -245,6 +252,11 @@ SweepSheet mean_sheet(const std::vector<SweepSheet>& sheets) {
         };
         row.energy_mj = mean_of_known(&SweepRow::energy_mj);
         row.less_energy = mean_of_known(&SweepRow::less_energy);
+        for (const SweepSheet& sheet : sheets) {
+            row.timed_frames += sheet.rows[at].timed_frames;
+            row.waited_frames += sheet.rows[at].waited_frames;
+            row.waited_views += sheet.rows[at].waited_views;
+        }
         row.figures = sheets.front().rows[at].figures;
         for (std::size_t i = 1; i < sheets.size(); ++i) {
             for (quality::QualityFigure& figure : row.figures) {

@@ -29,6 +29,11 @@ struct SweepRow {
     /// for full resolution: medians of the rounds. None: no whole round has it.
     std::optional<double> energy_mj{};
     std::optional<double> less_energy{};
+    /// Timed frames that waited for views of a light field before their passes, for how many, of
+    /// how many frames. Points take turns: whoever comes first waits for what the next ones find.
+    std::uint64_t waited_frames = 0;
+    std::uint64_t waited_views = 0;
+    std::uint64_t timed_frames = 0;
     double fewer_cells = 0.0;  ///< than full resolution; not a number where that failed
     /// Cells over the fewest that the comparison's acuity line asks for.
     double cells_over_fewest = 0.0;

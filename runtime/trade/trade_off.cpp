@@ -284,6 +284,9 @@ bool trade_off(const TradeRequest& request, const TradeScene& scene, settings::S
     report.with_fits = request.fit;
     report.command_line = request.command_line;
     value_or_throw(write_outputs(report, request.outputs));
+    for (const std::string& warning : warnings(report)) {
+        spdlog::warn("{}", warning);
+    }
     const std::vector<std::string> failed = failures(report);
     for (const std::string& failure : failed) {
         spdlog::error("{}", failure);

@@ -314,11 +314,11 @@ TEST_F(LightField, ThatDoesNotFitIsShownTheSame) {
     }
 }
 
-/// Eyes that go slowly past the cameras and back, a tenth of their spacing a frame.
+/// Eyes that go round over the cameras twice, an eighth of their spacing a frame.
 std::vector<glm::dvec3> passing() {
     std::vector<glm::dvec3> eyes;
-    for (int i = 0; i <= 80; ++i) {
-        eyes.emplace_back(0.005 * (i <= 40 ? i - 20 : 60 - i), 0.013, 0.0);
+    for (int i = 0; i <= 160; ++i) {
+        eyes.emplace_back(0.08 * std::cos(0.08 * i), 0.08 * std::sin(0.08 * i), 0.0);
     }
     return eyes;
 }

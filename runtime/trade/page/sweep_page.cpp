@@ -162,13 +162,16 @@ data sheet_data(const SweepReport& report, const SweepSheet& sheet, std::size_t 
     if (const std::string shares = shares_text(sheet); !shares.empty()) {
         item.set("note", shares);
     }
-    std::vector<std::string> failures;
+    std::vector<std::string> warnings;
     for (const SweepRow& row : sheet.rows) {
         if (!row.error.empty()) {
-            failures.push_back(fmt::format("{}: {}", point_text(row.point), row.error));
+            warnings.push_back(fmt::format("{}: {}", point_text(row.point), row.error));
         }
     }
-    item.set("failures", texts(failures));
+    if (std::string waits = waits_text(sheet); !waits.empty()) {
+        warnings.push_back(std::move(waits));
+    }
+    item.set("warnings", texts(warnings));
     data fronts = list();
     fronts << front_data(sheet, index, true) << front_data(sheet, index, false);
     item.set("fronts", fronts);

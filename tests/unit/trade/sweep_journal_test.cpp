@@ -48,6 +48,7 @@ TEST(SweepJournal, GivesBackAllThatItWasTold) {
         }
     }
     record.turns[2].times[1].energy_j.reset();
+    record.turns[1].times[2].waited_views = 12;
     record.judged[0].shares = {.kept = 0.25, .between = 0.5, .beyond = 0.25, .contrast = 0.125};
     record.judged[0].reference_hash = 0xFEDCBA9876543210;
     {
@@ -69,6 +70,7 @@ TEST(SweepJournal, GivesBackAllThatItWasTold) {
     EXPECT_EQ(text_of(*read), text_of(record));
     EXPECT_EQ(read->judged[0].reference_hash, record.judged[0].reference_hash);
     EXPECT_EQ(read->torn_bytes, 0U);
+    EXPECT_EQ(read->turns[1].times[2].waited_views, 12U);
     // Reports of both are the same, to the last bit.
     EXPECT_EQ(sweep_csv(report_of(*read)), sweep_csv(report_of(record)));
 }
@@ -138,6 +140,8 @@ TEST(SweepJournal, NamesTheLineThatIsDamaged) {
               "figures"},
              {good + "{\"case\":0,\"round\":0,\"frame\":0,\"ms\":[[0,-1]]}\n", "-1"},
              {good + "{\"case\":0,\"round\":0,\"frame\":0,\"ms\":[[0,1]],\"joules\":[]}\n", "j:9"},
+             {good + "{\"case\":0,\"round\":0,\"frame\":0,\"ms\":[[0,1]],\"waited_views\":[-2]}\n",
+              "views is -2"},
              {good + "{\"case\":0,\"round\":0,\"frame\":0,\"ms\":[[0,1]],\"joules\":[-2]}\n",
               "energy is -2"},
              {good + "{\"case\":0,\"point\":0,\"contrast_shares\":{\"kept\":0.7,\"between\":0.7,"

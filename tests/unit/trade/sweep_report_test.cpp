@@ -56,6 +56,30 @@ TEST(SweepReport, TellsEnergyWhereItIsKnown) {
     EXPECT_THAT(sweep_page(report), HasSubstr("mJ of the processor"));
 }
 
+// Times of passes tell nothing of the wait for views before them.
+TEST(SweepReport, TellsThatFramesWaitedForViews) {
+    SweepRecord record = made_sweep(2);
+    EXPECT_TRUE(warnings(report_of(record)).empty());
+    EXPECT_THAT(sweep_text(report_of(record)), Not(HasSubstr("waited")));
+    EXPECT_EQ(sweep_json(report_of(record)).at("points")[0].at("waited_frames"), 0);
+    record.turns[0].times[1].waited_views = 7;  // of the first case
+    record.turns[3].times[1].waited_views = 2;
+    record.turns[3].times[0].waited_views = 1;
+    const SweepReport report = report_of(record);
+    EXPECT_THAT(warnings(report),
+                testing::ElementsAre(
+                    HasSubstr("scene scene0, gaze 0,0: 3 of 12 timed frames waited for 10 views")));
+    EXPECT_THAT(sweep_text(report), HasSubstr("3 of 12 timed frames waited for 10 views"));
+    EXPECT_THAT(sweep_page(report), HasSubstr("3 of 12 timed frames waited for 10 views"));
+    const auto json = sweep_json(report);
+    EXPECT_EQ(json.at("points")[1].at("timed_frames"), 4);
+    EXPECT_EQ(json.at("points")[1].at("waited_frames"), 2);
+    EXPECT_EQ(json.at("points")[1].at("waited_views"), 9);
+    EXPECT_EQ(json.at("points")[4].at("waited_frames"), 0) << "of the other case";
+    EXPECT_EQ(json.at("means")[1].at("waited_views"), 9);
+    EXPECT_EQ(json.at("means")[1].at("timed_frames"), 8);
+}
+
 TEST(SweepReport, TellsWhereTheScenesContrastLies) {
     SweepRecord record = made_sweep();
     EXPECT_TRUE(sweep_json(report_of(record)).at("cases")[0].at("contrast_shares").is_null());
