@@ -326,7 +326,9 @@ Expected<LightFieldSource> open_light_field(const std::filesystem::path& file) {
     const Size size = size_of(views, problems);
     if (size.width_px > 0 && !complete) {
         // It is refused anyway, so that this costs no second decoding: with what else is wrong.
-        (void)read_views(views, size, {}, {}, problems);
+        if (auto looked = read_views(views, size, {}, {}, problems); !looked) {
+            return std::unexpected(looked.error());
+        }
     }
     if (size.width_px == 0 || !complete) {
         return std::unexpected(problems.error(file));

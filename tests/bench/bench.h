@@ -134,8 +134,9 @@ std::vector<Figure> sparse(const Options& options);
 
 /// Speed of 3D-KFR and of KFR over full resolution of all 25 x 25 views of a light field, and their
 /// error, by sigma; through a lens that takes every view and through one that asks for some. The
-/// case `memory`: frames that wait for views which memory has no room for, and of views in BC1,
-/// over frames of views that are all there, while the head goes past the cameras.
+/// case `memory`: frames that wait for views which memory has no room for, with and without
+/// fetching ahead, and of views in BC1, over frames of views that are all there, while the head
+/// goes past the cameras.
 std::vector<Figure> lightfield(const Options& options);
 
 /// How fast traces are read: MB of CSV per second of CPU time, of the whole reader and of its

@@ -33,6 +33,9 @@ struct Sizes {
 constexpr Sizes kWholeField{25, 256, 512};
 constexpr Sizes kQuickField{9, 64, 128};
 
+/// A side of the picture that shows how frames wait for views.
+constexpr std::uint32_t kMemoryPicture_px = 128;
+
 /// A side of the other eye's picture: the smallest that sigma 3 makes an LP-buffer of.
 constexpr std::uint32_t kOtherEyePicture_px = 16;
 
@@ -257,7 +260,9 @@ void add_memory_figures(const vulkan::Context& context, const std::filesystem::p
     const Kept& resident = all.front();
     const Kept& packed = all.back();
 
-    const render::RendererConfig config = config_of(sizes);
+    // Waits are the same whatever the picture's size, and show in a small one.
+    const render::RendererConfig config =
+        config_of({sizes.views, sizes.view_px, std::min(sizes.picture_px, kMemoryPicture_px)});
     const std::vector<double> across_m = way_across_m(cameras);
     const auto put = [&](const std::string& metric, double value, const char* unit,
                          const char* better) {
