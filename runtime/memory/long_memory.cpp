@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "runtime/error.h"
+#include "runtime/memory/large_pages.h"
 #include "runtime/memory/scratch_file.h"
 #include "runtime/signals_blocked.h"
 
@@ -114,20 +115,8 @@ class Blocks {
         if (block == MAP_FAILED) {
             throw std::bad_alloc();
         }
-        in_large_pages(block, bytes);
+        advise_large_pages(block, bytes);
         return block;
-    }
-
-    /// A fault for each small page takes a quarter of the time in which a file is read. Only
-    /// advice: where it is not taken, nothing changes.
-    static void in_large_pages(void* block, std::size_t bytes) {
-        constexpr std::uintptr_t kLarge = std::uintptr_t{2} << 20U;
-        const auto begin = std::bit_cast<std::uintptr_t>(block);
-        const std::uintptr_t first = (begin + kLarge - 1) / kLarge * kLarge;
-        const std::uintptr_t last = (begin + bytes) / kLarge * kLarge;
-        if (first < last) {
-            madvise(std::bit_cast<void*>(first), last - first, MADV_HUGEPAGE);
-        }
     }
 
     void* mapped_file(std::size_t bytes) {

@@ -32,7 +32,8 @@ Texels texels_of(const mesh::Image& image) {
         return texels_of(mesh::as_light(image));
     }
     Texels texels{format_of(image),
-                  {{0, 0, vk::Extent2D(image.width, image.height), image.texels}}};
+                  {{0, 0, vk::Extent2D(image.width, image.height),
+                    std::vector(image.texels.begin(), image.texels.end())}}};
     for (mesh::MipLevel& level : mesh::smaller_levels(image)) {
         texels.levels.push_back({static_cast<std::uint32_t>(texels.levels.size()), 0,
                                  vk::Extent2D(level.width, level.height), std::move(level.texels)});

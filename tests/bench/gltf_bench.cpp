@@ -154,9 +154,11 @@ std::uint64_t read_and_decode(const std::filesystem::path& folder) {
     std::uint64_t texel_bytes = 0;
     const auto read = scene::gltf::files_of(folder);
     constexpr std::uint64_t kAll = std::uint64_t{1} << 40U;
-    (void)read("scene.bin", kAll, "");
+    Bytes bytes;
+    read("scene.bin", kAll, "", bytes);
+    bytes = {};
     for (unsigned i = 0; i < kTextures; ++i) {
-        const Bytes bytes = read(fmt::format("{}.{}", i, i % 2 == 0 ? "png" : "jpg"), kAll, "");
+        read(fmt::format("{}.{}", i, i % 2 == 0 ? "png" : "jpg"), kAll, "", bytes);
         scene::mesh::Image image;
         scene::gltf::Notes notes;
         const auto header = scene::gltf::read_picture_header(bytes, "", {});

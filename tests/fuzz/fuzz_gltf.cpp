@@ -78,9 +78,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace gazeloop;
     const auto bytes = std::as_bytes(std::span(data, size));
     const scene::gltf::ReadFile read_file = [&](const std::string&, std::uint64_t most_bytes,
-                                                const std::string&) {
+                                                const std::string&, scene::gltf::Bytes& into) {
         const auto part = bytes.first(std::min<std::uint64_t>(bytes.size(), most_bytes));
-        return scene::gltf::Bytes(part.begin(), part.end());
+        into.assign(part.begin(), part.end());
     };
     const auto scene = scene::gltf::load_gltf(
         bytes, "fuzz", read_file,

@@ -7,14 +7,18 @@
 #include <exception>
 #include <mutex>
 #include <new>
+#include <set>
 #include <thread>
 
+#include "runtime/memory/large_pages.h"
 #include "runtime/scene/gltf/container.h"
 #include "runtime/scene/gltf/detail_levels.h"
 #include "runtime/scene/gltf/geometry.h"
 #include "runtime/scene/gltf/material_images.h"
+#include "runtime/scene/gltf/meshopt_memory.h"
 #include "runtime/scene/gltf/picture.h"
 #include "runtime/scene/gltf/scene_walk.h"
+#include "runtime/scene/gltf/shape_list.h"
 
 namespace gazeloop::scene::gltf {
 namespace {
@@ -79,6 +83,12 @@ Plan plan_of(const Document& document, const ShownNodes& shown, Notes& notes) {
     return plan;
 }
 
+/// What a thread keeps from job to job: the faults of fresh memory take longer than its use.
+struct ThreadMemory {
+    MeshoptMemory meshopt;
+    Bytes picture_file;
+};
+
 /// Runs jobs 0 to count - 1 on several threads. Throws what the first of those that failed threw.
 template <typename Job>
 void run_jobs(std::size_t count, const LoadOptions& options, Job job) {
@@ -88,10 +98,11 @@ void run_jobs(std::size_t count, const LoadOptions& options, Job job) {
     std::exception_ptr failure;
     std::mutex mutex;
     const auto work = [&] {
+        ThreadMemory kept;
         for (std::size_t i = next++; i < count; i = next++) {
             std::exception_ptr caught;
             try {
-                job(i);
+                job(i, kept);
             } catch (...) {
                 caught = std::current_exception();
             }
@@ -144,23 +155,27 @@ class Loader {
         const Document document = read_document(container.json, notes_);
         const ShownNodes shown = walk_scene(document, notes_);
         const Plan plan = plan_of(document, shown, notes_);
-        std::vector<Buffer> buffers =
+        const std::vector<Buffer> buffers =
             read_buffers(document, container.binary, read_file_, budget_, notes_);
 
-        std::vector<Geometry> geometries(plan.geometries.size());
-        std::vector<mesh::Image> images(plan.images.size());
-        std::vector<Notes> notes(geometries.size() + images.size());
+        LoadedScene scene;
+        reserve(document, plan, scene.data);
+        ShapeList shapes(plan.geometries.size(), scene.data);
+        scene.data.images.resize(plan.images.size());
+        std::vector<Notes> notes(plan.images.size() + plan.geometries.size());
         const Source source{document, buffers};
-        run_jobs(notes.size(), options_, [&](std::size_t i) {
-            if (i < images.size()) {
-                images[i] = read_image(source, plan.images[i], notes[i]);
+        run_jobs(notes.size(), options_, [&](std::size_t i, ThreadMemory& kept) {
+            if (i < plan.images.size()) {
+                scene.data.images[i] =
+                    read_image(source, plan.images[i], kept.picture_file, notes[i]);
             } else {
-                const std::size_t g = i - images.size();
-                geometries[g] = read_geometry(source, plan.geometries[g], plan.geometry_places[g],
-                                              budget_, notes[i]);
+                const std::size_t g = i - plan.images.size();
+                Geometry geometry = read_geometry(source, plan.geometries[g],
+                                                  plan.geometry_places[g], budget_, notes[i]);
                 if (options_.coarser_forms) {
-                    add_coarser_forms(geometries[g]);
+                    add_coarser_forms(geometry);
                 }
+                shapes.put(g, std::move(geometry));
             }
         });
         for (const Notes& part : notes) {
@@ -168,13 +183,10 @@ class Loader {
                 notes_.add(note);
             }
         }
-        buffers.clear();  // before all shapes are copied into one
-        LoadedScene scene;
-        scene.data.images = std::move(images);
         scene.data.materials = plan.materials;
         scene.data.lights = shown.lights;
         scene.data.viewpoints = shown.viewpoints;
-        assemble(plan, shown, geometries, scene.data);
+        place(plan, shown, shapes, scene.data);
         if (scene.data.instances.empty()) {
             refuse("", "shows no triangle, so that there is nothing to render");
         }
@@ -183,18 +195,18 @@ class Loader {
     }
 
   private:
-    mesh::Image read_image(const Source& source, const UsedImage& used, Notes& notes) {
+    /// `file`: memory for the picture's, if it has one.
+    mesh::Image read_image(const Source& source, const UsedImage& used, Bytes& file, Notes& notes) {
         const ImageSource& from = source.document.images.at(used.image);
         const std::string place = fmt::format("/images/{}", used.image);
         mesh::Image image;
         image.name = from.uri && !from.uri->starts_with("data:") ? *from.uri : place;
         image.color_space = used.color_space;
         try {
-            Bytes own;
             std::span<const std::byte> bytes;
             if (from.uri) {
-                own = read_uri(*from.uri, kMostPictureFileBytes, place, read_file_, notes);
-                bytes = own;
+                read_uri(*from.uri, kMostPictureFileBytes, place, read_file_, notes, file);
+                bytes = file;
             } else {
                 bytes = bytes_of(source.document, source.buffers, *from.view);
             }
@@ -213,78 +225,41 @@ class Loader {
         return image;
     }
 
-    /// Where a shape lies in the scene's lists: its forms from the finest on.
-    struct PlacedForm {
-        std::uint32_t first_index = 0;
-        std::uint32_t index_count = 0;
-        float error_m = 0.0F;
-    };
-    struct PlacedGeometry {
-        std::uint32_t first_vertex = 0;
-        std::uint32_t vertex_count = 0;
-        mesh::Bounds bounds;
-        std::vector<PlacedForm> forms;
-    };
-
-    static PlacedForm append_form(const std::vector<std::uint32_t>& indices, float error_m,
-                                  mesh::MeshData& data) {
-        const auto first = static_cast<std::uint32_t>(data.indices.size());
-        data.indices.insert(data.indices.end(), indices.begin(), indices.end());
-        return {first, static_cast<std::uint32_t>(indices.size()), error_m};
+    /// Room in the lists for what the shapes will need, by what their accessors have: vertices that
+    /// shapes share are counted once, and coarser forms as a third of the finest.
+    void reserve(const Document& document, const Plan& plan, mesh::MeshData& data) const {
+        std::set<std::uint32_t> positions;
+        std::uint64_t vertices = 0;
+        std::uint64_t indices = 0;
+        for (const GeometryKey& key : plan.geometries) {
+            const auto position = key.attributes.find("POSITION");
+            const bool is_shown = key.mode == Mode::Triangles || key.mode == Mode::TriangleStrip ||
+                                  key.mode == Mode::TriangleFan;
+            if (position == key.attributes.end() || !is_shown) {
+                continue;
+            }
+            const std::uint64_t count = document.accessors.at(position->second).count;
+            vertices += positions.insert(position->second).second ? count : 0;
+            indices += key.indices ? document.accessors.at(*key.indices).count : count;
+        }
+        vertices = std::min(vertices, indices);
+        indices += options_.coarser_forms ? indices / 3 : 0;
+        // What does not fit will be refused where it is read.
+        if (vertices * sizeof(mesh::Vertex) + indices * sizeof(std::uint32_t) <=
+            options_.limits.most_bytes) {
+            memory::reserve_in_large_pages(data.vertices, vertices);
+            memory::reserve_in_large_pages(data.indices, indices);
+        }
     }
 
-    /// `geometry` is emptied.
-    static PlacedGeometry append(Geometry& geometry, mesh::MeshData& data) {
-        PlacedGeometry placed{.first_vertex = static_cast<std::uint32_t>(data.vertices.size()),
-                              .vertex_count = static_cast<std::uint32_t>(geometry.vertices.size()),
-                              .bounds = {},
-                              .forms = {}};
-        for (const mesh::Vertex& vertex : geometry.vertices) {
-            placed.bounds.low_m = glm::min(placed.bounds.low_m, vertex.position_m);
-            placed.bounds.high_m = glm::max(placed.bounds.high_m, vertex.position_m);
-        }
-        data.vertices.insert(data.vertices.end(), geometry.vertices.begin(),
-                             geometry.vertices.end());
-        if (!geometry.indices.empty()) {
-            placed.forms.push_back(append_form(geometry.indices, 0.0F, data));
-            for (const CoarserForm& form : geometry.coarser) {
-                placed.forms.push_back(append_form(form.indices, form.error_m, data));
-            }
-        }
-        geometry = {};
-        return placed;
-    }
-
-    static void assemble(const Plan& plan, const ShownNodes& shown,
-                         std::vector<Geometry>& geometries, mesh::MeshData& data) {
-        std::uint64_t vertex_count = 0;
-        std::uint64_t index_count = 0;
-        for (const Geometry& geometry : geometries) {
-            vertex_count += geometry.vertices.size();
-            index_count += geometry.indices.size();
-            for (const CoarserForm& form : geometry.coarser) {
-                index_count += form.indices.size();
-            }
-        }
-        // The GPU adds the first vertex as a signed number of 32 bits.
-        if (vertex_count > 0x7FFFFFFF || index_count > 0xFFFFFFFF) {
-            refuse("", fmt::format("has {} vertices and {} indices, more than a GPU addresses at "
-                                   "once; make it smaller",
-                                   vertex_count, index_count));
-        }
-        data.vertices.reserve(vertex_count);
-        data.indices.reserve(index_count);
-        std::vector<PlacedGeometry> placed;
-        placed.reserve(geometries.size());
-        for (Geometry& geometry : geometries) {
-            placed.push_back(append(geometry, data));
-        }
+    static void place(const Plan& plan, const ShownNodes& shown, ShapeList& shapes,
+                      mesh::MeshData& data) {
         std::map<Piece, std::pair<std::uint32_t, std::uint32_t>> levels;  // first, count
         for (const PlacedMesh& mesh : shown.meshes) {
             for (const Piece& piece : plan.meshes.at(mesh.mesh)) {
                 const auto [at, is_new] = levels.try_emplace(piece);
                 if (is_new) {
-                    at->second = append_levels(placed.at(piece.geometry), piece.material, data);
+                    at->second = shapes.add_levels(piece.geometry, piece.material);
                 }
                 if (at->second.second > 0) {
                     data.instances.push_back({.first_level = at->second.first,
@@ -293,23 +268,6 @@ class Loader {
                 }
             }
         }
-    }
-
-    static std::pair<std::uint32_t, std::uint32_t> append_levels(const PlacedGeometry& geometry,
-                                                                 std::uint32_t material,
-                                                                 mesh::MeshData& data) {
-        const auto first = static_cast<std::uint32_t>(data.levels.size());
-        for (const PlacedForm& form : geometry.forms) {
-            data.levels.push_back({.primitive = static_cast<std::uint32_t>(data.primitives.size()),
-                                   .error_m = form.error_m});
-            data.primitives.push_back({.first_index = form.first_index,
-                                       .index_count = form.index_count,
-                                       .first_vertex = geometry.first_vertex,
-                                       .vertex_count = geometry.vertex_count,
-                                       .material = material,
-                                       .bounds = geometry.bounds});
-        }
-        return {first, static_cast<std::uint32_t>(geometry.forms.size())};
     }
 
     const ReadFile& read_file_;
@@ -354,7 +312,8 @@ Expected<LoadedScene> load_gltf(std::span<const std::byte> file, const std::stri
 Expected<LoadedScene> load_gltf(const std::filesystem::path& file, const LoadOptions& options) {
     return as_expected(file.string(), [&] {
         const ReadFile read_file = files_of(file.parent_path());
-        const Bytes bytes = read_file(file.filename(), options.limits.most_bytes, "");
+        Bytes bytes;
+        read_file(file.filename(), options.limits.most_bytes, "", bytes);
         return Loader(read_file, options).load(bytes);
     });
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 
+#include "runtime/memory/large_pages.h"
 #include "runtime/open_for_reading.h"
 
 namespace gazeloop::scene::gltf {
@@ -117,7 +118,8 @@ Bytes data_uri(std::string_view uri, std::uint64_t most_bytes, const std::string
 }  // namespace
 
 ReadFile files_of(const std::filesystem::path& folder) {
-    return [folder](const std::string& path, std::uint64_t most_bytes, const std::string& place) {
+    return [folder](const std::string& path, std::uint64_t most_bytes, const std::string& place,
+                    Bytes& bytes) {
         const std::filesystem::path file = folder / path;
         std::error_code ignored;
         if (std::filesystem::exists(file, ignored) &&
@@ -135,17 +137,22 @@ ReadFile files_of(const std::filesystem::path& folder) {
                                      file.string(), in.error()));
         }
         const std::uint64_t there = std::filesystem::file_size(file, ignored);
-        Bytes bytes(ignored ? 0 : std::min(there, most_bytes));
+        const std::size_t count = ignored ? 0 : std::min(there, most_bytes);
+        // Steps, so that pictures of about one size are read into the same memory.
+        constexpr std::size_t kStep = std::size_t{256} << 10U;
+        bytes.clear();
+        memory::reserve_in_large_pages(bytes, (count + kStep - 1) / kStep * kStep);
+        bytes.resize(count);
         in->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
         bytes.resize(static_cast<std::size_t>(in->gcount()));
-        return bytes;
     };
 }
 
-Bytes read_uri(std::string_view uri, std::uint64_t most_bytes, const std::string& place,
-               const ReadFile& read_file, Notes& notes) {
+void read_uri(std::string_view uri, std::uint64_t most_bytes, const std::string& place,
+              const ReadFile& read_file, Notes& notes, Bytes& bytes) {
     if (starts_with_any_case(uri, "data:")) {
-        return data_uri(uri, most_bytes, place);
+        bytes = data_uri(uri, most_bytes, place);
+        return;
     }
     if (has_scheme(uri)) {
         refuse(place,
@@ -163,7 +170,7 @@ Bytes read_uri(std::string_view uri, std::uint64_t most_bytes, const std::string
             "backslash", place,
             fmt::format("'{}' has a backslash, which is no separator of folders", shortened(uri)));
     }
-    return read_file(path, most_bytes, place);
+    read_file(path, most_bytes, place, bytes);
 }
 
 std::vector<Buffer> read_buffers(const Document& document,
@@ -176,7 +183,7 @@ std::vector<Buffer> read_buffers(const Document& document,
         Buffer& buffer = buffers[i];
         if (source.uri) {
             budget.take(source.bytes, place, "its bytes");
-            buffer.owned = read_uri(*source.uri, source.bytes, place + "/uri", read_file, notes);
+            read_uri(*source.uri, source.bytes, place + "/uri", read_file, notes, buffer.owned);
             buffer.bytes = buffer.owned;
         } else if (i == 0 && binary) {
             buffer.bytes = *binary;

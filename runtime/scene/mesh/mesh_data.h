@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/memory/large_pages.h"
+
 // A scene of triangle meshes as plain data: what a file loader or a generator makes and a renderer
 // draws. Axes as OpenXR's (+X right, +Y up, -Z forward), metres, linear Rec.709 light. The material
 // model is that of glTF 2.0 (metallic-roughness) with its defaults.
@@ -116,7 +118,8 @@ struct Image {
     std::uint32_t height = 0;
     ColorSpace color_space = ColorSpace::Linear;
     TexelFormat format = TexelFormat::Rgba8;
-    std::vector<std::byte> texels{};  ///< width * height * (4 or 8) bytes, native byte order
+    /// width * height * (4 or 8) bytes, native byte order
+    memory::LargePagesVector<std::byte> texels{};
 };
 
 enum class LightKind : std::uint8_t { Directional, Point, Spot };

@@ -272,7 +272,8 @@ Image as_light(const Image& image) {
     for (std::uint32_t y = 0; y < values.height; ++y) {
         rows.read(y, &values.at[y * values.row_length()]);
     }
-    light.texels = coded(values, light).texels;
+    const MipLevel coded_light = coded(values, light);
+    light.texels.assign(coded_light.texels.begin(), coded_light.texels.end());
     return light;
 }
 

@@ -16,7 +16,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 MeshData sound() {
     MeshData data = square(1.0F, moved({0.0F, 0.0F, -2.0F}));
-    data.images.push_back({.width = 1, .height = 1, .texels = std::vector<std::byte>(4)});
+    data.images.push_back({.width = 1, .height = 1, .texels = decltype(Image::texels)(4)});
     data.lights.push_back({});
     return data;
 }

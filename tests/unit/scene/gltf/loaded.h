@@ -17,14 +17,14 @@ inline Expected<scene::gltf::LoadedScene> try_to_load(std::span<const std::byte>
                                                       scene::gltf::LoadOptions options = {}) {
     options.threads = options.threads == 0 ? 1 : options.threads;
     const scene::gltf::ReadFile read_file = [&](const std::string& path, std::uint64_t most_bytes,
-                                                const std::string& place) {
+                                                const std::string& place,
+                                                scene::gltf::Bytes& bytes) {
         const auto found = beside.find(path);
         if (found == beside.end()) {
             scene::gltf::refuse(place, path + " is not there");
         }
-        std::vector<std::byte> bytes = found->second;
+        bytes = found->second;
         bytes.resize(std::min<std::uint64_t>(bytes.size(), most_bytes));
-        return bytes;
     };
     return scene::gltf::load_gltf(file, "scene.gltf", read_file, options);
 }
