@@ -2,6 +2,11 @@
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
 namespace gazeloop::scene::gltf {
 namespace {
 
@@ -19,6 +24,57 @@ constexpr float kMostError = 0.02F;
 const float* positions_of(const Geometry& geometry) {
     return &geometry.vertices.front().position_m.x;
 }
+
+/// The vertices that a form uses, and no others: simplification takes time for each that it is
+/// given, and those of the finest form are soon most.
+class UsedVertices {
+  public:
+    std::vector<std::uint32_t> triangles;
+    std::vector<glm::vec3> positions_m;
+
+    /// Of the finest form, which uses all.
+    explicit UsedVertices(const Geometry& geometry)
+        : triangles(geometry.indices), vertices_(geometry.vertices.size()) {
+        positions_m.reserve(geometry.vertices.size());
+        for (const mesh::Vertex& vertex : geometry.vertices) {
+            positions_m.push_back(vertex.position_m);
+        }
+        std::iota(vertices_.begin(), vertices_.end(), 0U);
+    }
+
+    /// Triangles of these vertices as triangles of the shape's.
+    [[nodiscard]] std::vector<std::uint32_t> in_shape(
+        const std::vector<std::uint32_t>& form) const {
+        std::vector<std::uint32_t> of_shape(form.size());
+        std::ranges::transform(form, of_shape.begin(),
+                               [&](std::uint32_t index) { return vertices_[index]; });
+        return of_shape;
+    }
+
+    /// Goes on with a form of these vertices, in the order of their first use.
+    void keep(std::vector<std::uint32_t> form) {
+        std::vector<std::uint32_t> place(vertices_.size());
+        const std::size_t count = meshopt_optimizeVertexFetchRemap(place.data(), form.data(),
+                                                                   form.size(), vertices_.size());
+        std::vector<std::uint32_t> kept(count);
+        std::vector<glm::vec3> kept_m(count);
+        for (std::size_t i = 0; i < place.size(); ++i) {
+            if (place[i] != mesh::kNone) {
+                kept[place[i]] = vertices_[i];
+                kept_m[place[i]] = positions_m[i];
+            }
+        }
+        for (std::uint32_t& index : form) {
+            index = place[index];
+        }
+        triangles = std::move(form);
+        vertices_ = std::move(kept);
+        positions_m = std::move(kept_m);
+    }
+
+  private:
+    std::vector<std::uint32_t> vertices_;  ///< of the shape, by place here
+};
 
 }  // namespace
 
@@ -41,29 +97,30 @@ void add_coarser_forms(Geometry& geometry) {
     if (geometry.indices.size() / 3 < kFewestTriangles) {
         return;
     }
-    const float scale =
+    const float extent_m =
         meshopt_simplifyScale(positions_of(geometry), geometry.vertices.size(), kStride);
-    const std::vector<std::uint32_t>* finer = &geometry.indices;
-    float error = 0.0F;
+    UsedVertices used(geometry);
+    float error_m = 0.0F;
     geometry.coarser.reserve(kMostForms);
-    while (geometry.coarser.size() < kMostForms && finer->size() / 12 >= kCoarsestTriangles) {
-        const std::size_t wanted = finer->size() / 12 * 3;
-        CoarserForm form{.indices = std::vector<std::uint32_t>(finer->size()), .error_m = 0.0F};
+    while (geometry.coarser.size() < kMostForms &&
+           used.triangles.size() / 12 >= kCoarsestTriangles) {
+        const std::size_t wanted = used.triangles.size() / 12 * 3;
+        const float used_extent_m = meshopt_simplifyScale(
+            &used.positions_m.front().x, used.positions_m.size(), sizeof(glm::vec3));
+        std::vector<std::uint32_t> form(used.triangles.size());
         float step = 0.0F;
-        form.indices.resize(meshopt_simplify(form.indices.data(), finer->data(), finer->size(),
-                                             positions_of(geometry), geometry.vertices.size(),
-                                             kStride, wanted, kMostError, 0, &step));
-        error += step;  // each form is made of the one before
+        form.resize(meshopt_simplify(form.data(), used.triangles.data(), form.size(),
+                                     &used.positions_m.front().x, used.positions_m.size(),
+                                     sizeof(glm::vec3), wanted, kMostError, 0, &step));
+        error_m += step * used_extent_m;  // each form is made of the one before
         // One that saves less than half is not worth its memory.
-        if (form.indices.empty() || error > kMostError || form.indices.size() > 2 * wanted) {
+        if (form.empty() || error_m > kMostError * extent_m || form.size() > 2 * wanted) {
             return;
         }
-        form.error_m = error * scale;
-        meshopt_optimizeVertexCacheFifo(form.indices.data(), form.indices.data(),
-                                        form.indices.size(), geometry.vertices.size(), kCacheSize);
-        form.indices.shrink_to_fit();
-        geometry.coarser.push_back(std::move(form));
-        finer = &geometry.coarser.back().indices;
+        meshopt_optimizeVertexCacheFifo(form.data(), form.data(), form.size(),
+                                        used.positions_m.size(), kCacheSize);
+        geometry.coarser.push_back({used.in_shape(form), error_m});
+        used.keep(std::move(form));
     }
 }
 
