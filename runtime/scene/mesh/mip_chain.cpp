@@ -8,6 +8,8 @@
 #include <cstring>
 #include <utility>
 
+#include "runtime/memory/large_pages.h"
+
 namespace gazeloop::scene::mesh {
 namespace {
 
@@ -21,6 +23,9 @@ float code_of(float light) {
     return light <= 0.0031308F ? 12.92F * light : 1.055F * std::pow(light, 1.0F / 2.4F) - 0.055F;
 }
 
+/// As std::clamp(), which is a jump where this is an instruction.
+float within_1(float value) { return std::min(std::max(value, 0.0F), 1.0F); }
+
 constexpr float kMostByte = 255.0F;
 constexpr float kMostWord = 65535.0F;
 
@@ -29,6 +34,14 @@ constexpr float kMostWord = 65535.0F;
 std::uint16_t rounded(float scaled) {
     // NOLINTNEXTLINE(bugprone-incorrect-roundings)
     return static_cast<std::uint16_t>(static_cast<double>(scaled) + 0.5);
+}
+
+/// The same of a code of 8 bits: the fraction of a float is exact, and integers of 32 bits are what
+/// a processor rounds four at a time.
+std::uint8_t rounded_byte(float scaled) {
+    const auto whole = static_cast<std::int32_t>(scaled);
+    const std::int32_t up = scaled - static_cast<float>(whole) >= 0.5F ? 1 : 0;
+    return static_cast<std::uint8_t>(whole + up);
 }
 
 /// sRGB codes of light without a power for each: the float at which each code begins.
@@ -51,11 +64,8 @@ class SrgbCodes {
 
     /// Of light in [0, 1].
     [[nodiscard]] std::uint8_t of(float light) const {
-        std::uint32_t code = at_[static_cast<std::size_t>(light * kCells)];
-        while (begins_[code + 1U] <= light) {
-            ++code;
-        }
-        return static_cast<std::uint8_t>(code);
+        const std::uint32_t code = at_[static_cast<std::size_t>(light * kCells)];
+        return static_cast<std::uint8_t>(code + (begins_[code + 1U] <= light ? 1U : 0U));
     }
 
   private:
@@ -84,7 +94,7 @@ class SrgbCodes {
 struct Values {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::vector<float> at;
+    memory::LargePagesVector<float> at;
 
     [[nodiscard]] std::size_t row_length() const { return kChannels * std::size_t{width}; }
     [[nodiscard]] const float* row(std::uint32_t y) const { return &at[y * row_length()]; }
@@ -99,10 +109,9 @@ class ImageRows {
           image_(&image),
           row_length_(kChannels * std::size_t{image.width}),
           kept_(kKept * row_length_) {
-        const bool srgb = image.color_space == ColorSpace::Srgb;
         for (std::size_t code = 0; code < plain_.size(); ++code) {
             plain_.at(code) = static_cast<float>(code) / kMostByte;
-            color_.at(code) = srgb ? light_of(plain_.at(code)) : plain_.at(code);
+            color_.at(code) = light_of(plain_.at(code));
         }
     }
 
@@ -119,6 +128,14 @@ class ImageRows {
     void read(std::uint32_t y, float* to) const {
         if (image_->format == TexelFormat::Rgba8) {
             const std::byte* from = image_->texels.data() + y * row_length_;
+            if (image_->color_space == ColorSpace::Linear) {
+                // A processor divides four at a time, and does not look up so many.
+                const auto* const codes = reinterpret_cast<const std::uint8_t*>(from);
+                for (std::size_t i = 0; i < row_length_; ++i) {
+                    to[i] = static_cast<float>(codes[i]) / kMostByte;
+                }
+                return;
+            }
             for (std::size_t i = 0; i < row_length_; i += kChannels) {
                 for (std::size_t c = 0; c < 3; ++c) {
                     to[i + c] = color_[std::to_integer<std::size_t>(from[i + c])];
@@ -145,7 +162,7 @@ class ImageRows {
 
     const Image* image_;
     std::size_t row_length_;
-    std::array<float, 256> color_{};
+    std::array<float, 256> color_{};  ///< of codes of sRGB
     std::array<float, 256> plain_{};
     std::vector<float> kept_;
     std::array<std::uint64_t, kKept> rows_{~0ULL, ~0ULL, ~0ULL, ~0ULL};
@@ -230,10 +247,15 @@ MipLevel coded(const Values& values, const Image& like) {
     if (like.format == TexelFormat::Rgba8) {
         static const SrgbCodes codes;
         level.texels.resize(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const float value = std::clamp(values.at[i], 0.0F, 1.0F);
-            level.texels[i] = static_cast<std::byte>(
-                srgb && i % kChannels != 3 ? codes.of(value) : rounded(value * kMostByte));
+        auto* const to = reinterpret_cast<std::uint8_t*>(level.texels.data());
+        for (std::size_t i = 0; !srgb && i < count; ++i) {
+            to[i] = rounded_byte(within_1(values.at[i]) * kMostByte);
+        }
+        for (std::size_t i = 0; srgb && i < count; i += kChannels) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                to[i + c] = codes.of(within_1(values.at[i + c]));
+            }
+            to[i + 3] = rounded_byte(within_1(values.at[i + 3]) * kMostByte);
         }
         return level;
     }
