@@ -44,6 +44,12 @@ SessionWriter::SessionWriter(const std::filesystem::path& file)
         insert_trial_.emplace(database_, trial.insert_into(kTrialTable));
         insert_response_.emplace(database_, response.insert_into(kResponseTable));
     }
+    // A log from the start: a program that is killed before its first record would leave what looks
+    // like a copy without its log. SQLite writes no page whose bytes stay as they are.
+    begin();
+    set_meta(kMetaRecordsDropped, "");
+    set_meta(kMetaRecordsDropped, "0");
+    database_.execute("COMMIT");
 }
 
 void SessionWriter::begin() { database_.execute("BEGIN IMMEDIATE"); }

@@ -128,6 +128,19 @@ TEST_F(Recording, LongEventTextIsCut) {
     EXPECT_EQ(session.events[0].text, std::string(239, 't'));
 }
 
+TEST_F(Recording, HasALogBeforeItsFirstRecord) {
+    const auto recorder = start();
+    for (const char* const part : {"", "-wal"}) {  // as a program leaves them that is killed now
+        std::filesystem::copy_file(file.string() + part, file.string() + ".killed" + part);
+    }
+    const auto killed = read_session(file.string() + ".killed");
+    ASSERT_TRUE(killed) << killed.error().message;
+    EXPECT_EQ(killed->missing_log, "");
+    EXPECT_FALSE(killed->closed_cleanly);
+    EXPECT_TRUE(killed->frames.empty());
+    recorder->close();
+}
+
 TEST_F(Recording, IsForItsOwnerOnly) {
     const mode_t before = umask(0);
     const auto recorder = start();
