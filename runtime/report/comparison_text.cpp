@@ -85,11 +85,15 @@ std::string path_line(const FoveaPathDifference& path) {
     if (!doubt.empty()) {
         return fmt::format("The foveae's paths were not compared: {}.\n", doubt);
     }
+    // A percentile of too few frames is withheld.
+    const auto degrees = [](double value) {
+        return std::isfinite(value) ? fmt::format("{:.3f}", value) : std::string("-");
+    };
     return fmt::format(
-        "The foveae lie {:.3f} deg apart in the mean (p50 {:.3f}, p95 {:.3f}, max {:.3f}), over {} "
+        "The foveae lie {} deg apart in the mean (p50 {}, p95 {}, max {}), over {} "
         "frames; left out: {} of another view, {} without fresh gaze, {} in one session alone.\n",
-        path.mean_deg, path.p50_deg, path.p95_deg, path.max_deg, path.compared, path.other_view,
-        path.without_gaze, path.only_in_one);
+        degrees(path.mean_deg), degrees(path.p50_deg), degrees(path.p95_deg), degrees(path.max_deg),
+        path.compared, path.other_view, path.without_gaze, path.only_in_one);
 }
 
 std::string disparity_lines(const std::vector<Disparity>& disparities) {

@@ -6,6 +6,7 @@
 
 #include "runtime/latency/summary_observer.h"
 #include "runtime/report/eye_events.h"
+#include "runtime/report/summary_rows.h"
 #include "runtime/session/cursor.h"
 
 namespace gazeloop::report {
@@ -98,7 +99,9 @@ Expected<SessionSummary> summarize(const session::OpenSession& session, const Ru
     }
     frames->finish();
     frames->set_eye_events(eyes);
-    return SessionSummary{.report = summary.report(),
+    latency::SummaryReport report = summary.report();
+    take_exact_percentiles(*frames, report);
+    return SessionSummary{.report = std::move(report),
                           .frames = std::move(frames),
                           .trace = std::move(trace),
                           .runtime = *std::move(runtime),

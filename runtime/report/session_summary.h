@@ -19,7 +19,7 @@ latency::SummaryConfig summary_config(const display::DisplayProfile& display,
 
 /// What a recorded session shows once it has been played.
 struct SessionSummary {
-    latency::SummaryReport report;  ///< the same as at the end of its run
+    latency::SummaryReport report;  ///< as at the end of its run, but with exact percentiles
     std::unique_ptr<const FrameLog> frames;
     TraceAccount trace;
     RuntimeAccount runtime{};

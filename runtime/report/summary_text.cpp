@@ -42,19 +42,32 @@ std::string share_line(const latency::SummaryReport& report) {
     return line + "\n";
 }
 
+/// "0.3 %", or "0.3 % of the 5.4 % known" where not all frames know it.
+std::string missed_share(const latency::SummaryReport& report) {
+    const std::optional<double> missed = report.missed_percent();
+    if (!missed) {
+        return "unknown";
+    }
+    const latency::FrameCounts& frames = report.frames;
+    const double known_percent = 100.0 - 100.0 * static_cast<double>(frames.in_time_unknown) /
+                                             static_cast<double>(frames.rendered);
+    return frames.in_time_unknown == 0
+               ? fmt::format("{:.1f} %", *missed)
+               : fmt::format("{:.1f} % of the {:.1f} % known", *missed, known_percent);
+}
+
 /// "median interval 11.11 ms, display period 11.11 ms, missed 0.3 %".
 std::string pace(const latency::SummaryReport& report) {
     const std::optional<double> period_ms =
         report.config.period_ns > 0
             ? std::optional(static_cast<double>(report.config.period_ns) / time::kNsPerMs)
             : std::nullopt;
-    const std::optional<double> missed = report.missed_percent();
     const auto with_unit = [](const std::optional<double>& ms) {
         return ms ? figure(ms) + " ms" : "unknown";
     };
     return fmt::format("median interval {}, display period {}, missed {}",
                        with_unit(report.frame_interval.p50_ms), with_unit(period_ms),
-                       missed ? fmt::format("{:.1f} %", *missed) : "unknown");
+                       missed_share(report));
 }
 
 std::string verdict_line(const latency::SummaryReport& report) {

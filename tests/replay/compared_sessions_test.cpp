@@ -58,6 +58,19 @@ TEST_F(ComparedSessions, SameReplaysDifferByNothing) {
     EXPECT_TRUE(json["disparities"].empty());
 }
 
+TEST_F(ComparedSessions, WithholdsPercentilesOfTooFewFrames) {
+    const std::string one = folder_.file("one.gaze");
+    ASSERT_EQ(
+        run_gazeloop({"run", "--gaze", "fixed:0,0", "--clock", "virtual", "--target", "headless",
+                      "--frames", "1", "--record", one, "--set", "render.scale=0.05"})
+            .exit_code,
+        0);
+    const ProgramResult result = run_gazeloop({"report", one, "--against", one});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.out.find("(p50 -, p95 -,"), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
+}
+
 TEST_F(ComparedSessions, AChangeIsSeenWithItsSetting) {
     const std::string before = replayed("a.gaze");
     // The GPU works 3 ms longer, of which nothing else depends in virtual time.

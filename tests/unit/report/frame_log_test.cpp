@@ -3,13 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <sstream>
 #include <string>
 
 #include "runtime/latency/summary_observer.h"
+#include "runtime/report/budget_gate.h"
 #include "runtime/report/frame_csv.h"
 #include "runtime/report/row_names.h"
 #include "runtime/report/session_rows.h"
+#include "runtime/report/summary_rows.h"
 #include "tests/unit/latency/example_frame.h"
 
 namespace gazeloop::report {
@@ -104,6 +107,36 @@ TEST(FrameLog, SaysWhatTheSummarySays) {
                   report.frames.rendered - report.frames.in_time_unknown);
         EXPECT_EQ(log.at(kSamplesShaded.key).known(), report.frames.rendered);
     }
+}
+
+TEST(FrameLog, GivesTheSummaryExactPercentiles) {
+    const latency::SummaryConfig config = example_config();
+    latency::LatencySummary summary(config);
+    FrameLog log(config);
+    constexpr std::int64_t kStep_ns = 12'347;
+    for (std::uint64_t index = 0; index < 300; ++index) {
+        frame::FrameRecord frame = example_frame(index);
+        frame.stamps.display.ns += static_cast<std::int64_t>(index) * kStep_ns;
+        summary.add(frame);
+        summary.add(example_gpu(index));
+        log.on_frame(frame);
+        log.on_gpu(example_gpu(index));
+    }
+    log.finish();
+    latency::SummaryReport report = summary.report();
+    const double rough = report.gaze_age_at_display.p95_ms.value();
+    take_exact_percentiles(log, report);
+    const double first = 1e-6 * static_cast<double>(*log.at(kGazeAgeAtDisplay.key).at(0));
+    // The 285th of 300 in order.
+    const double exact = first + 284 * 1e-6 * static_cast<double>(kStep_ns);
+    EXPECT_NEAR(*report.gaze_age_at_display.p95_ms, exact, 1e-9);
+    EXPECT_GT(std::abs(rough - exact), 1e-4);
+    // So a limit between the two is judged by the frames.
+    latency::LatencyBudget budget{.name = "test", .description = {}, .source = {}};
+    budget.total_ns = std::llround(1e6 * exact);
+    EXPECT_TRUE(budget_gate(report, budget).result());
+    budget.total_ns = *budget.total_ns - 1;
+    EXPECT_FALSE(budget_gate(report, budget).result());
 }
 
 TEST(FrameLog, AddsUpInEachFrame) {

@@ -275,10 +275,12 @@ TEST(SummaryText, CountsFramesThatAreShownAtAnUnknownTime) {
             frame.stamps.display = {};
         }
         summary.add(frame);
+        summary.add(example_gpu(index));
     }
     EXPECT_EQ(line_with(summary_text(summary.report()), "shown "),
               "shown    at an unknown time in 1 of 4 rendered frames");
     EXPECT_EQ(summary_json(summary.report())["frames"]["display_unknown"], 1);
+    EXPECT_THAT(summary_text(summary.report()), HasSubstr("missed 0.0 % of the 75.0 % known"));
     EXPECT_THAT(summary_text(example_report(4)), Not(HasSubstr("at an unknown time")));
 }
 
