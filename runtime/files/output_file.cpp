@@ -100,6 +100,7 @@ OutputFile::OutputFile(fs::path file, fs::path real, std::string beside, int des
     : file_(std::move(file)),
       real_(std::move(real)),
       beside_(std::move(beside)),
+      unfinished_(beside_.empty() ? nullptr : std::make_unique<UnfinishedFile>(beside_)),
       descriptor_(descriptor),
       durable_(durable) {}
 
@@ -107,6 +108,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
     : file_(std::move(other.file_)),
       real_(std::move(other.real_)),
       beside_(std::exchange(other.beside_, {})),
+      unfinished_(std::move(other.unfinished_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
       durable_(other.durable_) {}
 
@@ -165,6 +167,7 @@ Expected<void> OutputFile::close() {
         return refuse(file_, error);
     }
     beside_.clear();
+    unfinished_.reset();
     return {};
 }
 
@@ -175,6 +178,7 @@ void OutputFile::abandon() {
     if (!beside_.empty()) {
         ::unlink(beside_.c_str());
         beside_.clear();
+        unfinished_.reset();
     }
 }
 

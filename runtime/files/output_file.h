@@ -3,10 +3,12 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "runtime/error.h"
+#include "runtime/files/unfinished_files.h"
 
 namespace gazeloop::files {
 
@@ -56,7 +58,8 @@ class OutputFile {
     std::filesystem::path file_;  ///< as it was named
     std::filesystem::path real_;  ///< what it stands for
     std::string beside_;          ///< becomes the file in the end; empty: written in place
-    int descriptor_;              ///< -1: closed
+    std::unique_ptr<UnfinishedFile> unfinished_;  ///< that file
+    int descriptor_;                              ///< -1: closed
     bool durable_;
 };
 

@@ -12,6 +12,7 @@
 #include "runtime/recordings/trace_of_session.h"
 #include "runtime/run/gaze_sources.h"
 #include "runtime/run/govern.h"
+#include "runtime/run/interrupt.h"
 #include "runtime/run/replayable_frames.h"
 #include "runtime/run/study_request.h"
 #include "runtime/session/playback.h"
@@ -91,8 +92,12 @@ std::optional<ErrorKind> replay_trace(const Replay& replay, ProgramSettings& set
                                       FrameRunRequest& request) {
     drivers::ReadOptions options = drivers::read_options(settings.values().trace);
     options.format = replay.format;
-    return play_gaze(replay, value_or_throw(drivers::read_trace(replay.file, options)), settings,
-                     request);
+    gaze::GazeTrace trace;
+    {
+        const EndsWhenInterrupted ends;  // until there is a run to end
+        trace = value_or_throw(drivers::read_trace(replay.file, options));
+    }
+    return play_gaze(replay, std::move(trace), settings, request);
 }
 
 }  // namespace gazeloop::run

@@ -5,12 +5,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
 
+#include "tests/support/background_process.h"
 #include "tests/support/run_program.h"
 
 namespace gazeloop::tests {
@@ -23,6 +26,29 @@ using Words = std::vector<std::string>;
 std::string bytes_of(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// What only reads and computes has nothing to close: a trace that never ends is no reason to stay.
+TEST(Interrupted, EndsAtOnceWhatMakesResults) {
+    const ScratchFolder folder;
+    const std::string pipe = folder.file("gaze.csv");
+    const std::string out = folder.write("out.csv", "before");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    for (const Words& words :
+         {Words{"convert", pipe, out}, Words{"gaze", pipe}, Words{"replay", pipe}}) {
+        for (const int signal : {SIGINT, SIGTERM}) {
+            Words command{GAZELOOP_BINARY_DIR "/gazeloop"};
+            command.insert(command.end(), words.begin(), words.end());
+            BackgroundProcess program(
+                {.command = command, .environment = {}, .output_file = folder.file("said")});
+            std::ofstream rows(pipe);  // opens once it is read
+            rows << "time_s,left_azimuth_deg,left_elevation_deg\n0,1,2\n" << std::flush;
+            program.signal(signal);
+            EXPECT_EQ(program.wait(std::chrono::seconds(20)), 130) << words[0] << program.output();
+            EXPECT_THAT(program.output(), HasSubstr("interrupted"));
+        }
+    }
+    EXPECT_EQ(bytes_of(out), "before");
 }
 
 class OutputFiles : public testing::Test {
