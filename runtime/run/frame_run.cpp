@@ -274,7 +274,8 @@ class FrameRun {
         EventLog logging;
         report::TraceObserver tracing(trace_);
         if (request_.clock == RunClock::Recorded) {
-            check_.emplace(*request_.recording->session, request_.same_gaze, why_other_pictures());
+            check_.emplace(*request_.recording->session, request_.other_foveae,
+                           why_other_pictures());
             add_recorded_events(summary);
         }
         LoopParts parts{

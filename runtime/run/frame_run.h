@@ -45,8 +45,8 @@ struct FrameRunRequest {
     std::string gaze{};                    ///< the source, as --gaze has it; empty: no such option
     bool live_gaze = false;                ///< from a device, or simulated: held against anatomy
     std::optional<Recording> recording{};  ///< set for Recorded only; the run is compared with it
-    bool same_gaze = true;                 ///< settings that decide foveae are the recording's
-    bool same_rendering = true;            ///< settings that decide pixels are the recording's
+    std::string other_foveae{};  ///< why foveae need not be the recording's; empty: they must
+    bool same_rendering = true;  ///< settings that decide pixels are the recording's
     /// Makes an observer that draws into the finished pictures, before whoever reads them; none if
     /// unset. It must not outlive the context.
     std::function<std::unique_ptr<frame::FrameObserver>(const vulkan::Context&,

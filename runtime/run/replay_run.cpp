@@ -1,7 +1,9 @@
 #include "runtime/run/replay_run.h"
 
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <utility>
@@ -77,7 +79,14 @@ std::optional<ErrorKind> replay_session(const Replay& replay, const session::Ope
     const auto as_recorded = [&](settings::Concerns what) {
         return settings::are_as_recorded(session.info().header.config, what, settings);
     };
-    request.same_gaze = as_recorded(settings::Concerns::Foveae);
+    const auto& device = session.info().header.device;
+    const auto application = std::ranges::find(device, "application", &NamedValue::name);
+    if (application != device.end()) {
+        request.other_foveae =
+            fmt::format("{} drew what the OpenXR API layer recorded", application->value);
+    } else if (!as_recorded(settings::Concerns::Foveae)) {
+        request.other_foveae = "gaze settings differ from the recorded ones";
+    }
     request.same_rendering = as_recorded(settings::Concerns::Picture);
     std::unique_ptr<study::ReplayedStudy> study;
     if (const auto trials = value_or_throw(session::read_trials(session)); !trials.empty()) {

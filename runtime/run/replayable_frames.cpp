@@ -13,20 +13,25 @@ void ReplayableFrames::on_frame(const frame::FrameRecord& frame) {
     if (frame.index != frames_) {
         throw damaged("missing");
     }
-    if (frames_ == 0) {
-        first_views_ = frame.views;
-    }
-    for (const gaze::Eye eye : gaze::kEyes) {
-        check_view(frame, eye);
+    // Of a frame that shows nothing views may say nothing: an application need not ask for them.
+    if (frame.should_render) {
+        if (!drawn_) {
+            first_views_ = frame.views;
+            drawn_ = true;
+        }
+        for (const gaze::Eye eye : gaze::kEyes) {
+            check_view(frame, eye);
+        }
     }
     ++frames_;
     samples_consumed_ = samples_told_;
 }
 
 std::uint64_t ReplayableFrames::frames() const {
-    if (frames_ == 0) {
+    if (!drawn_) {
         throw SetupError(ErrorKind::BadInput,
-                         fmt::format("{}: the session holds no frame to replay", file_));
+                         fmt::format("{}: the session holds no frame to replay{}", file_,
+                                     frames_ > 0 ? ": none was to be drawn" : ""));
     }
     return frames_;
 }

@@ -19,9 +19,10 @@ class ReplayableFrames final : public frame::FrameObserver {
     void on_sample(const gaze::GazeSample&, std::uint64_t) override { ++samples_told_; }
     void on_frame(const frame::FrameRecord& frame) override;
 
-    /// Throws SetupError (BadInput) if there are none.
+    /// Throws SetupError (BadInput) if there are none, or none that was to be drawn.
     [[nodiscard]] std::uint64_t frames() const;
     [[nodiscard]] std::uint64_t samples_consumed() const { return samples_consumed_; }
+    /// Of the first frame that was to be drawn.
     [[nodiscard]] const gaze::StereoView& first_views() const { return first_views_; }
 
   private:
@@ -32,6 +33,7 @@ class ReplayableFrames final : public frame::FrameObserver {
     std::uint64_t frames_ = 0;
     std::uint64_t samples_told_ = 0;
     std::uint64_t samples_consumed_ = 0;  ///< by these frames
+    bool drawn_ = false;                  ///< one was to be
     gaze::StereoView first_views_{};
 };
 

@@ -70,7 +70,7 @@ nlohmann::ordered_json ReplayHash::json() const {
 }
 
 void ReplayCheck::on_frame(const frame::FrameRecord& record) {
-    if (!same_gaze_ || !value_or_throw(move_to(handed_over_, record.index))) {
+    if (!other_foveae_.empty() || !value_or_throw(move_to(handed_over_, record.index))) {
         return;
     }
     ++foveae_compared_;
@@ -102,10 +102,10 @@ bool ReplayCheck::equal() const {
 }
 
 std::string ReplayCheck::text() const {
-    std::string text =
-        same_gaze_ ? fmt::format("replay: foveae bit-equal in {} of {} frames\n", foveae_equal_,
-                                 foveae_compared_)
-                   : "replay: foveae not compared: gaze settings differ from the recorded ones\n";
+    std::string text = other_foveae_.empty()
+                           ? fmt::format("replay: foveae bit-equal in {} of {} frames\n",
+                                         foveae_equal_, foveae_compared_)
+                           : fmt::format("replay: foveae not compared: {}\n", other_foveae_);
     if (pixels_compared_ > 0) {
         text += fmt::format("replay: pictures equal in {} of {} frames\n", pixels_equal_,
                             pixels_compared_);
@@ -123,7 +123,7 @@ std::string ReplayCheck::text() const {
 nlohmann::ordered_json ReplayCheck::json() const {
     const nlohmann::ordered_json none(nullptr);
     return {
-        {"foveae", same_gaze_ ? comparison_json(foveae_equal_, foveae_compared_) : none},
+        {"foveae", other_foveae_.empty() ? comparison_json(foveae_equal_, foveae_compared_) : none},
         {"pixels", pixels_compared_ > 0 ? comparison_json(pixels_equal_, pixels_compared_) : none},
         {"first_difference",
          first_difference_ ? nlohmann::ordered_json(*first_difference_) : none}};

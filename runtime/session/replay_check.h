@@ -36,14 +36,14 @@ class ReplayHash final : public frame::FrameObserver {
 /// frame cannot be read.
 class ReplayCheck final : public frame::FrameObserver {
   public:
-    /// `session` must outlive this. Foveae are compared only if `same_gaze`, pictures only if that
-    /// and nothing stands in their way: `other_pictures` says what does, empty if nothing.
-    ReplayCheck(const OpenSession& session, bool same_gaze, std::string other_pictures)
+    /// `session` must outlive this. Foveae are compared only if nothing stands in their way, and
+    /// pictures only if nothing does in both ways: `other_foveae` and `other_pictures` say what
+    /// does, empty if nothing.
+    ReplayCheck(const OpenSession& session, std::string other_foveae, std::string other_pictures)
         : handed_over_(session),
           finished_(session),
-          same_gaze_(same_gaze),
-          other_pictures_(same_gaze ? std::move(other_pictures)
-                                    : "the settings differ from the recorded ones") {}
+          other_foveae_(std::move(other_foveae)),
+          other_pictures_(other_foveae_.empty() ? std::move(other_pictures) : other_foveae_) {}
 
     void on_frame(const frame::FrameRecord& record) override;
     void on_gpu(const frame::FrameGpuRecord& record) override;
@@ -56,7 +56,7 @@ class ReplayCheck final : public frame::FrameObserver {
   private:
     FrameCursor handed_over_;  ///< at the frame of on_frame
     FrameCursor finished_;     ///< at that of on_gpu, some frames behind
-    bool same_gaze_;
+    std::string other_foveae_;
     std::string other_pictures_;
     std::uint64_t foveae_equal_ = 0;
     std::uint64_t foveae_compared_ = 0;
