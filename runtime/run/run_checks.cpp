@@ -31,6 +31,13 @@ void check_request(const FrameRunRequest& request) {
                          "--gaze openxr: the gaze comes with the session that the pictures go "
                          "to, as it happens: use it with --target openxr and --clock wall");
     }
+    if (request.from_device && request.clock == RunClock::Virtual) {
+        throw SetupError(ErrorKind::Usage,
+                         fmt::format("--gaze {}: a device's samples come in real time, and virtual "
+                                     "time waits for none: use it with --clock wall, or record it "
+                                     "and replay that",
+                                     request.gaze));
+    }
     if (values.governor.use == "on" &&
         (request.chooser == nullptr || values.governor.levels.empty())) {
         throw SetupError(ErrorKind::Usage,
