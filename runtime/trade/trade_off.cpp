@@ -69,18 +69,19 @@ std::vector<Varied> chosen_variation(const TradeRequest& request,
 
 /// Refuses values that their settings cannot have before anything is rendered.
 void check_values(const std::vector<Varied>& varied, settings::Settings& settings) {
+    const auto rows = settings.rows();
     for (const Varied& one : varied) {
-        for (const settings::SettingRow& row : settings.rows()) {
-            if (row.key != one.key) {
-                continue;
-            }
-            const std::string text = settings::text_of(row);
-            const std::string origin = settings.origin(one.key);
-            for (const std::string& value : one.values) {
-                value_or_throw(settings.set(one.key, value, "trade"));
-            }
-            value_or_throw(settings.set(one.key, text, origin));
+        const auto row = std::ranges::find(rows, one.key, &settings::SettingRow::key);
+        if (row == rows.end()) {
+            value_or_throw(settings.set(one.key, one.values.front(), "--vary"));  // says why
+            continue;
         }
+        const std::string text = settings::text_of(*row);
+        const std::string origin = settings.origin(one.key);
+        for (const std::string& value : one.values) {
+            value_or_throw(settings.set(one.key, value, "trade"));
+        }
+        value_or_throw(settings.set(one.key, text, origin));
     }
 }
 

@@ -346,6 +346,7 @@ TEST(Trade, RefusesWhatItCannotSweep) {
              {{"--methods", ""}, 2, "a name is needed"},
              {{"--vary", "kfr.sigma"}, 2, "KEY="},
              {{"--vary", "render.spp=1,4"}, 2, "render.spp"},
+             {{"--methods", "kfr", "--vary", "kfr.sgima=1.8,2"}, 2, "did you mean 'kfr.sigma'"},
              {{"--methods", "acuity", "--sigma", "1.8"}, 2, "kfr.sigma"},
              {{"--frames", "0"}, 2, "--frames"},
              {{"--frames", "100000", "--set", "render.scale=1"}, 2, "--frames"},
