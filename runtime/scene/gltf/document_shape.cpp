@@ -255,7 +255,7 @@ const Shape& lights() {
 
 /// What is not shown, and therefore not looked into: cameras, skins, animations.
 const Shape& unread() {
-    static const Shape shape{{}};
+    static const Shape shape{.properties = {}, .is_read = false};
     return shape;
 }
 

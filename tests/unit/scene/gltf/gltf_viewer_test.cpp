@@ -23,7 +23,7 @@ TEST(GltfViewer, StandsInFrontOfASceneWithoutACamera) {
 
 TEST(GltfViewer, StartsAtTheFirstCameraUpright) {
     // The camera stands at (1, 2, 3), turned a quarter to the left (looking along -X) and down.
-    auto data = loaded(patched(R"({"cameras": [{"type": "perspective",
+    auto scene = loaded(patched(R"({"cameras": [{"type": "perspective",
         "perspective": {"yfov": 1, "znear": 0.1}}],
         "nodes": [{"mesh": 0, "translation": [-4, 2, 3]},
                   {"translation": [1, 2, 3], "rotation": [0, 0.7071067811865476, 0,
@@ -31,8 +31,11 @@ TEST(GltfViewer, StartsAtTheFirstCameraUpright) {
                   {"camera": 0, "rotation": [-0.3826834323650898, 0, 0, 0.9238795325112867]}],
         "scenes": [{"nodes": [0, 1]}],
         "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {}}]}},
-        "extensionsUsed": ["KHR_lights_punctual"]})"))
-                    .data;
+        "extensionsUsed": ["KHR_lights_punctual"]})"));
+    for (const scene::gltf::Note& note : scene.notes) {  // what the standard knows is not left out
+        EXPECT_EQ(note.place.find("/cameras"), std::string::npos) << note_text(note);
+    }
+    auto& data = scene.data;
     scene::mesh::Light light;
     light.position_m = {-4, 2, 3};
     light.direction = {-1, 0, 0};
