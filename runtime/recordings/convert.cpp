@@ -2,9 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "drivers/trace/formats/angle_table.h"
@@ -48,26 +52,58 @@ void check_outputs(const Conversion& conversion) {
     value_or_throw(report::check_outputs(std::span{outputs}.subspan(folders), inputs));
 }
 
-/// What a table of angles has no columns for.
-std::vector<std::string> beside_angles(const gaze::RecordingView& trace) {
+/// What samples know beside directions, openness, confidence and head.
+struct Besides {
     bool places = false;
     bool arrivals = false;
+    bool parallax = false;
+    bool covariances = false;
+    std::uint64_t lost = 0;  ///< by the tracker, as the numbers of its samples say
     std::size_t untimed = 0;
-    for (const gaze::GazeSample& sample : trace.samples) {
-        places = places || sample.eyes[0].origin_m != glm::dvec3{0.0} ||
-                 sample.eyes[1].origin_m != glm::dvec3{0.0};
-        arrivals = arrivals || sample.arrived.known();
-        untimed += sample.sampled.known() ? 0U : 1U;
+
+    explicit Besides(const gaze::RecordingView& trace) {
+        std::optional<std::uint64_t> before;
+        for (const gaze::GazeSample& sample : trace.samples) {
+            for (const gaze::EyeRay& ray : sample.eyes) {
+                places = places || ray.origin_m != glm::dvec3{0.0};
+                covariances = covariances || ray.covariance;
+            }
+            arrivals = arrivals || sample.arrived.known();
+            parallax = parallax || sample.parallax_rad;
+            untimed += sample.sampled.known() ? 0U : 1U;
+            lost += before && sample.sequence > *before + 1 ? sample.sequence - *before - 1 : 0;
+            before = sample.sequence;
+        }
     }
+};
+
+/// What neither a table of angles nor BIDS has columns for.
+std::vector<std::string> left_out_by_both(const Besides& besides) {
     std::vector<std::string> left_out;
-    if (places) {
-        left_out.emplace_back("each eye's place");
-    }
-    if (arrivals) {
+    if (besides.arrivals) {
         left_out.emplace_back("when samples arrived");
     }
-    if (untimed > 0) {
-        left_out.push_back(fmt::format("{} samples whose time nobody knows", untimed));
+    if (besides.lost > 0) {
+        left_out.push_back(
+            fmt::format("the tracker's numbers of samples, by which it lost {}", besides.lost));
+    }
+    if (besides.covariances) {
+        left_out.emplace_back("how far off the tracker says that directions may be");
+    }
+    if (besides.parallax) {
+        left_out.emplace_back("how far off one ray for both eyes may be");
+    }
+    return left_out;
+}
+
+/// What a table of angles has no columns for.
+std::vector<std::string> beside_angles(const Besides& besides) {
+    std::vector<std::string> left_out = left_out_by_both(besides);
+    if (besides.places) {
+        left_out.emplace_back("each eye's place");
+    }
+    if (besides.untimed > 0) {
+        left_out.push_back(fmt::format("{} samples whose time nobody knows", besides.untimed));
     }
     return left_out;
 }
@@ -77,6 +113,7 @@ Written write(const Conversion& conversion, const gaze::RecordingView& trace) {
         const drivers::WrittenBids bids =
             value_or_throw(drivers::write_bids(trace, conversion.out, conversion.labels));
         Written written{.files = {}, .left_out = bids.left_out};
+        std::ranges::move(left_out_by_both(Besides(trace)), std::back_inserter(written.left_out));
         for (const std::filesystem::path& file : bids.files) {
             written.files.push_back(file.string());
         }
@@ -87,7 +124,7 @@ Written write(const Conversion& conversion, const gaze::RecordingView& trace) {
         drivers::TextOutput out(conversion.out);
         drivers::write_angle_table(trace, out.stream());
         value_or_throw(out.close());
-        return {{conversion.out}, beside_angles(trace)};
+        return {{conversion.out}, beside_angles(Besides(trace))};
     }
     value_or_throw(drivers::write_native_trace(trace, conversion.out));
     return {{conversion.out, conversion.out + ".json"}, {}};

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -83,6 +84,31 @@ TEST(Convert, CountsByReasonAndLine) {
         lines.push_back(finding["line"].get<int>());
     }
     EXPECT_EQ(lines, (std::vector<int>{102, 102, 42})) << "each eye's cell, then the blink";
+}
+
+TEST(Convert, SaysWhatHasNoPlace) {
+    const ScratchFolder folder;
+    const std::string in = folder.file("in.csv");
+    ASSERT_EQ(run_gazeloop({"simulate", "gaze", in, "--seconds", "1", "--seed", "1"}).exit_code, 0);
+    // The tracker loses two samples.
+    std::ifstream whole(in);
+    std::string text;
+    std::string line;
+    for (int row = 0; std::getline(whole, line); ++row) {
+        text += row == 50 || row == 51 ? "" : line + '\n';
+    }
+    const std::string lossy = folder.write("lossy.csv", text);
+    for (const std::string to : {"angles", "bids"}) {
+        const ProgramResult result =
+            run_gazeloop({"convert", lossy, folder.file(to), "--to", to, "--json", "-"});
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        const std::string left_out = Json::parse(result.out)["written"]["left_out"].dump();
+        EXPECT_TRUE(has(left_out, "when samples arrived")) << left_out;
+        EXPECT_TRUE(has(left_out, "by which it lost 2")) << left_out;
+    }
+    const ProgramResult native =
+        run_gazeloop({"convert", lossy, folder.file("native.csv"), "--json", "-"});
+    EXPECT_TRUE(Json::parse(native.out)["written"]["left_out"].empty());
 }
 
 TEST(Convert, RefusesWithTheRightCode) {
