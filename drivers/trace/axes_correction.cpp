@@ -160,15 +160,18 @@ std::string odd_distance(const gaze::Anatomy& anatomy) {
 }
 
 /// What is odd about parts of a recording that as a whole agrees with anatomy: the eyes' rays meet
-/// in most of it and diverge by as much in the rest. Nothing where that is not so.
+/// in most of it and diverge by as much in the rest. Nothing where that is not so, as where they
+/// only waver around parallel.
 std::string odd_part(const gaze::SampleRange& samples, const gaze::Anatomy& whole) {
     constexpr std::size_t kParts = 10;
     constexpr double kLeast_deg = 1.0;
+    constexpr std::size_t kMostBetween = 2;  // one at either end of what is exchanged
     if (whole.doubtful() || !whole.vergence_deg) {
         return {};
     }
     const double apart_deg = std::max(kLeast_deg, whole.vergence_deg->median / 2.0);
     std::size_t odd = 0;
+    std::size_t between = 0;
     std::int64_t first_ns = 0;
     for (std::size_t part = 0; part < kParts; ++part) {
         const std::size_t begin = samples.size() * part / kParts;
@@ -177,14 +180,17 @@ std::string odd_part(const gaze::SampleRange& samples, const gaze::Anatomy& whol
         if (anatomy.vergence_deg && anatomy.vergence_deg->median < -apart_deg &&
             anatomy.vergence_deg->upper < 0.0) {
             first_ns = odd++ == 0 ? samples[begin].sampled.ns : first_ns;
+        } else if (anatomy.vergence_deg && anatomy.vergence_deg->median < apart_deg) {
+            ++between;
         }
     }
-    return odd == 0 ? ""
-                    : fmt::format(
-                          "the eyes' rays meet in most of the recording and diverge in {} "
-                          "of its {} parts, the first from {:.1f} s on: left and right are "
-                          "exchanged there, it seems; split the file",
-                          odd, kParts, static_cast<double>(first_ns) * 1e-9);
+    return odd == 0 || between > kMostBetween
+               ? ""
+               : fmt::format(
+                     "the eyes' rays meet in most of the recording and diverge in {} "
+                     "of its {} parts, the first from {:.1f} s on: left and right are "
+                     "exchanged there, it seems; split the file",
+                     odd, kParts, static_cast<double>(first_ns) * 1e-9);
 }
 
 /// Rows with an eye that looks behind the head.

@@ -66,6 +66,9 @@ class Fitting {
         }
         settle_lines();
         lay_out();
+        if (!is_likely()) {
+            return std::move(fit_);
+        }
         describe();
         return std::move(fit_);
     }
@@ -383,6 +386,36 @@ class Fitting {
             fit_.delay_ns[row] =
                 time::saturated(std::max<Wide>(0, above_line(lines_of_stretches_[s], row)));
         }
+    }
+
+    /// Whether reports took the way to the host that they take. A host's clock that is set again
+    /// and again, about once a second, shows no single step; the line below all rows then lies far
+    /// below most. Else the device's is taken alone: of gaze that comes so late, none would count.
+    bool is_likely() {
+        constexpr std::int64_t kLongest_ns = 500 * kMillisecond_ns;
+        constexpr std::size_t kOneOf = 10;
+        const auto is_late = [&](std::size_t row) { return *fit_.delay_ns[row] > kLongest_ns; };
+        const auto late = static_cast<std::size_t>(std::ranges::count_if(used_, is_late));
+        if (late * kOneOf <= used_.size()) {
+            return true;
+        }
+        const std::uint64_t first_line = lines_[*std::ranges::find_if(used_, is_late)];
+        fit_.time_ns = device_.time_ns;
+        fit_.delay_ns.assign(device_.time_ns.size(), std::nullopt);
+        fit_.skew_ppm = 0.0;
+        fit_.within_ns = 0;
+        fit_.steps = 0;
+        fit_.text = "the device's; the host's was set again and again";
+        fit_.findings.push_back(
+            {.kind = TraceFindingKind::HostClockSet,
+             .line = first_line,
+             .rows = late,
+             .dropped = 0,
+             .span_ns = device_.time_ns.back(),
+             .text = fmt::format("the host's clock is set again and again: by it {} of {} reports "
+                                 "took over {} to the host; times are the device's alone",
+                                 late, used_.size(), in_words(kLongest_ns))});
+        return false;
     }
 
     void describe() {

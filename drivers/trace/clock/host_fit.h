@@ -44,7 +44,8 @@ struct HostFit {
 ///
 /// Without two host times all times are the device's. So they are, without delays, where the rates
 /// differ by more than 1000 ppm (ClockRates), or, in less than 8 s, by so much that the way to the
-/// host cannot have made it. O(n log n).
+/// host cannot have made it; or where a tenth of the reports would have taken half a second or more
+/// (HostClockSet). O(n log n).
 [[nodiscard]] HostFit fit_to_host(const DeviceTimes& device,
                                   std::span<const std::optional<std::int64_t>> host_ns,
                                   std::span<const std::uint64_t> lines);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 #include <span>
+#include <utility>
 
 #include "tests/unit/drivers/trace/clock/trace_rows.h"
 
@@ -158,6 +159,24 @@ TEST(HostFit, GoesOnByTheDeviceWhereTheHostsClockIsSet) {
             EXPECT_LT(worst.time_ms, 0.25);
             EXPECT_LT(worst.delay_ms, 0.25);
         }
+    }
+}
+
+TEST(HostFit, SaysWhereTheHostsClockIsSetAgainAndAgain) {
+    for (const auto& [by, every] :
+         {std::pair{-7 * kSecond, 100}, {7 * kSecond, 100}, {7 * kSecond, 120}}) {
+        Recording recording = recorded(600, 0.0);
+        for (std::size_t i = 0; i < recording.rows.size(); ++i) {
+            *recording.rows[i].host_ns += by * (static_cast<std::int64_t>(i) / every);
+        }
+        const auto [device, fit] = fitted(recording.rows);
+        // No gaze is so late that it does not count, in silence.
+        const auto late = std::ranges::count_if(
+            fit.delay_ns, [](const auto& delay) { return delay && *delay > kSecond / 2; });
+        EXPECT_LE(late, 60) << by << " every " << every << ": " << fit.text;
+        EXPECT_FALSE(fit.findings.empty()) << by << " every " << every << ": " << fit.text;
+        EXPECT_EQ(fit.time_ns.back() - fit.time_ns.front(),
+                  device.time_ns.back() - device.time_ns.front());
     }
 }
 

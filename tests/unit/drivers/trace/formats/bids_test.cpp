@@ -22,9 +22,11 @@ namespace {
 
 using Json = nlohmann::json;
 using ::testing::Contains;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 Json physio(std::string_view eye = "left") {
     return {{"PhysioType", "eyetrack"},
@@ -371,6 +373,18 @@ TEST(Bids, WarnsOfAStatedRateThatIsNotTheTimes) {
                     "SamplingFrequency of 10 Hz, its timestamps are those of 250 Hz: mend "
                     "the one that is wrong, or the timestamp's Units"));
     EXPECT_FALSE(two_eyes(times_ms(100, 250), 260.0).report.worth_a_warning()) << "about it is";
+    // A fifth of the samples is missing, one at a time: the mean rate is 200 Hz.
+    std::vector<int> thinned;
+    for (const int time : times_ms(100, 250)) {
+        if (time % 20 != 0) {
+            thinned.push_back(time);
+        }
+    }
+    for (const double stated_hz : {200.0, 250.0}) {
+        EXPECT_THAT(told(two_eyes(thinned, stated_hz), gaze::TraceFindingKind::OddTimes),
+                    Each(Not(HasSubstr("SamplingFrequency"))))
+            << stated_hz;
+    }
 }
 
 }  // namespace
