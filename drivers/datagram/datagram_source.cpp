@@ -108,6 +108,14 @@ void DatagramSource::poll(std::int64_t now_ns, std::vector<gaze::GazeSample>& sa
         told_first_ = true;
         events_.push_back({{now_ns, time::StampKind::Measured}, "the first datagram came"});
     }
+    if (!told_other_ && gaze_.counts().others > 0) {
+        told_other_ = true;
+        events_.push_back(
+            {{now_ns, time::StampKind::Measured},
+             fmt::format("messages of no use come, the first is {}: gazeloop's README "
+                         "lists those that are taken",
+                         gaze_.first_other())});
+    }
     // Of a flood of them one line a thousand.
     if (gaze_.counts().damaged > 1000 * damaged_told_) {
         ++damaged_told_;

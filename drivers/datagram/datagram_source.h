@@ -45,6 +45,7 @@ class DatagramSource final : public GazeSource {
     OscGaze gaze_;
     std::array<std::uint8_t, kLargest> packet_{};
     bool told_first_ = false;
+    bool told_other_ = false;
     std::uint64_t damaged_told_ = 0;
     std::vector<SourceEvent> events_;
 };

@@ -1,5 +1,7 @@
 #include "drivers/datagram/osc_gaze.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
@@ -25,6 +27,14 @@ std::optional<glm::dvec3> from_pitch_yaw(double pitch_deg, double yaw_deg) {
 
 /// Unity's axes: +Z forward.
 std::optional<glm::dvec3> from_unity(Numbers v) { return gaze::unit({v[0], v[1], -v[2]}); }
+
+/// What a sender may have written ends up on terminals: no control characters, and not much of it.
+std::string text_of(const OscMessage& message) {
+    constexpr std::size_t kLongest = 60;
+    std::string address(message.address.substr(0, kLongest));
+    std::ranges::replace_if(address, [](char c) { return c < ' ' || c > '~'; }, '?');
+    return fmt::format("{} with {} numbers", address, message.count);
+}
 
 /// -1 where it is none.
 double share(double number) { return number >= 0.0 && number <= 1.0 ? number : -1.0; }
@@ -78,7 +88,9 @@ std::optional<gaze::GazeSample> OscGaze::take(std::span<const std::uint8_t> pack
     OscReader reader(packet);
     OscMessage message;
     while (reader.next(message)) {
-        counts_.others += take(message, arrived_ns) ? 0 : 1;
+        if (!take(message, arrived_ns) && counts_.others++ == 0) {
+            first_other_ = text_of(message);
+        }
     }
     counts_.damaged += reader.damaged() ? 1 : 0;
     if (!has_sample_) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "drivers/datagram/osc_packet.h"
 #include "runtime/gaze/gaze_sample.h"
@@ -25,6 +26,9 @@ class OscGaze {
                                                        std::int64_t arrived_ns);
 
     [[nodiscard]] const Counts& counts() const { return counts_; }
+    /// The first message of something else, for people: its address, and how many numbers it has;
+    /// empty: none came.
+    [[nodiscard]] const std::string& first_other() const { return first_other_; }
 
     static constexpr std::int64_t kLidsLast_ns = 1'000'000'000;
 
@@ -34,6 +38,7 @@ class OscGaze {
     void set_both(const std::optional<glm::dvec3>& left, const std::optional<glm::dvec3>& right);
 
     Counts counts_;
+    std::string first_other_;
     gaze::GazeSample sample_;
     bool has_sample_ = false;
     std::uint64_t sequence_ = 0;

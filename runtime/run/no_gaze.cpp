@@ -12,7 +12,7 @@ std::string no_gaze_remedy(std::string_view gaze) {
     if (kind == "osc") {
         return fmt::format(
             "no datagram with gaze came to {}: have its sender (VRCFaceTracking, say) send to this "
-            "machine and this port, and let a firewall pass them",
+            "machine and this port, and let a firewall pass them; what else came is said above",
             argument);
     }
     if (kind == "psvr2") {

@@ -110,7 +110,20 @@ TEST(OscGaze, LooksIntoBundlesOnlySoDeep) {
         EXPECT_EQ(gaze.take(bytes(nested), 0).has_value(), depth <= OscReader::kDeepest) << depth;
         EXPECT_EQ(gaze.counts().damaged, depth <= OscReader::kDeepest ? 0U : 1U) << depth;
         EXPECT_GT(gaze.counts().others, 0U);
+        EXPECT_EQ(gaze.first_other(), "/other with 1 numbers");
     }
+}
+
+TEST(OscGaze, TellsTheFirstMessageOfNoUse) {
+    OscGaze gaze;
+    EXPECT_EQ(gaze.first_other(), "");
+    EXPECT_FALSE(gaze.take(bytes(floats("/gazeloop/gaze", {1, 2, 3, 4, 5, 6, 7, 8, 9})), 0));
+    EXPECT_FALSE(gaze.take(bytes(floats("/avatar/parameters/x", {1})), 0));
+    EXPECT_EQ(gaze.counts().others, 2U);
+    EXPECT_EQ(gaze.first_other(), "/gazeloop/gaze with 9 numbers");
+    OscGaze odd;
+    EXPECT_FALSE(odd.take(bytes(floats("/a\x1B[2J", {1})), 0));
+    EXPECT_EQ(odd.first_other(), "/a?[2J with 1 numbers");
 }
 
 TEST(OscGaze, CountsWhatItCannotTake) {
