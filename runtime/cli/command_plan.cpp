@@ -3,6 +3,7 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/profiles/profiles_in_force.h"
+#include "runtime/run/interrupt.h"
 #include "runtime/trade/plan.h"
 
 namespace gazeloop::cli {
@@ -54,7 +55,7 @@ void add_plan_command(Command program) {
     options.log.add_to(app);
     options.add_settings_to(app);
     app.option("--method", command->request.method,
-               "full, kfr, acuity, layers, rings, sparse, quad, interleaved, fixed or all");
+               "full, kfr, acuity, layers, rings, sparse, quad, interleaved, kfr3d, fixed or all");
     app.option("--model", command->request.model,
                "guenter, geisler-perry, stelacsf, ashraf2025 or all");
     app.option("--gaze", command->request.gaze, "direction of gaze, degrees to the right and up")
@@ -74,6 +75,7 @@ void add_plan_command(Command program) {
         .type("DIR");
     app.does([=] {
         command->options.log.apply();
+        const run::EndsWhenInterrupted ends;
         return plan(*command);
     });
 }

@@ -76,7 +76,7 @@ void add_trade_command(Command program, const std::string& command_line) {
     options.aliases = {
         {"--display", "profile.display", "display profile, by name or .toml file"},
         {"--scene", "render.scene",
-         "scene to render: raymarch, gallery, or a .gltf, .glb or .lightfield file"},
+         "scene to render: raymarch, gallery, lightfield, or a .gltf, .glb or .lightfield file"},
         {"--spp", "render.spp", "samples per texel or pixel, 1 to 16"},
     };
     options.switches.clear();

@@ -37,10 +37,10 @@ struct RunOptions {
     std::vector<Alias> aliases{
         {"--target", "target.name", "openxr or headless"},
         {"--scene", "render.scene",
-         "scene to render: raymarch, gallery, or a .gltf, .glb or .lightfield file"},
+         "scene to render: raymarch, gallery, lightfield, or a .gltf, .glb or .lightfield file"},
         {"--method", "render.method",
          "which samples a picture takes: full, kfr, acuity, layers, rings, sparse, quad, kfr3d, "
-         "fixed"},
+         "interleaved, fixed"},
         {"--display", "profile.display", "display profile: a name or a .toml file"},
         {"--budget", "profile.budget", "latency budget: none, a name or a .toml file"},
         {"--sigma", "kfr.sigma", "picture width / LP-buffer width, .5 to 32"},
