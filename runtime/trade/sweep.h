@@ -41,8 +41,8 @@ struct SweepHooks {
 /// once before its first timed one, also where a sweep goes on. `values` are those whose rows
 /// `settings` hold; they are as before in the end. A point that fails says so in its record.
 /// Errors: as scene and device (SetupError is thrown); Usage where the reference's frames take more
-/// than kMostReferenceBytes; BadInput where a scene's first frame is not what the record says it was;
-/// Interrupted.
+/// than kMostReferenceBytes; BadInput where a scene's first frame is not what the record says it
+/// was; Interrupted.
 Expected<void> sweep(const vulkan::Context& context, const SweepQuestion& question,
                      const SweptValues& values, settings::Settings& settings,
                      const SweepHooks& hooks, SweepRecord& record);
