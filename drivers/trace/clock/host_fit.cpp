@@ -405,16 +405,18 @@ class Fitting {
         fit_.skew_ppm = 0.0;
         fit_.within_ns = 0;
         fit_.steps = 0;
-        fit_.text = "the device's; the host's was set again and again";
+        fit_.text = "the device's; by the host's reports took too long";
         fit_.findings.push_back(
             {.kind = TraceFindingKind::HostClockSet,
              .line = first_line,
              .rows = late,
              .dropped = 0,
              .span_ns = device_.time_ns.back(),
-             .text = fmt::format("the host's clock is set again and again: by it {} of {} reports "
-                                 "took over {} to the host; times are the device's alone",
-                                 late, used_.size(), in_words(kLongest_ns))});
+             .text =
+                 fmt::format("by the host's clock {} of {} reports took over {} to the host: it "
+                             "was set again and again, or stamps reports in batches; times are "
+                             "the device's alone",
+                             late, used_.size(), in_words(kLongest_ns))});
         return false;
     }
 
