@@ -182,7 +182,7 @@ LightFieldSource::Texels decode(const std::filesystem::path& file, const Size& e
     if (!notes.all().empty()) {
         gltf::refuse("", notes.all().front().text);
     }
-    return {image.texels.begin(), image.texels.end()};
+    return std::move(image.texels);
 }
 
 /// Decodes as many views at once as there are processors. After the first one that is damaged, and

@@ -11,6 +11,7 @@
 
 #include "runtime/error.h"
 #include "runtime/light_field/camera_grid.h"
+#include "runtime/memory/large_pages.h"
 
 namespace gazeloop::scene {
 
@@ -35,7 +36,7 @@ inline constexpr std::string_view kLightFieldExtension = ".lightfield";
 /// A light field that can be read, view by view.
 struct LightFieldSource {
     /// RGBA, 8 bits, sRGB-encoded, top row first.
-    using Texels = std::vector<std::byte>;
+    using Texels = memory::LargePagesVector<std::byte>;
     /// What becomes of a view's texels before it is taken; called by several threads at once.
     using Prepare = std::function<Texels(Texels)>;
     using Take = std::function<Expected<void>(std::uint32_t view, const Texels& prepared)>;

@@ -95,7 +95,8 @@ LightFieldViews::LightFieldViews(const vulkan::Context& context, const LightFiel
     LightFieldSource::Prepare prepare;
     if (memory.compressed) {
         prepare = [&](const LightFieldSource::Texels& texels) {
-            return compress_bc1(texels, source.width_px, source.height_px);
+            const auto blocks = compress_bc1(texels, source.width_px, source.height_px);
+            return LightFieldSource::Texels(blocks.begin(), blocks.end());
         };
     }
     if (!storage_.streamed) {
