@@ -144,6 +144,15 @@ std::string light_field_to_pass(const TemporaryFolder& folder) {
     return (folder / "field" / "views.lightfield").string();
 }
 
+/// A head passes over a light field that it sees through lenses without an opening.
+ProgramResult pass_over(std::vector<std::string> words) {
+    for (const char* const setting :
+         {"render.scale=0.05", "render.camera=fly-6", "lightfield.aperture_m=0"}) {
+        words.insert(words.end(), {"--set", setting});
+    }
+    return run_gazeloop(words);
+}
+
 // What a frame waited for and what was fetched ahead depends on the viewer's path alone: a replay
 // does the same, and one that fetches nothing, or has room for all views, shows the same.
 TEST(SceneFiles, OfLightFieldsThatDoNotFitAreReplayedBitByBit) {
@@ -151,32 +160,26 @@ TEST(SceneFiles, OfLightFieldsThatDoNotFitAreReplayedBitByBit) {
     const std::string field = light_field_to_pass(folder);
     for (const std::string method : {"full", "kfr3d"}) {
         const std::string session = (folder / (method + ".gaze")).string();
-        const ProgramResult run = run_gazeloop({"run",
-                                                "--scene",
-                                                field,
-                                                "--method",
-                                                method,
-                                                "--gaze",
-                                                "sim",
-                                                "--target",
-                                                "headless",
-                                                "--clock",
-                                                "virtual",
-                                                "--frames",
-                                                "120",
-                                                "--spp",
-                                                "1",
-                                                "--set",
-                                                "render.scale=0.05",
-                                                "--set",
-                                                "render.camera=fly-6",
-                                                "--set",
-                                                "lightfield.aperture_m=0",
-                                                "--set",
-                                                "lightfield.memory_mib=1",
-                                                "--hash",
-                                                "--record",
-                                                session});
+        const ProgramResult run = pass_over({"run",
+                                             "--scene",
+                                             field,
+                                             "--method",
+                                             method,
+                                             "--gaze",
+                                             "sim",
+                                             "--target",
+                                             "headless",
+                                             "--clock",
+                                             "virtual",
+                                             "--frames",
+                                             "120",
+                                             "--spp",
+                                             "1",
+                                             "--set",
+                                             "lightfield.memory_mib=1",
+                                             "--hash",
+                                             "--record",
+                                             session});
         ASSERT_EQ(run.exit_code, 0) << run.err;
         EXPECT_THAT(run.err, HasSubstr("225 views take 14 MiB, more than they may"));
         const auto account = [](const std::string& said) {
@@ -223,33 +226,27 @@ TEST(SceneFiles, OfLightFieldsThatDoNotFitAreSaidToWaitInATrade) {
     const TemporaryFolder folder;
     const std::string field = light_field_to_pass(folder);
     const auto trade = [&](const char* memory_mib) {
-        return run_gazeloop({"trade",
-                             "--scene",
-                             field,
-                             "--methods",
-                             "kfr",
-                             "--sigma",
-                             "2",
-                             "--alpha",
-                             "4",
-                             "--gaze",
-                             "0,0",
-                             "--frames",
-                             "45",
-                             "--rounds",
-                             "1",
-                             "--metric",
-                             "psnr",
-                             "--set",
-                             "render.scale=0.05",
-                             "--set",
-                             "render.camera=fly-6",
-                             "--set",
-                             "lightfield.aperture_m=0",
-                             "--set",
-                             fmt::format("lightfield.memory_mib={}", memory_mib),
-                             "--json",
-                             "-"});
+        return pass_over({"trade",
+                          "--scene",
+                          field,
+                          "--methods",
+                          "kfr",
+                          "--sigma",
+                          "2",
+                          "--alpha",
+                          "4",
+                          "--gaze",
+                          "0,0",
+                          "--frames",
+                          "45",
+                          "--rounds",
+                          "1",
+                          "--metric",
+                          "psnr",
+                          "--set",
+                          fmt::format("lightfield.memory_mib={}", memory_mib),
+                          "--json",
+                          "-"});
     };
     const ProgramResult streamed = trade("1");
     ASSERT_EQ(streamed.exit_code, 0) << streamed.err;
