@@ -5,7 +5,6 @@
 #include "runtime/cli/run_options.h"
 #include "runtime/compare/compare_pictures.h"
 #include "runtime/profiles/profiles_in_force.h"
-#include "runtime/run/interrupt.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -71,7 +70,6 @@ void add_compare_command(Command program) {
         .file_or_stdout();
     app.does([=] {
         command->options.log.apply();
-        const run::EndsWhenInterrupted ends;
         return compare(*command);
     });
 }

@@ -4,7 +4,6 @@
 #include "runtime/cli/recorded_gaze_options.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/recordings/convert.h"
-#include "runtime/run/interrupt.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -42,7 +41,6 @@ void add_convert_command(Command program) {
     command->log.add_to(app);
     app.does([=] {
         command->log.apply();
-        const run::EndsWhenInterrupted ends;
         command->conversion.labelled = subject.given() || task.given();
         command->conversion.read = command->recorded.read_options();
         recordings::convert(command->conversion);

@@ -3,6 +3,7 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/run/devices.h"
+#include "runtime/run/interrupt.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -45,6 +46,7 @@ void add_devices_command(Command program) {
         if (command->wanted.watch && !seconds.given()) {
             command->wanted.seconds = 1e9;
         }
+        const run::CatchesInterrupts catches;
         return devices(*command);
     });
 }

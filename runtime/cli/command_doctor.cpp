@@ -4,6 +4,7 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/run/examination.h"
+#include "runtime/run/interrupt.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -42,6 +43,7 @@ void add_doctor_command(Command program) {
     app.option("--root", command->wanted.root, "").hidden();
     app.does([=] {
         command->options.log.apply();
+        const run::CatchesInterrupts catches;
         return examine(*command);
     });
 }

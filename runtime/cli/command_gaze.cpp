@@ -4,7 +4,6 @@
 #include "runtime/cli/recorded_gaze_options.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/recordings/tell_gaze.h"
-#include "runtime/run/interrupt.h"
 
 namespace gazeloop::cli {
 namespace {
@@ -40,7 +39,6 @@ void add_gaze_command(Command program) {
     command->log.add_to(app);
     app.does([=] {
         command->log.apply();
-        const run::EndsWhenInterrupted ends;
         command->question.read = command->recorded.read_options();
         recordings::tell_gaze(command->question);
         return ExitCode::Ok;

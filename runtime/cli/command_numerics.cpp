@@ -10,7 +10,6 @@
 #include "runtime/numerics/envelope_json.h"
 #include "runtime/numerics/envelope_text.h"
 #include "runtime/report/output_file.h"
-#include "runtime/run/interrupt.h"
 #include "runtime/vulkan/context.h"
 
 namespace gazeloop::cli {
@@ -57,7 +56,6 @@ void add_numerics_command(Command program) {
     command->log.add_to(app);
     app.does([=] {
         command->log.apply();
-        const run::EndsWhenInterrupted ends;
         return measure(*command);
     });
 }

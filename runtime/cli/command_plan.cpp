@@ -3,7 +3,6 @@
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/profiles/profiles_in_force.h"
-#include "runtime/run/interrupt.h"
 #include "runtime/trade/plan.h"
 
 namespace gazeloop::cli {
@@ -75,7 +74,6 @@ void add_plan_command(Command program) {
         .type("DIR");
     app.does([=] {
         command->options.log.apply();
-        const run::EndsWhenInterrupted ends;
         return plan(*command);
     });
 }

@@ -2,7 +2,6 @@
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
-#include "runtime/run/interrupt.h"
 #include "runtime/session_report/report_session.h"
 
 namespace gazeloop::cli {
@@ -66,7 +65,6 @@ void add_report_command(Command program) {
     command->log.add_to(app);
     app.does([=] {
         command->log.apply();
-        const run::EndsWhenInterrupted ends;
         if (percentiles.given()) {
             command->request.percentiles = command->percentiles;
         }

@@ -24,6 +24,7 @@ ExitCode ended(const LogOptions& log, std::uint64_t count, const char* what) {
 }
 
 ExitCode simulate_steam_frame(const SteamFrameCommand& command) {
+    const run::CatchesInterrupts catches;
     return ended(
         command.gaze.log,
         simulate::publish_as_steam_frame(command.gaze.played(), command.service, run::interrupted),
@@ -31,6 +32,7 @@ ExitCode simulate_steam_frame(const SteamFrameCommand& command) {
 }
 
 ExitCode simulate_tracker(const PlayedGazeOptions& command) {
+    const run::CatchesInterrupts catches;
     return ended(command.log, simulate::play_as_tracker(command.played(), run::interrupted),
                  "reports sent");
 }

@@ -36,7 +36,7 @@ ExitCode simulate_light_field(const SimulateLightFieldCommand& command) {
     const vulkan::Context context(
         {.device = values.vulkan.device, .device_origin = settings.origin("vulkan.device")},
         nullptr);
-    run::catch_interrupts();
+    const run::CatchesInterrupts catches;
     const auto go_on = [] { return !run::interrupted(); };
     const auto scene = sim::make_scene(context, values.render.scene, {}, go_on);
     const auto file = value_or_throw(sim::bake_light_field(

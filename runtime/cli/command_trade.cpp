@@ -51,6 +51,7 @@ ExitCode trade_of(const TradeCommand& command, const std::string& command_line) 
     request.outputs.json = command.options.json;
     request.outputs.text = !command.options.log.quiet;
     const run::ProgramValues& values = settings.values();
+    const run::CatchesInterrupts catches;
     const bool all = trade::trade_off(
         request,
         {.display = value_or_throw(profiles::display_in_force(values.profile, settings)),

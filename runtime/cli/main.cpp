@@ -46,7 +46,7 @@ int gazeloop_main(int count, char** arguments) {
     // Writing to a closed pipe or past a file size limit is an error to report; it must not kill.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
-    gazeloop::run::catch_interrupts();
+    gazeloop::run::end_when_interrupted();
 
     // Numbers are read and written with points, whatever the environment or a preloaded library
     // says.

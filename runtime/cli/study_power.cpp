@@ -22,6 +22,7 @@ void add_study_power(Command parent) {
         .file_or_stdout();
     app.does([=] {
         command->people = people->question;
+        const run::CatchesInterrupts catches;
         study::tell_power(*command, run::interrupted);
         return run::interrupted() ? ExitCode::Interrupted : ExitCode::Ok;
     });

@@ -630,6 +630,7 @@ class FrameRun {
 }  // namespace
 
 std::optional<ErrorKind> frame_run(const FrameRunRequest& request) {
+    const CatchesInterrupts catches;
     try {
         return FrameRun(request).run();
     } catch (const vk::SystemError& error) {

@@ -8,7 +8,6 @@
 #include "runtime/methods/registry.h"
 #include "runtime/profiles/profiles_in_force.h"
 #include "runtime/run/gaze_sources.h"
-#include "runtime/run/interrupt.h"
 
 namespace gazeloop::run {
 namespace {
@@ -62,7 +61,6 @@ FrameRunRequest gaze_run(const std::string& gaze, RunClock clock,
                                .from_depth = values.gaze.fixation_from_depth &&
                                              methods::find_method(values.render.method)->uses_gaze};
     } else {
-        const EndsWhenInterrupted ends;  // while a trace is read
         request.make_source = value_or_throw(gaze_source_named(gaze, tracker, settings.values()));
     }
     request.gaze = gaze;

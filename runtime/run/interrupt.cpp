@@ -36,17 +36,14 @@ void handle(void (*handler)(int), int flags) {
 
 }  // namespace
 
-void catch_interrupts() { handle(on_signal, static_cast<int>(SA_RESETHAND | SA_RESTART)); }
+void end_when_interrupted() { handle(end_at_once, 0); }
 
-bool interrupted() { return caught != 0; }
-
-EndsWhenInterrupted::EndsWhenInterrupted() {
-    handle(end_at_once, 0);
-    if (interrupted()) {
-        end_at_once(SIGINT);
-    }
+CatchesInterrupts::CatchesInterrupts() {
+    handle(on_signal, static_cast<int>(SA_RESETHAND | SA_RESTART));
 }
 
-EndsWhenInterrupted::~EndsWhenInterrupted() { catch_interrupts(); }
+CatchesInterrupts::~CatchesInterrupts() { end_when_interrupted(); }
+
+bool interrupted() { return caught != 0; }
 
 }  // namespace gazeloop::run

@@ -14,7 +14,6 @@
 #include "runtime/recordings/trace_of_session.h"
 #include "runtime/run/gaze_sources.h"
 #include "runtime/run/govern.h"
-#include "runtime/run/interrupt.h"
 #include "runtime/run/replayable_frames.h"
 #include "runtime/run/study_request.h"
 #include "runtime/session/playback.h"
@@ -101,12 +100,8 @@ std::optional<ErrorKind> replay_trace(const Replay& replay, ProgramSettings& set
                                       FrameRunRequest& request) {
     drivers::ReadOptions options = drivers::read_options(settings.values().trace);
     options.format = replay.format;
-    gaze::GazeTrace trace;
-    {
-        const EndsWhenInterrupted ends;  // until there is a run to end
-        trace = value_or_throw(drivers::read_trace(replay.file, options));
-    }
-    return play_gaze(replay, std::move(trace), settings, request);
+    return play_gaze(replay, value_or_throw(drivers::read_trace(replay.file, options)), settings,
+                     request);
 }
 
 }  // namespace gazeloop::run

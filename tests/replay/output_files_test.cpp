@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/support/background_process.h"
@@ -48,6 +49,15 @@ TEST(Interrupted, EndsAtOnceWhatMakesResults) {
             EXPECT_THAT(program.output(), HasSubstr("interrupted"));
         }
     }
+    EXPECT_EQ(bytes_of(out), "before");
+    // Nor is a result that takes long to make.
+    BackgroundProcess program({.command = {GAZELOOP_BINARY_DIR "/gazeloop", "simulate", "gaze", out,
+                                           "--seconds", "10000"},
+                               .environment = {},
+                               .output_file = folder.file("said")});
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    program.signal(SIGINT);
+    EXPECT_EQ(program.wait(std::chrono::seconds(20)), 130) << program.output();
     EXPECT_EQ(bytes_of(out), "before");
 }
 
