@@ -225,6 +225,16 @@ PeoplePosterior::Value PeoplePosterior::at(const Parameters& parameters,
     return value;
 }
 
+double PeoplePosterior::logarithm(const Parameters& at) const {
+    return this->at(at, std::vector<double>(subjects_, 1.0)).logarithm;
+}
+
+PeoplePosterior::Square PeoplePosterior::information(const Parameters& at) const {
+    const Value here = this->at(at, std::vector<double>(subjects_, 1.0));
+    const Square information = here.complete - here.missing;
+    return Eigen::LLT<Square>(information).info() == Eigen::Success ? information : here.complete;
+}
+
 PeoplePosterior::Parameters PeoplePosterior::most_probable(Parameters from,
                                                            std::span<const double> times) const {
     Value here = at(from, times);

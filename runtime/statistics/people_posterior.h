@@ -31,12 +31,18 @@ class PeoplePosterior {
     [[nodiscard]] PeoplePosterior with_bend_about(double bend) const;
     static constexpr double kPriorBend = 1.0;  ///< deviation of the bend's prior
 
+    using Square = Eigen::Matrix<double, 6, 6>;
+    /// Its logarithm, but for a constant, with each subject once.
+    [[nodiscard]] double logarithm(const Parameters& at) const;
+    /// Minus the second derivatives of that; where these are not positive definite, what they would
+    /// be if each person's threshold were known.
+    [[nodiscard]] Square information(const Parameters& at) const;
+
     /// From there uphill. `times`: how often each subject counts.
     [[nodiscard]] Parameters most_probable(Parameters from, std::span<const double> times) const;
     [[nodiscard]] FittedPeople function_of(const Parameters& parameters) const;
 
   private:
-    using Square = Eigen::Matrix<double, 6, 6>;
     struct Count {
         double trials = 0.0;
         double yes = 0.0;

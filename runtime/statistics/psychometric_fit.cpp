@@ -8,15 +8,18 @@
 #include "runtime/statistics/distributions.h"
 #include "runtime/statistics/draw_below.h"
 #include "runtime/statistics/people_posterior.h"
+#include "runtime/statistics/posterior_draws.h"
 
 namespace gazeloop::statistics {
 namespace {
+
+constexpr std::uint32_t kLeastResamples = 50;
 
 /// Deviation of the threshold over resamples, each of which `draw` makes of how often each subject
 /// counts, or of the counts.
 template <typename Resample>
 double deviation_over(const Resample& resample, const FitOptions& options) {
-    const std::uint32_t resamples = std::max<std::uint32_t>(options.resamples, 50);
+    const std::uint32_t resamples = std::max(options.resamples, kLeastResamples);
     double mean = 0.0;
     double squares = 0.0;
     for (std::uint32_t i = 0; i < resamples; ++i) {
@@ -41,6 +44,41 @@ double bend_deviation(const PeoplePosterior& posterior, const PeoplePosterior::P
     };
     constexpr double kDeviation = PeoplePosterior::kPriorBend;
     return 0.5 * std::abs(x_about(kDeviation) - x_about(-kDeviation));
+}
+
+/// The median and interval of the threshold by its posterior.
+void take_posterior(FittedThreshold& result, const PeoplePosterior& posterior,
+                    const PeoplePosterior::Parameters& best, const FitOptions& options) {
+    constexpr std::size_t kDrawsPerResample = 10;  // as long as fitting a resample takes
+    struct Weighted {
+        double x;
+        double weight;
+    };
+    std::vector<Weighted> all;
+    double mean = 0.0;
+    for (const PosteriorDraw& draw :
+         draw_posterior(posterior, best, options.seed,
+                        kDrawsPerResample * std::max(options.resamples, kLeastResamples))) {
+        if (draw.weight > 0.0) {
+            const double x =
+                posterior.function_of(draw.parameters).together().x_where(options.criterion);
+            all.push_back({x, draw.weight});
+            mean += draw.weight * x;
+        }
+    }
+    std::ranges::sort(all, {}, &Weighted::x);
+    double squares = 0.0;
+    double below = 0.0;
+    const double tail = 0.5 * (1.0 - options.level);
+    result.low = result.x = result.high = all.front().x;
+    for (const Weighted& one : all) {
+        squares += one.weight * (one.x - mean) * (one.x - mean);
+        result.low = below <= tail ? one.x : result.low;
+        result.x = below <= 0.5 ? one.x : result.x;
+        result.high = below <= 1.0 - tail ? one.x : result.high;
+        below += one.weight;
+    }
+    result.deviation = std::sqrt(squares);
 }
 
 std::vector<double> once_each(std::size_t count) { return std::vector<double>(count, 1.0); }
@@ -99,6 +137,11 @@ FittedThreshold fit_threshold(std::span<const std::vector<LevelCount>> subjects,
         posterior.most_probable(posterior.start(), once_each(n));
     FittedThreshold result{.people = posterior.function_of(best)};
     result.x = result.people.together().x_where(options.criterion);
+    if (options.adaptive) {
+        take_posterior(result, posterior, best, options);
+        result.outside = result.x < posterior.least() || result.x > posterior.most();
+        return result;
+    }
     result.outside = result.x < posterior.least() || result.x > posterior.most();
     std::mt19937_64 random(options.seed);
     double factor = 0.0;

@@ -59,8 +59,8 @@ struct FitOptions {
     /// people's too.
     bool adaptive = false;
     double criterion = 0.5;         ///< share of yes at the threshold: in (0, 1)
-    std::uint64_t seed = 1;         ///< of the bootstrap
-    std::uint32_t resamples = 200;  ///< at least 50
+    std::uint64_t seed = 1;         ///< of the bootstrap, or of draws from the posterior
+    std::uint32_t resamples = 200;  ///< at least 50; ten draws stand for one
     double level = 0.95;            ///< of the interval
 };
 
@@ -80,15 +80,18 @@ struct FittedThreshold {
     double x = 0.0;          ///< where all people's answers together meet the criterion
     double low = 0.0;        ///< of the interval
     double high = 0.0;       ///< likewise
-    double deviation = 0.0;  ///< of x, by the bootstrap and by what is not known of the bend
+    double deviation = 0.0;  ///< of x, by the bootstrap and the bend, or by the posterior
     bool outside = false;    ///< x lies beyond the levels tried: a guess by the priors
 };
 
-/// Fits all subjects' answers and bootstraps. Several subjects: whole subjects are resampled, since
-/// answers of one are not independent, and the interval is x +- t sqrt(n / (n - 1)) deviation with
-/// Student's t of n - 1 degrees of freedom, because so few subjects' resamples vary too little; in
-/// the deviation is how much x would change if the bend's prior lay a deviation aside. One
-/// subject: answers are drawn from the fit, and the interval is x +- z deviation. Precondition: as
+/// Fits all subjects' answers. Levels that are fixed, several subjects: whole subjects are
+/// resampled, since answers of one are not independent, and the interval is x +- t sqrt(n / (n -
+/// 1)) deviation with Student's t of n - 1 degrees of freedom, because so few subjects' resamples
+/// vary too little; in the deviation is how much x would change if the bend's prior lay a deviation
+/// aside. One subject: answers are drawn from the fit, and the interval is x +- z deviation.
+/// Adaptive: x is the median of the posterior and the interval lies between its quantiles. Whoever
+/// seems to see well there has told less of where the function goes on, so that errors and
+/// deviations go together, and an interval as wide to both sides would miss. Precondition: as
 /// fit_people().
 [[nodiscard]] FittedThreshold fit_threshold(std::span<const std::vector<LevelCount>> subjects,
                                             const FitOptions& options);

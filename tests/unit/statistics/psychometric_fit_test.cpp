@@ -33,13 +33,15 @@ TEST(PsychometricFit, FindsTheFunctionThatManyAnswersShow) {
 }
 
 TEST(PsychometricFit, IsFiniteWhereAnswersSayNothing) {
-    const auto fit = [](std::vector<LevelCount> counts) {
+    const auto fit = [](std::vector<LevelCount> counts, bool adaptive = false) {
         const std::vector<std::vector<LevelCount>> one{std::move(counts)};
-        return fit_threshold(one, {.resamples = 50});
+        return fit_threshold(one, {.adaptive = adaptive, .resamples = 50});
     };
     for (const FittedThreshold& found :
          {fit({{1.0, 1, 1}}), fit({{1.0, 5, 0}, {2.0, 5, 5}}), fit({{0.0, 40, 40}, {1.0, 40, 40}}),
-          fit({{-1e9, 3, 0}, {1e9, 3, 3}})}) {
+          fit({{-1e9, 3, 0}, {1e9, 3, 3}}), fit({{1.0, 1, 1}}, true),
+          fit({{1.0, 5, 0}, {2.0, 5, 5}}, true), fit({{0.0, 40, 40}, {1.0, 40, 40}}, true),
+          fit({{-1e9, 3, 0}, {1e9, 3, 3}}, true)}) {
         EXPECT_TRUE(std::isfinite(found.x));
         EXPECT_TRUE(std::isfinite(found.low));
         EXPECT_LE(found.low, found.x);
@@ -72,6 +74,34 @@ TEST(PsychometricFit, TellsThePeoplesSpreadFromTheirNoise) {
     EXPECT_NEAR(found.function.threshold, 0.1, 0.1);
     // Together they are as broad as both.
     EXPECT_NEAR(fit_people(people, {}).function.spread, std::hypot(0.3, 0.15), 0.05);
+}
+
+TEST(PsychometricFit, PosteriorOfManyAnswersIsAsWideAsTheInformation) {
+    const PsychometricFunction truth{.threshold = 0.2, .spread = 0.3};
+    constexpr std::uint32_t kTrials = 4000;
+    const std::vector<std::vector<LevelCount>> one{exact_counts(truth, kTrials)};
+    const FittedThreshold found =
+        fit_threshold(one, {.adaptive = true, .resamples = 1000, .level = 0.9});
+    // As a bootstrap of the same counts.
+    const FittedThreshold drawn = fit_threshold(one, {.resamples = 1000, .level = 0.9});
+    EXPECT_NEAR(found.x, truth.threshold, 3.0 * drawn.deviation);
+    EXPECT_NEAR(found.deviation, drawn.deviation, 0.1 * drawn.deviation);
+    EXPECT_NEAR(found.high - found.low, drawn.high - drawn.low, 0.1 * (drawn.high - drawn.low));
+    // The same again by the same seed.
+    EXPECT_EQ(found.low,
+              fit_threshold(one, {.adaptive = true, .resamples = 1000, .level = 0.9}).low);
+}
+
+TEST(PsychometricFit, PosteriorReachesFartherWhereNobodyWasAsked) {
+    // Each person stops at the first yes from below, and so tells little of what lies above.
+    std::vector<std::vector<LevelCount>> people;
+    for (std::uint32_t person = 0; person < 8; ++person) {
+        people.push_back(
+            {{0.0, 6, 0}, {0.2, 6, 1}, {0.4, 5, 1 + person % 2}, {0.6, 4 - person % 2, 2}});
+    }
+    const FittedThreshold found = fit_threshold(people, {.adaptive = true});
+    EXPECT_GT(found.high - found.x, 1.2 * (found.x - found.low));
+    EXPECT_GT(found.x, found.people.together().x_where(0.5));
 }
 
 }  // namespace
