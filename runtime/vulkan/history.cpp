@@ -2,11 +2,12 @@
 
 namespace gazeloop::vulkan {
 
-History::History(const Context& context, vk::Extent2D extent, vk::Format format) {
+History::History(const Context& context, vk::Extent2D extent, vk::Format format,
+                 vk::ImageUsageFlags read) {
     for (Entry& entry : images_) {
-        entry = Entry(context, extent, format,
-                      vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled |
-                          vk::ImageUsageFlagBits::eTransferSrc);
+        entry = Entry(
+            context, extent, format,
+            vk::ImageUsageFlagBits::eColorAttachment | read | vk::ImageUsageFlagBits::eTransferSrc);
     }
 }
 

@@ -16,7 +16,9 @@ class History {
     using Entry = TrackedColorImage;
 
     History() = default;
-    History(const Context& context, vk::Extent2D extent, vk::Format format);
+    /// `read`: how shaders read it.
+    History(const Context& context, vk::Extent2D extent, vk::Format format,
+            vk::ImageUsageFlags read = vk::ImageUsageFlagBits::eSampled);
 
     /// Begins a frame: now() becomes before(), and the older image is reused.
     void advance();

@@ -27,6 +27,9 @@ ImageAccess access_of(Use use) {
         case Use::Sampled:
             return {vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader,
                     Access::eShaderSampledRead, Access::eNone};
+        case Use::Loaded:
+            return {vk::ImageLayout::eGeneral, Stage::eFragmentShader, Access::eShaderStorageRead,
+                    Access::eNone};
         case Use::CopySource:
             return {vk::ImageLayout::eTransferSrcOptimal, kCopies, Access::eTransferRead,
                     Access::eNone};

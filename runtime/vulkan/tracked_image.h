@@ -10,6 +10,7 @@ enum class Use : std::uint8_t {
     ColorTarget,  ///< drawn into
     DepthTarget,  ///< drawn into, of its depth
     Sampled,      ///< read by fragment shaders
+    Loaded,       ///< read by fragment shaders as a storage image, texel by texel
     CopySource,   ///< copied or scaled from
     CopyTarget,   ///< copied or scaled into
 };

@@ -4,9 +4,11 @@
 // InterleavedUniforms in runtime/render/passes/interleaved_passes.cpp.
 layout(std140, set = 2, binding = 5) uniform InterleavedUniforms {
     vec4 cells;        // of the LP-buffer: columns, rows; of the picture
-    vec4 first_bands;  // of the picture's cells, of texels, of pixels; of the last frame's texels
+    vec4 first_bands;  // of the picture's cells, of texels, of pixels; unused
     vec4 refill_bands; // of the LP-buffer's blocks that are shaded whole, of the picture's; unused
-    vec4 before;       // 1, or 0 where nothing is kept; first band of its pixels; most visits; unused
+    vec4 before;       // 1, or 0 where nothing is kept; most visits; unused
+    vec4 texels_kept;  // the rectangle of the last frame's: first column, row; those after the last
+    vec4 pixels_kept;
     vec4 map_before;   // the last frame's map: fovea, px; 1 / (farthest radius)^2; .5 / its log2
     // Places in a block by layer: of texels x, y; of pixels x, y. Layer 0 is that whose turn it is;
     // the others are shaded only where a block is shaded whole.
@@ -15,8 +17,8 @@ layout(std140, set = 2, binding = 5) uniform InterleavedUniforms {
     vec4 texel_offsets[16];  // samples in their texel: x, y; cosine and sine of y rows
     vec4 pixel_offsets[16];  // samples in their pixel: x, y; unused
 } woven;
-layout(set = 2, binding = 6) uniform sampler2D texels_before;
-layout(set = 2, binding = 7) uniform sampler2D pixels_before;
+layout(set = 2, binding = 6, rgba32f) uniform readonly image2D texels_before;
+layout(set = 2, binding = 7, rgba32f) uniform readonly image2D pixels_before;
 
 layout(constant_id = 4) const int kTexelBlockWidth = 1;
 layout(constant_id = 5) const int kTexelBlockHeight = 1;
@@ -141,13 +143,13 @@ Kept kept_of(bool pixels, ivec2 place, vec2 position_px, float nearness, bool sh
     vec2 whole = step(vec2(0.5), share);
     bool resampled = any(greaterThan(abs(share - whole), vec2(kOnItsCentre)));
     share = resampled ? share : whole;
-    uint first_band = uint(pixels ? woven.before.y : woven.first_bands.w);
     vec4 across = spline_weights(share.x);
     vec4 down = spline_weights(share.y);
     vec4 sum = vec4(0.0);
     float shares = 0.0;
     float most = 0.0;
     float main_channel = 0.0;
+    ivec4 kept_within = ivec4(pixels ? woven.pixels_kept : woven.texels_kept);
     vec3 splined = vec3(0.0);
     bool whole_patch = true;
     vec3 darkest = vec3(kGreatestRadiance);
@@ -157,15 +159,15 @@ Kept kept_of(bool pixels, ivec2 place, vec2 position_px, float nearness, bool sh
         int y = int(corner.y) + j;
         int wrapped = y < 0 ? y + size.y : y >= size.y ? y - size.y : y;
         y = pixels ? y : wrapped;
-        bool row_within = y >= 0 && y < size.y;
+        bool row_within = y >= kept_within.y && y < kept_within.w;
         y = clamp(y, 0, size.y - 1);
-        ivec2 needed = ivec2(bands[first_band + (uint(y) >> 2u)]);
         for (int i = sharp ? -1 : 0; i <= (sharp ? 2 : 1); ++i) {
             int x = int(corner.x) + i;
             ivec2 cell = ivec2(clamp(x, 0, size.x - 1), y);
             vec4 held =
-                pixels ? texelFetch(pixels_before, cell, 0) : texelFetch(texels_before, cell, 0);
-            bool seen = row_within && x >= needed.x && x < needed.y && seen_of(held.a) > 0.0;
+                pixels ? imageLoad(pixels_before, cell) : imageLoad(texels_before, cell);
+            bool seen =
+                row_within && x >= kept_within.x && x < kept_within.z && seen_of(held.a) > 0.0;
             held = seen ? held : vec4(0.0);
             whole_patch = whole_patch && seen;
             splined += across[i + 1] * down[j + 1] * held.rgb;

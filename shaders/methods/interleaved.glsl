@@ -50,7 +50,7 @@ void main() {
     vec3 expected = kMeanDiffers * max(most - least, 0.0);
     float apart = kept.any ? strangeness(fresh.rgb, kept.radiance, expected) : 0.0;
     float agreeing = kept.any ? 1.0 - smoothstep(kAgrees.x, kAgrees.y, apart) : 0.0;
-    float visits = floor(min((kept.seen - 1.0) * agreeing, woven.before.z - 1.0));
+    float visits = floor(min((kept.seen - 1.0) * agreeing, woven.before.y - 1.0));
     vec3 mean = visits > 0.0 ? mix(kept.radiance, fresh.rgb, 1.0 / (visits + 1.0)) : fresh.rgb;
     if (!needed) {
         discard;

@@ -9,8 +9,8 @@
 #include "../lib/encode.glsl"
 #include "../lib/depth.glsl"
 
-layout(set = 2, binding = 10) uniform sampler2D texels;
-layout(set = 2, binding = 11) uniform sampler2D pixels;
+layout(set = 2, binding = 6, rgba32f) uniform readonly image2D texels;
+layout(set = 2, binding = 7, rgba32f) uniform readonly image2D pixels;
 layout(location = 0) out vec4 color;
 
 layout(constant_id = 3) const bool kDisc = false;
@@ -28,17 +28,17 @@ vec4 lp_at(vec2 share) {
     int right = min(low.x + 1, size.x - 1);
     int top = low.y < 0 ? low.y + size.y : low.y;
     int bottom = low.y + 1 >= size.y ? low.y + 1 - size.y : low.y + 1;
-    return mix(mix(texelFetch(texels, ivec2(low.x, top), 0),
-                   texelFetch(texels, ivec2(right, top), 0), part.x),
-               mix(texelFetch(texels, ivec2(low.x, bottom), 0),
-                   texelFetch(texels, ivec2(right, bottom), 0), part.x),
+    return mix(mix(imageLoad(texels, ivec2(low.x, top)),
+                   imageLoad(texels, ivec2(right, top)), part.x),
+               mix(imageLoad(texels, ivec2(low.x, bottom)),
+                   imageLoad(texels, ivec2(right, bottom)), part.x),
                part.y);
 }
 
 void main() {
     vec4 resolved = lp_at(lp_share(gl_FragCoord.xy));
     if (kDisc) {
-        resolved = blended_with_disc(resolved, texelFetch(pixels, ivec2(gl_FragCoord.xy), 0));
+        resolved = blended_with_disc(resolved, imageLoad(pixels, ivec2(gl_FragCoord.xy)));
     }
     color = vec4(encoded(resolved.rgb), 1.0);
     set_depth(gl_FragCoord.xy, resolved.a > kFarthest ? resolved.a : 0.0);

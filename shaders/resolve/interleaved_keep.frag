@@ -9,8 +9,8 @@
 #include "../lib/bands.glsl"
 #include "../lib/interleaved.glsl"
 
-layout(set = 2, binding = 8) uniform sampler2D texel_cells;
-layout(set = 2, binding = 9) uniform sampler2D pixel_cells;
+layout(set = 2, binding = 8, rgba32f) uniform readonly image2D texel_cells;
+layout(set = 2, binding = 9, rgba32f) uniform readonly image2D pixel_cells;
 layout(location = 0) out vec4 color;
 
 layout(constant_id = 9) const bool kPixels = false;
@@ -54,7 +54,7 @@ Around cells_around(ivec2 place) {
             float weight = (i == 0 ? 1.0 - share_x : share_x) * (j == 0 ? 1.0 - share_y : share_y);
             bool shaded = row_within && left + i >= needed.x && left + i < needed.y;
             weight = shaded ? weight : 0.0;
-            vec4 seen = kPixels ? texelFetch(pixel_cells, cell, 0) : texelFetch(texel_cells, cell, 0);
+            vec4 seen = kPixels ? imageLoad(pixel_cells, cell) : imageLoad(texel_cells, cell);
             if (weight > 0.0) {
                 around.between += weight * seen;
                 around.least = min(around.least, seen.rgb);
@@ -78,7 +78,7 @@ void main() {
     int layer = its_turn ? 0 : layer_of_place(kPixels, cell, place);
     bool shaded = its_turn || is_needed(uvec2(cell), first_band_of_layer(kPixels, layer));
     ivec2 own_at = cell + corner_of_layer(kPixels, layer);
-    vec4 own = kPixels ? texelFetch(pixel_cells, own_at, 0) : texelFetch(texel_cells, own_at, 0);
+    vec4 own = kPixels ? imageLoad(pixel_cells, own_at) : imageLoad(texel_cells, own_at);
     Around around = cells_around(place);
     Kept kept =
         kept_of(kPixels, place, position_of_place(kPixels, place), around.nearest, kSharp);
@@ -87,8 +87,6 @@ void main() {
     vec4 stays = vec4(mix(kept.radiance, in_range, held),
                       packed_cell(kept.nearness, 1.0 + (kept.seen - 1.0) * (1.0 - held), 0.0));
     vec4 guessed = vec4(around.between.rgb, packed_cell(around.between.a, 0.0, 0.0));
-    if (!needed) {
-        discard;
-    }
     color = shaded ? own : kept.any ? stays : guessed;
+    color = needed ? color : vec4(0.0);
 }

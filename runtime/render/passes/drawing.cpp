@@ -77,7 +77,7 @@ void draw_visible_tiles(const vk::raii::CommandBuffer& commands,
 
 void shade_cells(const vk::raii::CommandBuffer& commands, vulkan::TrackedColorImage& cells,
                  std::span<const foveation::Tile> tiles, std::uint32_t instance,
-                 const std::optional<std::array<float, 4>>& unshaded) {
+                 const std::optional<std::array<float, 4>>& unshaded, vulkan::Use read) {
     cells.tracked.use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
     if (!tiles.empty() || unshaded) {
         begin_rendering(commands, cells.image.view(), cells.image.extent(),
@@ -86,7 +86,7 @@ void shade_cells(const vk::raii::CommandBuffer& commands, vulkan::TrackedColorIm
         draw_tiles(commands, tiles, instance);
         commands.endRendering();
     }
-    cells.tracked.use(commands, vulkan::Use::Sampled);
+    cells.tracked.use(commands, read);
 }
 
 vk::raii::Sampler make_sampler(const vk::raii::Device& device, vk::Filter filter) {

@@ -53,10 +53,12 @@ void draw_visible_tiles(const vk::raii::CommandBuffer& commands,
                         const foveation::HiddenArea* hidden);
 
 /// Shades the cells of a grid into an image and makes that readable. Pipeline and sets are bound.
-/// Tiles may be none: nothing of it is read then, but its layout must be right.
+/// Tiles may be none: nothing of it is read then, but its layout must be right. `unshaded`: what
+/// the image then holds everywhere else. `read`: how shaders read it.
 void shade_cells(const vk::raii::CommandBuffer& commands, vulkan::TrackedColorImage& cells,
                  std::span<const foveation::Tile> tiles, std::uint32_t instance,
-                 const std::optional<std::array<float, 4>>& unshaded);
+                 const std::optional<std::array<float, 4>>& unshaded,
+                 vulkan::Use read = vulkan::Use::Sampled);
 
 /// A sampler that clamps to the edge.
 [[nodiscard]] vk::raii::Sampler make_sampler(const vk::raii::Device& device, vk::Filter filter);

@@ -28,25 +28,24 @@ using Type = vk::DescriptorType;
 /// nearness carry more.
 constexpr vk::Format kKeptFormat = vk::Format::eR32G32B32A32Sfloat;
 
-/// Set 2: the map, InterleavedUniforms, then images.
-constexpr std::array kInterleavedBindings{kMapBindings[0],
-                                          kMapBindings[1],
-                                          kMapBindings[2],
-                                          kMapBindings[3],
-                                          kMapBindings[4],
-                                          Type::eUniformBuffer,
-                                          Type::eCombinedImageSampler,   // texels before
-                                          Type::eCombinedImageSampler,   // pixels before
-                                          Type::eCombinedImageSampler,   // cells of texels
-                                          Type::eCombinedImageSampler,   // cells of pixels
-                                          Type::eCombinedImageSampler,   // texels
-                                          Type::eCombinedImageSampler};  // pixels
+/// Set 2: the map, InterleavedUniforms, then images: no more of them than every device can load.
+constexpr std::array kKeepBindings{kMapBindings[0],     kMapBindings[1], kMapBindings[2],
+                                   kMapBindings[3],     kMapBindings[4], Type::eUniformBuffer,
+                                   Type::eStorageImage,   // texels
+                                   Type::eStorageImage,   // pixels
+                                   Type::eStorageImage,   // cells of texels
+                                   Type::eStorageImage};  // cells of pixels
 enum InterleavedBinding : std::uint32_t {
     kUniforms = 5,
-    kBefore = 6,
+    kKept = 6,  ///< the last frame's; for the resolve, this one's
     kCells = 8,
-    kNow = 10,
 };
+/// Set 2 of shading and of the resolve. Without the cells, though shading does not read them: on
+/// lavapipe 22.3 each draw into a storage image that is bound waits for the draw before.
+constexpr std::span kBindings = std::span(kKeepBindings).first<kCells>();
+
+/// Nobody has seen it: lib/interleaved.glsl, seen_of().
+constexpr std::array kUnseen{0.0F, 0.0F, 0.0F, 0.0F};
 
 /// Constants of the shaders (shaders/lib/interleaved.glsl, shaders/resolve/interleaved_keep.frag).
 enum InterleavedConstant : std::uint32_t {
@@ -70,6 +69,7 @@ struct InterleavedUniforms {
     glm::vec4 first_bands{0.0F};
     glm::vec4 refill_bands{0.0F};
     glm::vec4 before{0.0F};
+    std::array<glm::vec4, kGrids> kept{};
     glm::vec4 map_before{0.0F};
     std::array<glm::vec4, foveation::CellTurns::kMost> turns{};
     std::array<glm::vec4, foveation::CellTurns::kMost> layers{};
@@ -77,7 +77,7 @@ struct InterleavedUniforms {
     std::array<glm::vec4, kMaxSamples> pixel_offsets{};
 };
 static_assert(sizeof(InterleavedUniforms) ==
-              16 * (std::size_t{5} + 2 * std::size_t{foveation::CellTurns::kMost} +
+              16 * (std::size_t{7} + 2 * std::size_t{foveation::CellTurns::kMost} +
                     2 * std::size_t{kMaxSamples}));
 
 constexpr std::size_t kMapVectors = sizeof(MapUniforms) / sizeof(glm::vec4);
@@ -96,21 +96,6 @@ std::array<glm::dvec2, kMaxSamples> visit_offsets(std::uint32_t samples, std::ui
     return offsets;
 }
 
-/// The rectangle that holds every column of the bands of a table.
-foveation::Tile bounds(std::span<const std::uint32_t> bands, std::uint32_t rows) {
-    foveation::Tile all{.x0 = ~0U, .y0 = ~0U};
-    for (std::size_t band = 0; 2 * band < bands.size(); ++band) {
-        if (bands[2 * band] < bands[2 * band + 1]) {
-            const auto y0 = static_cast<std::uint32_t>(band * foveation::kBandRows);
-            all.x0 = std::min(all.x0, bands[2 * band]);
-            all.x1 = std::max(all.x1, bands[2 * band + 1]);
-            all.y0 = std::min(all.y0, y0);
-            all.y1 = std::min(y0 + foveation::kBandRows, rows);
-        }
-    }
-    return all;
-}
-
 class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
   public:
     InterleavedPasses(const PassSetup& setup, const InterleavedConfig& config,
@@ -122,16 +107,13 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
           setup_(setup),
           config_(config) {
         const vk::raii::Device& device = setup.context.device();
-        set_layout_ = vulkan::make_set_layout(device, kInterleavedBindings,
-                                              vk::ShaderStageFlagBits::eFragment);
-        layout_ = vulkan::make_pipeline_layout(
-            device, {setup.frame_layout, setup.scene.inputs(), *set_layout_}, setup.empty_layout);
-        sampler_ = make_sampler(device, vk::Filter::eNearest);
+        layouts_ = Layouts(setup, kBindings);
+        keep_layouts_ = Layouts(setup, kKeepBindings);
         make_pipelines();
-        const std::uint32_t sets = setup.slots * static_cast<std::uint32_t>(gaze::kEyeCount);
+        const std::uint32_t sets = 3 * setup.slots * static_cast<std::uint32_t>(gaze::kEyeCount);
         const std::array sizes{vk::DescriptorPoolSize(Type::eUniformBuffer, 3 * sets),
                                vk::DescriptorPoolSize(Type::eStorageBuffer, 3 * sets),
-                               vk::DescriptorPoolSize(Type::eCombinedImageSampler, 6 * sets)};
+                               vk::DescriptorPoolSize(Type::eStorageImage, 4 * sets)};
         pool_ = vk::raii::DescriptorPool(
             device, vk::DescriptorPoolCreateInfo(
                         vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, sets, sizes));
@@ -142,8 +124,9 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
                 at.map = vulkan::HostBuffer(setup.context, sizeof(MapUniforms), kUniform);
                 at.uniforms =
                     vulkan::HostBuffer(setup.context, sizeof(InterleavedUniforms), kUniform);
-                at.set = std::move(vk::raii::DescriptorSets(
-                    device, vk::DescriptorSetAllocateInfo(*pool_, *set_layout_))[0]);
+                at.shade_set = allocate(layouts_);
+                at.keep_set = allocate(keep_layouts_);
+                at.resolve_set = allocate(layouts_);
             }
         }
     }
@@ -181,24 +164,41 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
                 keep(keeping, frame, e, grid, plans[e]);
             }
             eyes_[e].map_before = foveation::map_uniforms_of(plans[e]);
-            const InterleavedPlan::Bands bands = bands_of(e, plans[e]);
-            eyes_[e].bands_before.assign(bands.texels.begin(), bands.pixels.end());
         }
         const vk::raii::CommandBuffer& commands = recorder.begin("resolve");
         draw_pictures(commands, frame, setup_, [&](std::size_t e) {
-            bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
+            bind_sets(commands, layouts_.pipeline, frame, e, *slots_[frame.slot][e].resolve_set);
             draw_resolve(commands, e, plans[e], frame.view.hidden[e].get());
         });
     }
 
   private:
+    /// Of set 2, and of pipelines with it.
+    struct Layouts {
+        Layouts() = default;
+        Layouts(const PassSetup& setup, std::span<const Type> bindings)
+            : set(vulkan::make_set_layout(setup.context.device(), bindings,
+                                          vk::ShaderStageFlagBits::eFragment)),
+              pipeline(vulkan::make_pipeline_layout(
+                  setup.context.device(), {setup.frame_layout, setup.scene.inputs(), *set},
+                  setup.empty_layout)) {}
+
+        vk::raii::DescriptorSetLayout set{nullptr};
+        vk::raii::PipelineLayout pipeline{nullptr};
+    };
+
+    [[nodiscard]] vk::raii::DescriptorSet allocate(const Layouts& layouts) const {
+        return std::move(vk::raii::DescriptorSets(
+            setup_.context.device(), vk::DescriptorSetAllocateInfo(*pool_, *layouts.set))[0]);
+    }
+
     /// What an eye keeps from frame to frame.
     struct Eye {
         std::optional<MapBuffers> map;
         std::array<vulkan::History, kGrids> kept;
         std::array<vulkan::TrackedColorImage, kGrids> cells;
         MapUniforms map_before;
-        std::vector<std::uint32_t> bands_before;
+        std::array<foveation::Tile, kGrids> kept_within;  ///< the last frame's rectangles
         bool any_before = false;  ///< something is kept for the frame at hand
     };
 
@@ -207,7 +207,9 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         vulkan::HostBuffer map;
         vulkan::HostBuffer uniforms;
         vulkan::HostBuffer bands;
-        vk::raii::DescriptorSet set{nullptr};
+        vk::raii::DescriptorSet shade_set{nullptr};
+        vk::raii::DescriptorSet keep_set{nullptr};
+        vk::raii::DescriptorSet resolve_set{nullptr};
     };
 
     [[nodiscard]] const foveation::CellTurns& turns(std::size_t grid) const {
@@ -240,28 +242,32 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
             std::size_t bands = 0;
             for (const std::size_t grid : kEveryGrid) {
                 using Usage = vk::ImageUsageFlagBits;
-                at.kept.at(grid) = vulkan::History(setup_.context, extent(e, grid), kKeptFormat);
+                at.kept.at(grid) =
+                    vulkan::History(setup_.context, extent(e, grid), kKeptFormat, Usage::eStorage);
                 // A layer of them for each turn, side by side as in a block.
                 const vk::Extent2D layers(cells(e, grid).width * turns(grid).block_width(),
                                           cells(e, grid).height * turns(grid).block_height());
                 at.cells.at(grid) = {setup_.context, layers, kKeptFormat,
-                                     Usage::eColorAttachment | Usage::eSampled};
-                bands += 2 * (std::size_t{InterleavedPlan::bands(cells(e, grid).height)} +
-                              InterleavedPlan::bands(extent(e, grid).height));
+                                     Usage::eColorAttachment | Usage::eStorage};
+                bands += 2 * std::size_t{InterleavedPlan::bands(cells(e, grid).height)} +
+                         InterleavedPlan::bands(extent(e, grid).height);
             }
             for (auto& slot : slots_) {
                 slot[e].bands =
                     vulkan::HostBuffer(setup_.context, bands * sizeof(foveation::Columns),
                                        vk::BufferUsageFlagBits::eStorageBuffer);
-                write_map(device, *slot[e].set, slot[e].map.buffer(), *at.map,
-                          slot[e].bands.buffer());
                 const vk::DescriptorBufferInfo info(slot[e].uniforms.buffer(), 0, VK_WHOLE_SIZE);
-                device.updateDescriptorSets(vk::WriteDescriptorSet(*slot[e].set, kUniforms, 0,
-                                                                   Type::eUniformBuffer, {}, info),
-                                            {});
+                for (const vk::DescriptorSet set :
+                     {*slot[e].shade_set, *slot[e].keep_set, *slot[e].resolve_set}) {
+                    write_map(device, set, slot[e].map.buffer(), *at.map, slot[e].bands.buffer());
+                    device.updateDescriptorSets(
+                        vk::WriteDescriptorSet(set, kUniforms, 0, Type::eUniformBuffer, {}, info),
+                        {});
+                }
                 for (const std::size_t grid : kEveryGrid) {
-                    write_image(device, *slot[e].set, kCells + static_cast<std::uint32_t>(grid),
-                                *sampler_, at.cells.at(grid).image.view());
+                    write_storage_image(device, *slot[e].keep_set,
+                                        kCells + static_cast<std::uint32_t>(grid),
+                                        at.cells.at(grid).image.view());
                 }
             }
         }
@@ -278,7 +284,7 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         auto shading = with_scene(setup_.scene, {{kSamples, setup_.samples}});
         shading.insert(shading.end(), weaving.begin(), weaving.end());
         shade_ = vulkan::make_pipeline(
-            device, layout_,
+            device, layouts_.pipeline,
             {.vertex = "tiles.vert",
              .fragment = fmt::format("{}.interleaved.frag", setup_.scene.shader()),
              .format = kKeptFormat,
@@ -291,7 +297,7 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
                 config_.sharp == InterleavedConfig::Sharp::All ||
                 (config_.sharp == InterleavedConfig::Sharp::Disc && grid == kOfPixels);
             keeping.push_back({kSharp, sharp ? 1U : 0U});
-            keep_.at(grid) = vulkan::make_pipeline(device, layout_,
+            keep_.at(grid) = vulkan::make_pipeline(device, keep_layouts_.pipeline,
                                                    {.vertex = "full_screen.vert",
                                                     .fragment = "interleaved_keep.frag",
                                                     .format = kKeptFormat,
@@ -302,7 +308,7 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
                 vulkan::ShaderConstant{kEncodeSrgb, takes_linear(setup_.format) ? 0U : 1U},
                 vulkan::ShaderConstant{kWithDisc, disc}};
             resolve_.at(disc) =
-                vulkan::make_pipeline(device, layout_,
+                vulkan::make_pipeline(device, layouts_.pipeline,
                                       {.vertex = "full_screen.vert",
                                        .fragment = resolve_shader("interleaved", setup_),
                                        .format = setup_.format,
@@ -325,8 +331,10 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
             }
             kept.advance();
             const auto number = static_cast<std::uint32_t>(grid);
-            write_image(device, *at.set, kBefore + number, *sampler_, kept.other().image.view());
-            write_image(device, *at.set, kNow + number, *sampler_, kept.now().image.view());
+            const vk::ImageView before = kept.other().image.view();
+            write_storage_image(device, *at.shade_set, kKept + number, before);
+            write_storage_image(device, *at.keep_set, kKept + number, before);
+            write_storage_image(device, *at.resolve_set, kKept + number, kept.now().image.view());
         }
         write_uniforms(frame, e, plan);
     }
@@ -346,8 +354,7 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         const vk::Extent2D pixel_cells = cells(e, kOfPixels);
         told.cells =
             vector(texel_cells.width, texel_cells.height, pixel_cells.width, pixel_cells.height);
-        // Cells of texels, of pixels; blocks of both that are shaded whole; texels and pixels of
-        // this frame, of the last one.
+        // Cells of texels, of pixels; blocks of both that are shaded whole; texels and pixels.
         const InterleavedPlan::Bands bands = bands_of(e, plan);
         const std::span<const std::uint32_t> read(bands.texels.begin(), bands.pixels.end());
         const std::size_t of_pixel_cells = InterleavedPlan::bands(texel_cells.height);
@@ -356,12 +363,9 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         const std::size_t of_pixel_refill = of_texel_refill + bands.texel_refill.size() / 2;
         const std::size_t of_texels = of_pixel_refill + bands.pixel_refill.size() / 2;
         const std::size_t texel_bands = InterleavedPlan::bands(extent(e, kOfTexels).height);
-        const std::size_t of_texels_before = of_texels + read.size() / 2;
         told.refill_bands = vector(of_texel_refill, of_pixel_refill, 0, 0);
-        told.first_bands =
-            vector(of_pixel_cells, of_texels, of_texels + texel_bands, of_texels_before);
-        told.before =
-            vector(eye.any_before ? 1 : 0, of_texels_before + texel_bands, config_.visits, 0);
+        told.first_bands = vector(of_pixel_cells, of_texels, of_texels + texel_bands, 0);
+        told.before = vector(eye.any_before ? 1 : 0, config_.visits, 0, 0);
         const auto write_bands = [&](std::size_t first, std::span<const std::uint32_t> words) {
             at.bands.write(words, first * sizeof(foveation::Columns));
         };
@@ -378,8 +382,11 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         write_bands(of_texel_refill, bands.texel_refill);
         write_bands(of_pixel_refill, bands.pixel_refill);
         write_bands(of_texels, read);
-        // Where nothing is kept, this frame's stand in: the shaders compute with them all the same.
-        write_bands(of_texels_before, eye.any_before ? std::span(eye.bands_before) : read);
+        for (const std::size_t grid : kEveryGrid) {
+            const foveation::Tile& kept = eye.kept_within.at(grid);
+            told.kept.at(grid) = vector(kept.x0, kept.y0, kept.x1, kept.y1);
+        }
+        // Where nothing is kept, this frame's stands in: the shaders compute with it all the same.
         const MapUniforms before =
             eye.any_before ? eye.map_before : foveation::map_uniforms_of(plan);
         told.map_before = {before.fovea_and_log2.x, before.fovea_and_log2.y,
@@ -417,25 +424,31 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         }
     }
 
+    /// The tiles of what a table has, on a side of so many rows.
+    std::span<foveation::Tile> tiles_of(std::span<const std::uint32_t> words, std::uint32_t rows) {
+        told_bands_.clear();
+        for (std::size_t word = 0; word < words.size(); word += 2) {
+            told_bands_.push_back({words[word], words[word + 1]});
+        }
+        told_tiles_.clear();
+        append_band_tiles(told_bands_, rows, told_tiles_);
+        return told_tiles_;
+    }
+
     /// The tiles of blocks that are shaded whole, where a turn's cells lie in the image.
     std::span<const foveation::Tile> refill_tiles(std::size_t e, std::size_t grid,
                                                   std::span<const std::uint32_t> words,
                                                   std::uint32_t layer) {
-        refill_bands_.clear();
-        for (std::size_t word = 0; word < words.size(); word += 2) {
-            refill_bands_.push_back({words[word], words[word + 1]});
-        }
-        refill_tiles_.clear();
         const vk::Extent2D size = cells(e, grid);
-        append_band_tiles(refill_bands_, size.height, refill_tiles_);
         const std::uint32_t across = turns(grid).block_width();
-        for (foveation::Tile& tile : refill_tiles_) {
+        const std::span<foveation::Tile> tiles = tiles_of(words, size.height);
+        for (foveation::Tile& tile : tiles) {
             tile.x0 += layer % across * size.width;
             tile.x1 += layer % across * size.width;
             tile.y0 += layer / across * size.height;
             tile.y1 += layer / across * size.height;
         }
-        return refill_tiles_;
+        return tiles;
     }
 
     /// Shades cells of a grid and makes them readable.
@@ -444,11 +457,11 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         Eye& eye = eyes_[e];
         for (vulkan::History& kept : eye.kept) {
             kept.other().tracked.use(
-                commands, vulkan::Use::Sampled,
+                commands, vulkan::Use::Loaded,
                 eye.any_before ? vulkan::Keep::Content : vulkan::Keep::Nothing);
         }
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *shade_);
-        bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
+        bind_sets(commands, layouts_.pipeline, frame, e, *slots_[frame.slot][e].shade_set);
         vulkan::TrackedColorImage& cells = eye.cells.at(grid);
         cells.tracked.use(commands, vulkan::Use::ColorTarget, vulkan::Keep::Nothing);
         const std::span<const foveation::Tile> tiles = plan.grids[grid].tiles;
@@ -469,54 +482,66 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
             }
             commands.endRendering();
         }
-        cells.tracked.use(commands, vulkan::Use::Sampled);
+        cells.tracked.use(commands, vulkan::Use::Loaded);
     }
 
-    /// The rectangle of a grid's texels or pixels that the picture reads.
-    [[nodiscard]] foveation::Tile needed(std::size_t e, std::size_t grid,
-                                         const foveation::EyePlan& plan) const {
+    /// A grid's texels or pixels that the picture reads.
+    std::span<const foveation::Tile> needed(std::size_t e, std::size_t grid,
+                                            const foveation::EyePlan& plan) {
         const InterleavedPlan::Bands bands = bands_of(e, plan);
-        return bounds(grid == kOfTexels ? bands.texels : bands.pixels, extent(e, grid).height);
+        return tiles_of(grid == kOfTexels ? bands.texels : bands.pixels, extent(e, grid).height);
+    }
+
+    /// The rectangle of those.
+    foveation::Tile rectangle(std::size_t e, std::size_t grid, const foveation::EyePlan& plan) {
+        foveation::Tile all{.x0 = ~0U, .y0 = ~0U};
+        for (const foveation::Tile& tile : needed(e, grid, plan)) {
+            all = {std::min(all.x0, tile.x0), std::min(all.y0, tile.y0), std::max(all.x1, tile.x1),
+                   std::max(all.y1, tile.y1)};
+        }
+        return all.x0 < all.x1 ? all : foveation::Tile{};
     }
 
     /// Weaves a grid's cells into what was kept.
     void keep(const vk::raii::CommandBuffer& commands, const FrameRecording& frame, std::size_t e,
               std::size_t grid, const foveation::EyePlan& plan) {
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *keep_.at(grid));
-        bind_sets(commands, layout_, frame, e, *slots_[frame.slot][e].set);
-        const foveation::Tile tile = needed(e, grid, plan);
-        shade_cells(commands, eyes_[e].kept.at(grid).now(),
-                    std::span(&tile, tile.x0 < tile.x1 ? 1 : 0), 0, setup_.unshaded);
+        bind_sets(commands, keep_layouts_.pipeline, frame, e, *slots_[frame.slot][e].keep_set);
+        Eye& eye = eyes_[e];
+        eye.kept_within.at(grid) = rectangle(e, grid, plan);
+        // Within the rectangle what is not needed tells so by what it holds. The LP-buffer's part
+        // that is off screen is cheaper cleared than drawn, that beside the disc drawn.
+        const bool texels = grid == kOfTexels;
+        shade_cells(commands, eye.kept.at(grid).now(),
+                    texels ? needed(e, grid, plan) : std::span(&eye.kept_within.at(grid), 1), 0,
+                    texels ? setup_.unshaded.value_or(kUnseen) : setup_.unshaded,
+                    vulkan::Use::Loaded);
     }
 
     /// The whole picture from the LP-buffer, then the disc over it.
     void draw_resolve(const vk::raii::CommandBuffer& commands, std::size_t e,
-                      const foveation::EyePlan& plan, const foveation::HiddenArea* hidden) const {
+                      const foveation::EyePlan& plan, const foveation::HiddenArea* hidden) {
         if (!plan.grids[kOfTexels].tiles.empty()) {
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_[0]);
             draw_visible(commands, hidden);
         }
-        const foveation::Tile tile = needed(e, kOfPixels, plan);
-        if (tile.x0 < tile.x1) {
-            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_[1]);
-            // Hidden pixels of the disc were not shaded: what lies in their places must not show.
-            draw_visible_tiles(commands, std::span(&tile, 1), hidden);
-        }
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_[1]);
+        // Hidden pixels of the disc were not shaded: what lies in their places must not show.
+        draw_visible_tiles(commands, needed(e, kOfPixels, plan), hidden);
     }
 
     PassSetup setup_;
     InterleavedConfig config_;
-    vk::raii::DescriptorSetLayout set_layout_{nullptr};
-    vk::raii::PipelineLayout layout_{nullptr};
-    vk::raii::Sampler sampler_{nullptr};
+    Layouts layouts_;
+    Layouts keep_layouts_;
     vk::raii::Pipeline shade_{nullptr};
     std::array<vk::raii::Pipeline, kGrids> keep_{nullptr, nullptr};
     std::array<vk::raii::Pipeline, 2> resolve_{nullptr, nullptr};  ///< without and with the disc
     vk::raii::DescriptorPool pool_{nullptr};
     gaze::PerEye<Eye> eyes_;
     std::vector<gaze::PerEye<EyeSlot>> slots_;
-    std::vector<foveation::Columns> refill_bands_;  ///< of the grid at hand
-    std::vector<foveation::Tile> refill_tiles_;
+    std::vector<foveation::Columns> told_bands_;  ///< of the table at hand
+    std::vector<foveation::Tile> told_tiles_;
 };
 
 }  // namespace

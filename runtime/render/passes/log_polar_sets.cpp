@@ -23,6 +23,13 @@ void write_image(const vk::raii::Device& device, vk::DescriptorSet set, std::uin
         {});
 }
 
+void write_storage_image(const vk::raii::Device& device, vk::DescriptorSet set,
+                         std::uint32_t binding, vk::ImageView view) {
+    const vk::DescriptorImageInfo info({}, view, vk::ImageLayout::eGeneral);
+    device.updateDescriptorSets(
+        vk::WriteDescriptorSet(set, binding, 0, vk::DescriptorType::eStorageImage, info), {});
+}
+
 vk::raii::Sampler make_lp_sampler(const vk::raii::Device& device) {
     using Mode = vk::SamplerAddressMode;
     return {device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear,

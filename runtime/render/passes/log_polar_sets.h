@@ -22,6 +22,12 @@ void write_map(const vk::raii::Device& device, vk::DescriptorSet set, vk::Buffer
 void write_image(const vk::raii::Device& device, vk::DescriptorSet set, std::uint32_t binding,
                  vk::Sampler sampler, vk::ImageView view);
 
+/// Lets a set read an image at a binding as a storage image, texel by texel. On lavapipe 22.3 that
+/// costs half of a texelFetch(), which finds the size of a mip level for each lane. Not while it is
+/// drawn into: see ARCHITECTURE.md, "What to know about lavapipe".
+void write_storage_image(const vk::raii::Device& device, vk::DescriptorSet set,
+                         std::uint32_t binding, vk::ImageView view);
+
 /// Filters an LP-buffer: columns end, rows wrap.
 [[nodiscard]] vk::raii::Sampler make_lp_sampler(const vk::raii::Device& device);
 
