@@ -36,6 +36,7 @@
 #include "runtime/run/govern.h"
 #include "runtime/run/interrupt.h"
 #include "runtime/run/loop_end_text.h"
+#include "runtime/run/no_effect.h"
 #include "runtime/run/no_gaze.h"
 #include "runtime/run/picture_device.h"
 #include "runtime/run/recording_observer.h"
@@ -69,7 +70,9 @@ class FrameRun {
 
     std::optional<ErrorKind> run() {
         check_request(request_);
-        warn_of_no_effect(*request_.settings);
+        for (const std::string& line : without_effect(request_)) {
+            spdlog::warn("{}", line);
+        }
         if (request_.snapshot) {
             value_or_throw(render::make_snapshot_folder(*request_.snapshot));
         }

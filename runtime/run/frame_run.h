@@ -43,6 +43,8 @@ struct FrameRunRequest {
     std::optional<drivers::OpenXrGazeOptions> openxr_gaze;
     bool from_device = false;              ///< the gaze, by either of the two
     std::string gaze{};                    ///< the source, as --gaze has it; empty: no such option
+    bool reads_trace = false;              ///< the gaze, by the settings trace.*
+    bool many_pictures = false;            ///< each with settings of its own: a study's
     bool live_gaze = false;                ///< from a device, or simulated: held against anatomy
     std::optional<Recording> recording{};  ///< set for Recorded only; the run is compared with it
     std::string other_foveae{};  ///< why foveae need not be the recording's; empty: they must

@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <string_view>
-#include <utility>
 
 #include "runtime/methods/registry.h"
 #include "runtime/profiles/profiles_in_force.h"
@@ -22,21 +21,6 @@ void warn_of_other_device(std::string_view made_with, std::string_view gaze) {
             "gaze.calibration was made with --gaze {} and corrects --gaze {} now: calibrate "
             "this tracker (gazeloop calibrate --gaze {}), or leave the calibration out",
             made_with, gaze, gaze);
-    }
-}
-
-/// What was set on the command line for a source that is not the run's.
-void warn_of_other_sources(std::string_view gaze, const ProgramSettings& settings) {
-    const std::string_view source = gaze.substr(0, gaze.find(':'));
-    for (const auto& [group, of] : {std::pair{"hid.", "hid"}, std::pair{"trace.", "trace"},
-                                    std::pair{"steam_frame.", "steam-frame"}}) {
-        for (const settings::SettingRow& row : settings.rows()) {
-            if (row.key.starts_with(group) && source != of &&
-                settings.origin(row.key).starts_with("--")) {
-                spdlog::warn("{} has no effect with --gaze {}: it is of --gaze {}",
-                             settings.with_origin(row.key), gaze, of);
-            }
-        }
     }
 }
 
@@ -65,11 +49,11 @@ FrameRunRequest gaze_run(const std::string& gaze, RunClock clock,
     }
     request.gaze = gaze;
     request.from_device = is_device(gaze);
-    warn_of_other_sources(gaze, settings);
     request.live_gaze = request.from_device || gaze == "sim";
     request.clock = clock;
     constexpr std::string_view kTrace = "trace:";
     if (gaze.starts_with(kTrace)) {
+        request.reads_trace = true;
         request.reads.push_back({"--gaze", gaze.substr(kTrace.size())});
     }
     if (const std::filesystem::path scene = settings.values().render.scene; scene.has_extension()) {

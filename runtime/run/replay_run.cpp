@@ -100,6 +100,7 @@ std::optional<ErrorKind> replay_trace(const Replay& replay, ProgramSettings& set
                                       FrameRunRequest& request) {
     drivers::ReadOptions options = drivers::read_options(settings.values().trace);
     options.format = replay.format;
+    request.reads_trace = true;
     return play_gaze(replay, value_or_throw(drivers::read_trace(replay.file, options)), settings,
                      request);
 }

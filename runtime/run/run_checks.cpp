@@ -1,14 +1,12 @@
 #include "runtime/run/run_checks.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <iterator>
 #include <utility>
 
 #include "runtime/methods/registry.h"
-#include "runtime/render/post_filter.h"
 #include "runtime/report/output_file.h"
 #include "runtime/session/session_recorder.h"
 
@@ -48,27 +46,6 @@ void check_request(const FrameRunRequest& request) {
         value_or_throw(session::SessionRecorder::check(*request.record));
     }
     check_results(request, {{"--json", request.json.value_or("")}});
-}
-
-void warn_of_no_effect(const ProgramSettings& settings) {
-    // What a file sets may be there for other runs.
-    const auto asked = [&](const std::string& key) {
-        return settings.origin(key).starts_with("--");
-    };
-    for (const settings::SettingRow& row : settings.rows()) {
-        if (asked(row.key) && !settings.is_in_use(row)) {
-            spdlog::warn("{} has no effect with {}: it has with {}", settings.with_origin(row.key),
-                         settings.with_origin(row.only_while.key),
-                         fmt::join(row.only_while.values, " or "));
-        }
-    }
-    const auto wanted = static_cast<std::uint32_t>(settings.values().render.post_filter_px);
-    const std::uint32_t taken = render::largest_post_filter(wanted);
-    if (asked("render.post_filter") && wanted > 0 && taken != wanted) {
-        spdlog::warn("{}: such filters have 3, 5, 7, ... px: {}",
-                     settings.with_origin("render.post_filter"),
-                     taken < 3 ? std::string("this is none") : fmt::format("taken as {}", taken));
-    }
 }
 
 void check_results(const FrameRunRequest& request, std::vector<report::NamedFile> results) {

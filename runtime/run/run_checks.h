@@ -10,10 +10,6 @@ namespace gazeloop::run {
 /// longer.
 void check_request(const FrameRunRequest& request);
 
-/// Warns of settings of the command line that have no effect with the others in force, or another
-/// one than they say.
-void warn_of_no_effect(const ProgramSettings& settings);
-
 /// Throws SetupError for results (of the options that name them) that cannot be written, or would
 /// be written over each other, over the run's recording, or over what it reads.
 void check_results(const FrameRunRequest& request, std::vector<report::NamedFile> results);

@@ -65,6 +65,7 @@ void show(Study& study, ProgramSettings& settings, FrameRunRequest& request) {
                          "out, or look at one with gazeloop run");
     }
     request.chooser = &study;
+    request.many_pictures = true;
     request.prepare_chooser = [&](const FrameRunRequest::MakeRenderer& make,
                                   const FrameRunRequest::TimeRenderer& /*time_of*/) {
         study.set_stimuli(std::make_unique<study::Stimuli>(

@@ -38,6 +38,12 @@ std::span<const std::string_view> scene_names() {
     return kNames;
 }
 
+bool is_of_meshes(std::string_view scene) { return scene == kGallery || is_scene_file(scene); }
+
+bool is_light_field(std::string_view scene) {
+    return scene == kBakedLightField || is_light_field_file(scene);
+}
+
 std::unique_ptr<Scene> make_scene(const vulkan::Context& context, std::string_view name,
                                   const SceneOptions& options) {
     if (is_scene_file(name)) {

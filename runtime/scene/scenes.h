@@ -15,6 +15,12 @@ namespace gazeloop::scene {
 /// One that does: a light field, which is rendered once and kept (sim::make_scene).
 inline constexpr std::string_view kBakedLightField = "lightfield";
 
+/// Whether a scene, by its name or file, is drawn from meshes.
+[[nodiscard]] bool is_of_meshes(std::string_view scene);
+
+/// Whether a scene, by its name or file, is a light field.
+[[nodiscard]] bool is_light_field(std::string_view scene);
+
 struct SceneOptions {
     /// Draw and light as if the scene needed everything, to measure what leaving out saves.
     bool require_all = false;

@@ -332,7 +332,12 @@ TEST(BadInput, SettingsWithoutEffectAreSaid) {
                     "as 7"))
         << even;
     const std::string source = said({"--set", "hid.viewing_distance_m=0.6"});
-    EXPECT_TRUE(has(source, "has no effect with --gaze fixed:0,0: it is of --gaze hid")) << source;
+    EXPECT_TRUE(has(source, "has no effect with --gaze fixed:0,0: it has with --gaze hid"))
+        << source;
+    const std::string seed = said({"--seed", "3", "--tracker", "fove0"});
+    EXPECT_TRUE(has(seed, "sim.seed = 3 (--seed) has no effect with --gaze fixed:0,0")) << seed;
+    EXPECT_TRUE(has(seed, "profile.tracker = fove0 (--tracker) has no effect with")) << seed;
+    EXPECT_FALSE(has(seed, "sim.delay_ms")) << "nobody asked for that: " << seed;
 }
 
 TEST(BadInput, ARunThatRendersNothing) {
