@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
+#include <initializer_list>
 #include <utility>
 
 #include "runtime/trade/equal_quality.h"
@@ -13,24 +13,41 @@
 namespace gazeloop::trade {
 namespace {
 
-/// The figures that the table has room for.
-constexpr std::array kShown{"contrast", "contrast_flicker", "flip", "ssim_weighted",
-                            "psnr_weighted_db"};
+/// The figures of the table. Not the parts of contrast; and where it has no room for all others,
+/// not what knows no gaze beside what is weighed by it. The first figure, which decides the front,
+/// is always there. The rows have the same figures, or none.
+std::vector<quality::QualityFigure> shown_figures(const std::vector<SweepRow>& rows) {
+    constexpr std::size_t kRoom = 5;
+    const SweepRow* const some = row_with_figures(rows);
+    if (some == nullptr) {
+        return {};
+    }
+    std::vector<quality::QualityFigure> figures = some->figures;
+    const std::string first = figures.front().key;
+    const auto leave_out = [&](std::initializer_list<std::string_view> keys) {
+        std::erase_if(figures, [&](const quality::QualityFigure& figure) {
+            return figure.key != first && std::ranges::find(keys, figure.key) != keys.end();
+        });
+    };
+    leave_out({"contrast_achromatic", "contrast_red_green", "contrast_yellow_violet"});
+    if (figures.size() > kRoom) {
+        leave_out({"ssim", "psnr_db"});
+    }
+    return figures;
+}
 
 std::string table_text(const SweepSheet& sheet) {
     std::vector<SweepRow> rows = sheet.rows;
     std::ranges::stable_sort(rows, std::ranges::greater{}, &SweepRow::cells);
-    const SweepRow* const some = row_with_figures(rows);
+    const std::vector<quality::QualityFigure> shown = shown_figures(rows);
     std::string text = fmt::format("{:40} {:>7} {:>7} {:>9} {:>19} {:>7}", "point", "fewer",
                                    "bound", "ms", "(least-most)", "faster");
     const bool with_energy = any_energy(rows);
     if (with_energy) {
         text += fmt::format(" {:>9} {:>7}", "mJ", "less");
     }
-    for (const char* const key : kShown) {
-        if (some != nullptr && find_figure(*some, key) != nullptr) {
-            text += fmt::format(" {:>16}", key);
-        }
+    for (const quality::QualityFigure& figure : shown) {
+        text += fmt::format(" {:>16}", figure.key);
     }
     text += "  front\n";
     for (const SweepRow& row : rows) {
@@ -48,8 +65,8 @@ std::string table_text(const SweepSheet& sheet) {
                                 row.energy_mj ? fmt::format("{:.3g}", *row.energy_mj) : "-",
                                 row.less_energy ? fmt::format("{:.2f}x", *row.less_energy) : "-");
         }
-        for (const char* const key : kShown) {
-            if (const quality::QualityFigure* const figure = find_figure(row, key)) {
+        for (const quality::QualityFigure& each : shown) {
+            if (const quality::QualityFigure* const figure = find_figure(row, each.key)) {
                 text += fmt::format(" {:>16.4f}", figure->mean);
             }
         }
@@ -88,21 +105,19 @@ std::string levels_text(const std::vector<SweepRow>& rows) {
 }
 
 std::string meanings_text(const std::vector<SweepRow>& rows) {
-    std::string text =
+    const std::vector<quality::QualityFigure> shown = shown_figures(rows);
+    std::string text = fmt::format(
         "\nfewer: cells shaded, against full resolution. bound: over the fewest that Guenter's "
         "line asks for. ms: all passes of a frame, both eyes. front: no other point is cheaper and "
-        "better by the first figure.\n";
+        "better by the first figure{}.\n",
+        shown.empty() ? "" : ", " + shown.front().key);
     text += any_energy(rows)
                 ? "mJ: what the processor's packages took for a frame, whatever else ran on them; "
                   "less: than full resolution.\n"
                 : "energy: unavailable.\n";
-    if (const SweepRow* const some = row_with_figures(rows)) {
-        for (const quality::QualityFigure& figure : some->figures) {
-            if (std::ranges::find(kShown, figure.key) != kShown.end()) {
-                text += fmt::format("{}: {} is better; {}\n", figure.key,
-                                    figure.lower_is_better ? "lower" : "higher", figure.meaning);
-            }
-        }
+    for (const quality::QualityFigure& figure : shown) {
+        text += fmt::format("{}: {} is better; {}\n", figure.key,
+                            figure.lower_is_better ? "lower" : "higher", figure.meaning);
     }
     return text;
 }

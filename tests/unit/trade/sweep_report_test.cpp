@@ -38,6 +38,35 @@ TEST(SweepReport, WritesALinePerPointAndNoInfinityAsJson) {
     EXPECT_THAT(failures(report), testing::ElementsAre(HasSubstr("twice")));
 }
 
+// The plain figure of a metric with two decides the front: it must be in sight.
+TEST(SweepReport, ShowsBothFiguresOfAMetricAndWhichDecidesTheFront) {
+    const auto text_with = [](const std::vector<std::string>& keys) {
+        SweepRecord record = made_sweep();
+        for (auto& point : record.judged) {
+            point.figures.clear();
+            for (std::size_t i = 0; i < keys.size(); ++i) {
+                point.figures.push_back({.key = keys[i],
+                                         .meaning = "a figure",
+                                         .lower_is_better = false,
+                                         .mean = 30.0 + static_cast<double>(i)});
+            }
+        }
+        return sweep_text(report_of(record));
+    };
+    const std::string psnr = text_with({"psnr_db", "psnr_weighted_db"});
+    EXPECT_THAT(psnr, HasSubstr("          psnr_db psnr_weighted_db  front"));
+    EXPECT_THAT(psnr, HasSubstr("          30.0000          31.0000"));
+    EXPECT_THAT(psnr, HasSubstr("better by the first figure, psnr_db."));
+    EXPECT_THAT(psnr, HasSubstr("\npsnr_db: higher is better"));
+    const std::string all =
+        text_with({"contrast", "contrast_achromatic", "contrast_flicker", "flip", "ssim",
+                   "ssim_weighted", "psnr_db", "psnr_weighted_db"});
+    EXPECT_THAT(all, HasSubstr("contrast contrast_flicker             flip    ssim_weighted "
+                               "psnr_weighted_db  front"))
+        << "there is no room for more";
+    EXPECT_THAT(all, HasSubstr("better by the first figure, contrast."));
+}
+
 TEST(SweepReport, TellsEnergyWhereItIsKnown) {
     SweepRecord record = made_sweep();
     SweepReport report = report_of(record);
