@@ -3,6 +3,7 @@
 #include "runtime/cli/people_options.h"
 #include "runtime/cli/study_commands.h"
 #include "runtime/run/interrupt.h"
+#include "runtime/run/program_settings.h"
 #include "runtime/study/tell_power.h"
 
 namespace gazeloop::cli {
@@ -23,7 +24,8 @@ void add_study_power(Command parent) {
     app.does([=] {
         command->people = people->question;
         const run::CatchesInterrupts catches;
-        study::tell_power(*command, run::interrupted);
+        run::ProgramSettings known;
+        study::tell_power(*command, known, run::interrupted);
         return run::interrupted() ? ExitCode::Interrupted : ExitCode::Ok;
     });
 }

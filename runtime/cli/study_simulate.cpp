@@ -5,6 +5,7 @@
 #include "runtime/cli/people_options.h"
 #include "runtime/cli/study_commands.h"
 #include "runtime/report/output_file.h"
+#include "runtime/run/program_settings.h"
 #include "runtime/study/plan_file.h"
 #include "runtime/study/study_files.h"
 
@@ -29,7 +30,8 @@ void add_study_simulate(Command study) {
         const report::NamedFile output{"FILE.csv", options->file};
         const report::NamedFile input{"the plan", options->plan};
         value_or_throw(report::check_outputs(std::span{&output, 1}, std::span{&input, 1}));
-        const study::Plan plan = value_or_throw(study::read_plan(options->plan));
+        run::ProgramSettings known;
+        const study::Plan plan = value_or_throw(study::read_plan(options->plan, &known));
         const study::SimulatedPeople people = study::people_of(options->people.question, plan);
         const unsigned subjects = options->subjects > 0 ? options->subjects : plan.subjects;
         value_or_throw(study::write_simulated_answers(

@@ -19,7 +19,8 @@ std::optional<ErrorKind> run_sitting(const StudySitting& sitting, ProgramSetting
         throw SetupError(ErrorKind::Usage,
                          "study run: every sitting is recorded in --folder: leave out --record");
     }
-    const study::Plan plan = value_or_throw(study::read_plan(sitting.plan));
+    ProgramSettings known;
+    const study::Plan plan = value_or_throw(study::read_plan(sitting.plan, &known));
     value_or_throw(take_plan(plan, settings));
     study::TrialQueue queue(plan, sitting.subject);
     const study::Sittings sittings =

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "runtime/open_for_reading.h"
 #include "runtime/settings/nearest_name.h"
@@ -133,11 +134,19 @@ class TableKeys {
         }
         return node != nullptr ? node->as_array() : nullptr;
     }
+    /// Where a key stands; 0: nowhere.
+    [[nodiscard]] std::uint32_t line(std::string_view key) const {
+        const toml::node* const node = table_.get(key);
+        return node != nullptr ? node->source().begin.line : 0;
+    }
     /// Refuses what nobody asked for.
     void end() const {
         for (const auto& [key, node] : table_) {
             if (!asked_.contains(key.str())) {
-                const std::vector<std::string> known(asked_.begin(), asked_.end());
+                std::vector<std::string> known(asked_.begin(), asked_.end());
+                for (std::string& one : known) {
+                    one.insert(0, where_);
+                }
                 throw PlanError{
                     key.source().begin.line,
                     settings::unknown_name("key", where_ + std::string(key.str()), known)};
@@ -181,6 +190,13 @@ class TableKeys {
     std::set<std::string, std::less<>> asked_;
 };
 
+/// A setting that a plan's pictures have, and where the plan says so.
+struct PlannedSetting {
+    std::string key;
+    std::string text;
+    std::uint32_t line = 0;  ///< 0: the plan leaves it open
+};
+
 Factor factor_of(const toml::table& table) {
     Factor factor;
     TableKeys keys(table, "factor.");
@@ -205,6 +221,17 @@ Factor scene_factor(std::vector<std::string> scenes) {
     return factor;
 }
 
+/// What a factor's levels set. Those that are not as many as the levels are refused by check().
+void add_levels(const Factor& factor, std::uint32_t line, std::vector<PlannedSetting>& settings) {
+    if (factor.key.empty() ||
+        (!factor.values.empty() && factor.values.size() != factor.levels.size())) {
+        return;
+    }
+    for (const double level : factor.levels) {
+        settings.push_back({factor.key, factor.value_of(level), line});
+    }
+}
+
 void read_gaze(const toml::table& table, GazeRules& gaze) {
     TableKeys keys(table, "gaze.");
     keys.read("follow", gaze.follow);
@@ -215,16 +242,26 @@ void read_gaze(const toml::table& table, GazeRules& gaze) {
     keys.end();
 }
 
-Plan plan_of_table(const toml::table& table) {
+/// `settings` gets all that the plan sets.
+Plan plan_of_table(const toml::table& table, std::vector<PlannedSetting>& settings) {
     Plan plan;
     std::string format;
     std::uint64_t version = 0;
     TableKeys keys(table, "");
     keys.read("format", format);
     keys.read("version", version);
-    if (format != kFormat || version != kVersion) {
-        throw PlanError{0, fmt::format("is no study: format = \"{}\" and version = {} are missing",
-                                       kFormat, kVersion)};
+    if (format != kFormat) {
+        throw PlanError{keys.line("format"),
+                        fmt::format("is no study: format = \"{}\" is missing", kFormat)};
+    }
+    if (version != kVersion) {
+        throw PlanError{
+            keys.line("version"),
+            keys.line("version") == 0
+                ? fmt::format("version = {} is missing", kVersion)
+                : fmt::format("version = {} is not known: this program reads version {}; take the "
+                              "program that wrote the study, or write it for version {}",
+                              version, kVersion, kVersion)};
     }
     keys.read("name", plan.name);
     keys.read("source", plan.source);
@@ -248,8 +285,12 @@ Plan plan_of_table(const toml::table& table) {
     keys.read("rest_s", plan.rest_s);
     keys.read("steps", plan.steps);
     keys.read("seed", plan.seed);
-    if (const toml::table* const settings = keys.table("settings")) {
-        for (const auto& [key, node] : *settings) {
+    for (const auto& [key, method] : {std::pair{"method", &plan.method},
+                                      std::pair{"reference_method", &plan.reference_method}}) {
+        settings.push_back({"render.method", *method, keys.line(key)});
+    }
+    if (const toml::table* const of_all = keys.table("settings")) {
+        for (const auto& [key, node] : *of_all) {
             const auto text = node.value_exact<std::string>();
             if (!text) {
                 throw PlanError{
@@ -257,6 +298,7 @@ Plan plan_of_table(const toml::table& table) {
                     fmt::format("settings.{} must be a text, as --set takes it", key.str())};
             }
             plan.settings.emplace_back(key.str(), *text);
+            settings.push_back({std::string(key.str()), *text, key.source().begin.line});
         }
     }
     if (const toml::table* const gaze = keys.table("gaze")) {
@@ -268,11 +310,13 @@ Plan plan_of_table(const toml::table& table) {
                 throw PlanError{node.source().begin.line, "factor must be written [[factor]]"};
             }
             plan.factors.push_back(factor_of(*node.as_table()));
+            add_levels(plan.factors.back(), TableKeys(*node.as_table(), "").line("key"), settings);
         }
     }
     keys.end();
     if (!scenes.empty()) {
         plan.factors.push_back(scene_factor(std::move(scenes)));
+        add_levels(plan.factors.back(), keys.line("scenes"), settings);
     }
     return plan;
 }
@@ -318,19 +362,30 @@ std::string plan_text(const Plan& plan) {
     return text;
 }
 
-Expected<Plan> plan_of(std::string_view text, std::string_view name) {
-    const auto bad = [name](std::uint32_t line, std::string_view what) {
+Expected<Plan> plan_of(std::string_view text, std::string_view name, settings::Settings* known) {
+    const auto place = [name](std::uint32_t line) {
+        return line > 0 ? fmt::format("{}:{}", name, line) : std::string(name);
+    };
+    const auto bad = [&](std::uint32_t line, std::string_view what) {
         return std::unexpected(
-            Error{ErrorKind::BadInput, line > 0 ? fmt::format("{}:{}: {}", name, line, what)
-                                                : fmt::format("{}: {}", name, what)});
+            Error{ErrorKind::BadInput, fmt::format("{}: {}", place(line), what)});
     };
     if (text.size() > kLargestPlan) {
         return bad(0, "is larger than any study (1 MiB)");
     }
     try {
-        Plan plan = plan_of_table(toml::parse(text, name));
+        std::vector<PlannedSetting> settings;
+        Plan plan = plan_of_table(toml::parse(text, name), settings);
         if (auto checked = check(plan); !checked) {
             return bad(0, checked.error().message);
+        }
+        for (const PlannedSetting& one : settings) {
+            if (known == nullptr) {
+                break;
+            }
+            if (const auto set = known->set(one.key, one.text, place(one.line)); !set) {
+                return std::unexpected(Error{ErrorKind::BadInput, set.error().message});
+            }
         }
         return plan;
     } catch (const toml::parse_error& error) {
@@ -340,7 +395,7 @@ Expected<Plan> plan_of(std::string_view text, std::string_view name) {
     }
 }
 
-Expected<Plan> read_plan(const std::filesystem::path& file) {
+Expected<Plan> read_plan(const std::filesystem::path& file, settings::Settings* known) {
     auto in = open_for_reading(file);
     if (!in) {
         return std::unexpected(Error{
@@ -351,7 +406,7 @@ Expected<Plan> read_plan(const std::filesystem::path& file) {
     std::string text(kLargestPlan + 1, '\0');
     in->read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(in->gcount()));
-    return plan_of(text, file.string());
+    return plan_of(text, file.string(), known);
 }
 
 }  // namespace gazeloop::study

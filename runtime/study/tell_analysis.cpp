@@ -17,7 +17,7 @@
 namespace gazeloop::study {
 
 void tell_analysis(const AnalysisRequest& request) {
-    const Plan plan = value_or_throw(read_plan(request.plan));
+    const Plan plan = value_or_throw(read_plan(request.plan, nullptr));
     const std::array<report::NamedFile, 4> outputs{{{"--json", request.json},
                                                     {"--csv", request.csv},
                                                     {"--r-csv", request.r_csv},

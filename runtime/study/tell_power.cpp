@@ -12,7 +12,8 @@
 
 namespace gazeloop::study {
 
-void tell_power(const PowerRequest& request, const std::function<bool()>& interrupted) {
+void tell_power(const PowerRequest& request, settings::Settings& known,
+                const std::function<bool()>& interrupted) {
     const report::NamedFile output{"--json", request.json};
     std::vector<report::NamedFile> inputs;
     inputs.reserve(request.plans.size());
@@ -22,7 +23,7 @@ void tell_power(const PowerRequest& request, const std::function<bool()>& interr
     value_or_throw(report::check_outputs(std::span{&output, 1}, inputs));
     std::vector<PowerOfPlan> found;
     for (const std::string& file : request.plans) {
-        Plan plan = value_or_throw(read_plan(file));
+        Plan plan = value_or_throw(read_plan(file, &known));
         const SimulatedPeople people = people_of(request.people, plan);
         if (request.minutes) {
             plan = as_long_as(plan, people, *request.minutes);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/settings/settings.h"
 #include "runtime/study/people_question.h"
 
 namespace gazeloop::study {
@@ -19,8 +20,10 @@ struct PowerRequest {
 };
 
 /// Says on stdout how many people and minutes each design needs, unless JSON goes there. Once
-/// `interrupted` is true it ends with what there is. @throws SetupError: BadInput for what cannot
-/// be read or written, and as people_of()
-void tell_power(const PowerRequest& request, const std::function<bool()>& interrupted);
+/// `interrupted` is true it ends with what there is. `known`: all settings that a plan may name,
+/// which are then as the plans set them. @throws SetupError: BadInput for what cannot be read or
+/// written, and as people_of()
+void tell_power(const PowerRequest& request, settings::Settings& known,
+                const std::function<bool()>& interrupted);
 
 }  // namespace gazeloop::study

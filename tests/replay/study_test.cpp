@@ -256,14 +256,38 @@ TEST_F(StudyProgram, RefusesWhatItCannotShow) {
         EXPECT_NE(result.exit_code, 0);
         return result.err;
     };
-    EXPECT_THAT(refused("kfr.alpha", "layers.n"),
-                AllOf(HasSubstr("the method kfr has no such setting"), HasSubstr("layers.n")));
+    EXPECT_THAT(refused("kfr.alpha", "sparse.k"),
+                AllOf(HasSubstr("the method kfr has no such setting"), HasSubstr("sparse.k")));
     EXPECT_THAT(refused("kfr.alpha", "kfr.alhpa"), HasSubstr("did you mean 'kfr.alpha'"));
-    EXPECT_THAT(refused("kfr.alpha", "acuity.mar"), HasSubstr("no such setting"));
+    EXPECT_THAT(refused("kfr.alpha", "acuity.border_px"), HasSubstr("no such setting"));
     EXPECT_THAT(refused("3.2]", "1e9]"), HasSubstr("kfr.sigma"));
     EXPECT_THAT(refused("\"kfr\"\nsess", "\"krf\"\nsess"), HasSubstr("krf"));
     EXPECT_THAT(refused("2afc", "3afc"), HasSubstr("unknown design"));
     EXPECT_FALSE(std::filesystem::exists(folder_.file("answers")));
+}
+
+// Whoever plans with a misspelt name would plan another study than they run.
+TEST_F(StudyProgram, RefusesUnknownNamesInAPlanBeforeItIsSimulated) {
+    const auto refused = [&](std::string_view from, std::string_view to,
+                             const std::string& message) {
+        std::string text = kPlan;
+        text.replace(text.find(from), from.size(), to);
+        const std::string plan = folder_.write("other.toml", text);
+        const std::string answers = folder_.file("simulated.csv");
+        for (const std::vector<std::string>& words :
+             {std::vector<std::string>{"study", "power", plan, "--studies", "1"},
+              {"study", "simulate", plan, answers}}) {
+            const ProgramResult result = run_gazeloop(words);
+            EXPECT_EQ(result.exit_code, 3) << result.err;
+            EXPECT_THAT(result.err, AllOf(HasSubstr("other.toml:"), HasSubstr(message)));
+        }
+        EXPECT_FALSE(std::filesystem::exists(answers));
+    };
+    refused("sessions", "sesions", "did you mean 'sessions'");
+    refused("kfr.alpha", "kfr.alhpa", "did you mean 'kfr.alpha'");
+    refused("3.2]", "1e9]", "kfr.sigma = 1000000000: must lie in");
+    refused("\"kfr\"\nsess", "\"krf\"\nsess", "did you mean 'kfr'");
+    refused("[[factor]]", "[settings]\n\"render.nope\" = \"1\"\n[[factor]]", "render.nope");
 }
 
 TEST_F(StudyProgram, PlansSimulatesAndSaysHowMuchItFinds) {

@@ -76,7 +76,13 @@ TEST(PlanFile, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(message("sessions = 3", "sessions = -3"), HasSubstr("whole number"));
     EXPECT_THAT(message("sessions = 3", "sessions = 4000000000"), HasSubstr("sessions is 4e+09"));
     EXPECT_THAT(message("1.2, 1.4", "1.4, 1.2"), HasSubstr("levels must be numbers that rise"));
-    EXPECT_THAT(message("version = 1", "version = 2"), HasSubstr("is no study"));
+    EXPECT_THAT(
+        message("version = 1", "version = 2"),
+        AllOf(HasSubstr("p.toml:3: version = 2 is not known"), HasSubstr("reads version 1")));
+    EXPECT_THAT(message("version = 1", ""), HasSubstr("version = 1 is missing"));
+    EXPECT_THAT(message("gazeloop-study", "gazeloop"), HasSubstr("p.toml:2: is no study"));
+    EXPECT_THAT(message("target_deg", "target_dge"), HasSubstr("did you mean 'gaze.target_deg'"));
+    EXPECT_THAT(message("levels", "level"), HasSubstr("did you mean 'factor.levels'"));
     EXPECT_THAT(message("name = \"alpha\"", "name = \"sigma\""), HasSubstr("two factors"));
     EXPECT_THAT(message("key = \"kfr.sigma\"", "key = \"\""), HasSubstr("key is missing"));
     EXPECT_THAT(message("name = \"sigma\"", "by_session = true\nname = \"sigma\""),
@@ -85,7 +91,7 @@ TEST(PlanFile, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(message("validation = 0.3", "validation = 1.0"), HasSubstr("validation is 1"));
     EXPECT_FALSE(plan_of("", "p.toml"));
     EXPECT_FALSE(plan_of("format = 3", "p.toml"));
-    EXPECT_THAT(read_plan("/nowhere/p.toml").error().message, HasSubstr("No such file"));
+    EXPECT_THAT(read_plan("/nowhere/p.toml", nullptr).error().message, HasSubstr("No such file"));
 }
 
 TEST(PlanFile, TakesScenesForAFactorThatHasOneInASession) {
