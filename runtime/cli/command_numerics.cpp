@@ -1,4 +1,3 @@
-#include <fmt/core.h>
 
 #include <array>
 #include <memory>
@@ -30,7 +29,7 @@ ExitCode measure(const NumericsCommand& command) {
     const vulkan::Context context({.validation = false, .device = command.device}, nullptr);
     const numerics::Envelope envelope = numerics::measure_envelope(context, command.options);
     if (command.json != "-" && command.html != "-" && !command.log.quiet) {
-        fmt::print("{}", numerics::envelope_text(envelope));
+        value_or_throw(report::write_text("-", numerics::envelope_text(envelope)));
     }
     if (!command.json.empty()) {
         value_or_throw(report::write_text(command.json, numerics::envelope_json(envelope)));

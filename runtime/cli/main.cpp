@@ -1,6 +1,8 @@
 #include <fmt/ranges.h>
+#include <poll.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -25,16 +27,27 @@ using gazeloop::cli::ExitCode;
 
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
-/// What happens to a file that cannot be written; `error` is errno's number.
-int stdout_lost(int error) {
-    if (error == EPIPE) {
-        spdlog::error("stdout: whoever read it has closed it: the rest of the results is lost");
-    } else {
+/// Whether stdout is a pipe or a socket whose reader has closed it.
+bool reader_has_gone() {
+    pollfd out{STDOUT_FILENO, POLLOUT, 0};
+    return poll(&out, 1, 0) > 0 && (out.revents & POLLERR) != 0;
+}
+
+/// What becomes of a command whose stdout could not be written; `error` is errno's number, `result`
+/// what it comes to otherwise. A reader who had enough (gazeloop ... | head) is told nothing: as
+/// other programs do, this one ends by SIGPIPE.
+int stdout_lost(int error, ExitCode result) {
+    if (!reader_has_gone()) {
         spdlog::error(
             "stdout: cannot be written ({}): results are lost; free space, or name a file",
             std::strerror(error));
+        return code(ExitCode::BadInput);
     }
-    return code(ExitCode::BadInput);
+    if (result == ExitCode::Ok) {
+        std::signal(SIGPIPE, SIG_DFL);
+        (void)std::raise(SIGPIPE);
+    }
+    return code(result);
 }
 
 int gazeloop_main(int count, char** arguments) {
@@ -43,7 +56,8 @@ int gazeloop_main(int count, char** arguments) {
     spdlog::set_default_logger(log);
     gazeloop::drivers::set_last_words(
         [](std::string_view line) noexcept { spdlog::warn("{}", line); });
-    // Writing to a closed pipe or past a file size limit is an error to report; it must not kill.
+    // Writing to a closed pipe or past a file size limit is an error to deal with: it must not kill
+    // before a recording is closed, or other results are written.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     gazeloop::run::end_when_interrupted();
@@ -81,7 +95,7 @@ int gazeloop_main(int count, char** arguments) {
             line.parse(std::vector<std::string>(arguments + std::min(count, 1), arguments + count));
         const ExitCode result = action ? (*action)() : gazeloop::cli::say(action.error());
         const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
-        return lost ? stdout_lost(errno) : code(result);
+        return lost ? stdout_lost(errno, result) : code(result);
     } catch (const gazeloop::SetupError& error) {
         spdlog::error("{}", error.what());
         return code(gazeloop::cli::exit_code(error.kind()));
@@ -89,7 +103,7 @@ int gazeloop_main(int count, char** arguments) {
         if (std::ferror(stdout) == 0) {
             throw;
         }
-        return stdout_lost(error.code().value());
+        return stdout_lost(error.code().value(), ExitCode::Ok);
     } catch (const std::bad_alloc&) {
         spdlog::error("out of memory: use a smaller picture (--set render.scale=0.5) or trace");
         return code(ExitCode::NoDevice);

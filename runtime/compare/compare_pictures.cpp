@@ -164,7 +164,7 @@ bool compare_pictures(const CompareQuestion& question) {
         }
     }
     if (json_file != "-" && !question.quiet) {
-        fmt::print("{}", quality::comparison_text(things, totals));
+        value_or_throw(report::write_text("-", quality::comparison_text(things, totals)));
     }
     if (!json_file.empty()) {
         nlohmann::ordered_json json = quality::comparison_json(things, totals);

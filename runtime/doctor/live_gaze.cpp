@@ -4,10 +4,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <glm/trigonometric.hpp>
 #include <string>
+#include <system_error>
 
 #include "runtime/time/clock.h"
 
@@ -74,7 +76,9 @@ bool watch_gaze(const std::vector<drivers::GazeSource*>& sources, double seconds
         if (!line.empty()) {
             fmt::print("{}{}{}", terminal ? "\r\x1b[K" : "", line, terminal ? "" : "\n");
         }
-        std::fflush(stdout);
+        if (std::fflush(stdout) != 0) {  // nobody would see what comes; as fmt's printing does
+            throw std::system_error(errno, std::generic_category(), "stdout");
+        }
     }
     fmt::print("{}", terminal ? "\n" : "");
     return any;

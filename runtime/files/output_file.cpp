@@ -28,6 +28,10 @@ std::unexpected<Error> refuse(const fs::path& file, int error) {
     return refuse(file, std::generic_category().message(error));
 }
 
+/// A reader who has closed stdout wants no more of it, which is no error: other results are still
+/// written, and the program's end deals with it.
+Expected<void> stdout_refused() { return errno == EPIPE ? Expected<void>{} : refuse("-", errno); }
+
 fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
@@ -139,10 +143,8 @@ Expected<OutputFile> OutputFile::open(const fs::path& file, const OutputOptions&
 
 Expected<void> OutputFile::write(std::string_view text) {
     if (file_ == "-") {
-        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
-            return refuse(file_, errno);
-        }
-        return {};
+        return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() ? Expected<void>{}
+                                                                               : stdout_refused();
     }
     if (const int error = write_all(descriptor_, text); error != 0) {
         abandon();
@@ -153,7 +155,7 @@ Expected<void> OutputFile::write(std::string_view text) {
 
 Expected<void> OutputFile::close() {
     if (file_ == "-") {
-        return std::fflush(stdout) == 0 ? Expected<void>{} : refuse(file_, errno);
+        return std::fflush(stdout) == 0 ? Expected<void>{} : stdout_refused();
     }
     int error = durable_ && ::fsync(descriptor_) != 0 ? errno : 0;
     if (::close(std::exchange(descriptor_, -1)) != 0 && error == 0) {

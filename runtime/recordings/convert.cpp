@@ -149,13 +149,14 @@ void convert(const Conversion& conversion) {
     memory.warn();
     const Written written = write(conversion, trace);
     if (conversion.json != "-") {
-        fmt::print("{}", report::gaze_text(trace));
+        std::string text = report::gaze_text(trace);
         for (const std::string& file : written.files) {
-            fmt::print("wrote    {}\n", file);
+            text += fmt::format("wrote    {}\n", file);
         }
         for (const std::string& what : written.left_out) {
-            fmt::print("left out {}\n", what);
+            text += fmt::format("left out {}\n", what);
         }
+        value_or_throw(report::write_text("-", text));
     }
     if (!conversion.json.empty()) {
         nlohmann::ordered_json json = report::gaze_json(trace);

@@ -10,6 +10,7 @@
 #include "runtime/recordings/recording_memory.h"
 #include "runtime/report/gaze_comparison_text.h"
 #include "runtime/report/gaze_report.h"
+#include "runtime/report/output_file.h"
 
 namespace gazeloop::recordings {
 namespace {
@@ -21,7 +22,9 @@ void compare(const GazeQuestion& question) {
     const gaze::GazeComparison comparison =
         value_or_throw(gaze::compare_gaze(*one.samples, *other.samples));
     if (!question.outputs.take_stdout()) {
-        fmt::print("{}\n{}\n{}", one.file, other.file, report::gaze_comparison_text(comparison));
+        value_or_throw(
+            report::write_text("-", fmt::format("{}\n{}\n{}", one.file, other.file,
+                                                report::gaze_comparison_text(comparison))));
     }
     const std::array found{report::gaze_findings(one), report::gaze_findings(other)};
     const std::array<report::page::PageRecording, 2> recordings{
@@ -58,7 +61,7 @@ void tell_gaze(const GazeQuestion& question) {
     memory.warn();
     const report::GazeFindings found = report::gaze_findings(trace);
     if (!question.outputs.take_stdout()) {
-        fmt::print("{}", report::gaze_text(trace, found));
+        value_or_throw(report::write_text("-", report::gaze_text(trace, found)));
     }
     value_or_throw(report::write_gaze({trace, found, refusal}, question.outputs));
     if (!refusal.empty()) {

@@ -136,7 +136,7 @@ void report_session(const ReportRequest& request) {
     SessionReport made{.info = session.info(), .percentiles = percentiles, .budget = budget};
     fill(request, session, made);
     if (request.tells()) {
-        fmt::print("{}", text_of(made));
+        value_or_throw(report::write_text("-", text_of(made)));
     }
     if (!request.csv.empty()) {
         write_csv(request.csv, *made.summary.frames);

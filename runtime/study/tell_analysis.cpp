@@ -1,7 +1,5 @@
 #include "runtime/study/tell_analysis.h"
 
-#include <fmt/core.h>
-
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -36,7 +34,7 @@ void tell_analysis(const AnalysisRequest& request) {
         }
     };
     if (request.json != "-" && request.csv != "-" && request.r_csv != "-" && request.html != "-") {
-        fmt::print("{}", analysis_text(result));
+        value_or_throw(report::write_text("-", analysis_text(result)));
     }
     // What has lines of single persons is theirs.
     const auto write_theirs = [](const std::string& file, const auto& text) {

@@ -1,7 +1,5 @@
 #include "runtime/study/tell_power.h"
 
-#include <fmt/core.h>
-
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -37,7 +35,7 @@ void tell_power(const PowerRequest& request, settings::Settings& known,
     }
     const SimulatedPeople& people = request.people.people;
     if (request.json != "-") {
-        fmt::print("{}", power_text(people, found));
+        value_or_throw(report::write_text("-", power_text(people, found)));
     }
     if (!request.json.empty()) {
         value_or_throw(

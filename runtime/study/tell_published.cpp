@@ -36,7 +36,7 @@ void tell_published(const PublishedRequest& request) {
         }
     }
     if (request.json != "-") {
-        fmt::print("{}", published_text(request.people.people, results));
+        value_or_throw(report::write_text("-", published_text(request.people.people, results)));
     }
     if (!request.json.empty()) {
         value_or_throw(report::write_text(

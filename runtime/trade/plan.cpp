@@ -93,7 +93,7 @@ void plan(const PlanRequest& request, const PlanSubject& subject) {
     if (!request.figures.empty()) {
         const std::string claims = value_or_throw(write_layer_figures(request.figures));
         if (show_text) {
-            fmt::print("{}", claims);
+            value_or_throw(report::write_text("-", claims));
         }
         return;
     }
@@ -151,7 +151,7 @@ void plan(const PlanRequest& request, const PlanSubject& subject) {
     const PlanReport report =
         plan_of([&](std::string_view name) { return methods_asked.includes(name); });
     if (show_text) {
-        fmt::print("{}", plan_report_text(report));
+        value_or_throw(report::write_text("-", plan_report_text(report)));
     }
     if (!request.json.empty()) {
         value_or_throw(report::write_text(request.json, plan_report_json(report)));

@@ -1,7 +1,5 @@
 #include "runtime/trade/page/sweep_outputs.h"
 
-#include <fmt/core.h>
-
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -29,7 +27,9 @@ Expected<void> write_outputs(const SweepReport& report, const SweepOutputs& outp
     const bool taken =
         outputs.csv == "-" || outputs.json == "-" || outputs.html == "-" || outputs.front == "-";
     if (outputs.text && !taken) {
-        fmt::print("{}", sweep_text(report));
+        if (auto said = report::write_text("-", sweep_text(report)); !said) {
+            return said;
+        }
     }
     const auto write = [](const std::string& file, const auto& text_of) {
         return file.empty() ? Expected<void>{} : report::write_text(file, text_of());
