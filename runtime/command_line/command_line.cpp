@@ -1,6 +1,7 @@
 #include "runtime/command_line/command_line.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -66,6 +67,23 @@ std::string unexpected_word(const CLI::App& program, const std::vector<std::stri
     }
     const std::vector<std::string> left = command->remaining();
     return fmt::format("'{}' was not expected; {}", left.empty() ? "" : left.front(), help);
+}
+
+/// Of an option that takes one value and stands there several times; CLI11 tells only how many
+/// values it had.
+std::optional<std::string> given_twice(const CLI::App& program) {
+    const CLI::App* command = &program;
+    while (!command->get_subcommands().empty()) {
+        command = command->get_subcommands().front();
+    }
+    for (const CLI::Option* const option : command->get_options()) {
+        const std::vector<std::string>& values = option->results();
+        if (values.size() > 1 && option->get_items_expected_max() == 1) {
+            return fmt::format("{}: it is given {} times ({}): leave one", option->get_name(),
+                               values.size(), fmt::join(values, ", "));
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -200,6 +218,13 @@ std::expected<Action, Reply> CommandLine::parse(const std::vector<std::string>& 
     } catch (const CLI::ExtrasError&) {
         throw SetupError(ErrorKind::Usage, unexpected_word(*app_, words));
     } catch (const CLI::ParseError& error) {
+        const auto twice =
+            error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch)
+                ? given_twice(*app_)
+                : std::nullopt;
+        if (twice) {
+            throw SetupError(ErrorKind::Usage, *twice);
+        }
         std::ostringstream text;
         const bool asked = app_->exit(error, text, text) == 0;
         return std::unexpected(Reply{asked ? ExitCode::Ok : ExitCode::Usage, text.str()});
