@@ -348,6 +348,28 @@ TEST_F(ReadSession, SurvivesAnyFlippedByte) {
     }
 }
 
+// Such bytes would drive the terminal that shows the message.
+TEST_F(ReadSession, SaysWhatIsDamagedWithoutItsBytes) {
+    record();
+    std::string bytes(std::filesystem::file_size(file), '\0');
+    std::ifstream(file, std::ios::binary)
+        .read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    constexpr std::string_view kSchema = "CREATE TABLE ";
+    bool any = false;
+    for (std::size_t at = bytes.find(kSchema); at != std::string::npos;
+         at = bytes.find(kSchema, at + 1)) {
+        std::string damaged = bytes;
+        damaged.replace(at + kSchema.size() + 7, 3, "\x1b[\xff");
+        std::ofstream(file, std::ios::binary | std::ios::trunc)
+            .write(damaged.data(), static_cast<std::streamsize>(damaged.size()));
+        const std::string message = error();
+        EXPECT_TRUE(std::ranges::all_of(message, [](char c) { return c >= ' ' && c <= '~'; }))
+            << message;
+        any = any || message.find("\\x1b") != std::string::npos;
+    }
+    EXPECT_TRUE(any) << "no message quoted what is damaged";
+}
+
 TEST_F(ReadSession, LeavesAClosedFileAlone) {
     if (const std::string missing = tests::missing_for_nobody(); !missing.empty()) {
         GTEST_SKIP() << missing;
