@@ -1,10 +1,14 @@
 #include "sim/light_field_baker.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
+#include <sstream>
 
 #include "runtime/files/output_file.h"
 #include "runtime/light_field/camera_grid.h"
@@ -15,6 +19,12 @@
 
 namespace gazeloop::sim {
 namespace {
+
+constexpr std::string_view kUnfinished = "unfinished.txt";
+
+std::string view_name(const light_field::CameraGrid& grid, std::uint32_t camera) {
+    return scene::view_file_name(camera / grid.columns, camera % grid.columns);
+}
 
 std::unexpected<Error> bad_folder(const std::filesystem::path& folder, const std::string& why) {
     return std::unexpected(Error{ErrorKind::BadInput, fmt::format("{}: {}", folder.string(), why)});
@@ -43,17 +53,77 @@ Expected<light_field::CameraGrid> grid_of(const LightFieldBake& bake) {
     return grid;
 }
 
-Expected<void> make_folder(const std::filesystem::path& folder) {
+/// Everything that decides the views, a line each.
+std::string text_of(const LightFieldBake& bake) {
+    std::string text = fmt::format(
+        "views = {}\nsize_px = {}\nspacing_m = {}\nfield_deg = {}\nsamples = {}\nscene_time_s = "
+        "{}\n",
+        bake.views, bake.size_px, bake.spacing_m, bake.field_deg, bake.samples, bake.scene_time_s);
+    for (const NamedValue& one : bake.of) {
+        text += fmt::format("{} = {}\n", one.name, one.value);
+    }
+    return text;
+}
+
+std::string read_whole(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The first line of one text that the other has not: "size_px = 32".
+std::string first_other_line(const std::string& text, const std::string& other) {
+    std::istringstream lines(text);
+    std::istringstream others(other);
+    std::string line;
+    std::string other_line;
+    while (std::getline(lines, line)) {
+        if (!std::getline(others, other_line) || line != other_line) {
+            return line;
+        }
+    }
+    return {};
+}
+
+/// Makes the folder of a bake, or finds it as the same bake left it.
+Expected<void> make_folder(const std::filesystem::path& folder, const LightFieldBake& bake) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) {
         return bad_folder(folder, fmt::format("the folder cannot be made ({})", error.message()));
     }
     const bool empty = std::filesystem::is_empty(folder, error);
-    if (error || !empty) {
+    if (error || empty) {
+        return error ? bad_folder(folder, fmt::format("cannot be read ({})", error.message()))
+               : bake.of.empty() ? Expected<void>{}
+                                 : files::write_text(folder / kUnfinished, text_of(bake));
+    }
+    if (bake.of.empty() || !std::filesystem::exists(folder / kUnfinished, error)) {
         return bad_folder(folder, "it holds something already: name a folder that is empty or new");
     }
+    const std::string before = read_whole(folder / kUnfinished);
+    if (const std::string ours = text_of(bake); before != ours) {
+        return bad_folder(folder,
+                          fmt::format("it holds views of another light field, which is not "
+                                      "finished ({} has '{}', not '{}'): name another folder, or "
+                                      "ask for that one again",
+                                      kUnfinished, first_other_line(before, ours),
+                                      first_other_line(ours, before)));
+    }
     return {};
+}
+
+/// The cameras whose views are missing. A view is there as a whole or not at all.
+std::vector<std::uint32_t> missing_views(const light_field::CameraGrid& grid,
+                                         const std::filesystem::path& folder) {
+    std::vector<std::uint32_t> missing;
+    for (std::uint32_t camera = 0; camera < grid.count(); ++camera) {
+        std::error_code error;
+        const auto size = std::filesystem::file_size(folder / view_name(grid, camera), error);
+        if (error || size == 0) {
+            missing.push_back(camera);
+        }
+    }
+    return missing;
 }
 
 gaze::EyeView view_of(const light_field::CameraGrid& grid, std::uint32_t camera,
@@ -76,7 +146,7 @@ Expected<std::filesystem::path> bake_light_field(
     if (!grid) {
         return std::unexpected(grid.error());
     }
-    if (auto made = make_folder(folder); !made) {
+    if (auto made = make_folder(folder, bake); !made) {
         return std::unexpected(made.error());
     }
     render::RendererConfig config;
@@ -85,12 +155,17 @@ Expected<std::filesystem::path> bake_light_field(
     config.extents = {extent, extent};
     render::OffScreen renderer(context, scene, render::make_full_passes, config);
     const std::uint32_t total = grid->count();
+    const std::vector<std::uint32_t> missing = missing_views(*grid, folder);
+    if (missing.size() < total) {
+        spdlog::info("{}: {} of {} views are there from before and are taken over", folder.string(),
+                     total - missing.size(), total);
+    }
     // Two cameras at a time, as if they were a person's eyes.
-    for (std::uint32_t first = 0; first < total; first += gaze::kEyeCount) {
+    for (std::size_t first = 0; first < missing.size(); first += gaze::kEyeCount) {
         render::FrameView frame{
             .index = first, .scene_time_s = bake.scene_time_s, .views = {}, .targets = {}};
         const auto camera_of = [&](std::size_t e) {
-            return std::min(first + static_cast<std::uint32_t>(e), total - 1);
+            return missing[std::min(first + e, missing.size() - 1)];
         };
         for (std::size_t e = 0; e < gaze::kEyeCount; ++e) {
             frame.views[e] = view_of(*grid, camera_of(e), bake.size_px);
@@ -98,21 +173,25 @@ Expected<std::filesystem::path> bake_light_field(
         renderer.render(frame, render::fovea_ahead(frame.views));
         for (const gaze::Eye eye : gaze::kEyes) {
             const std::uint32_t camera = camera_of(gaze::index(eye));
-            const std::filesystem::path file =
-                folder / scene::view_file_name(camera / grid->columns, camera % grid->columns);
+            const std::filesystem::path file = folder / view_name(*grid, camera);
             if (auto written = render::write_png(renderer.picture(eye), file); !written) {
                 return std::unexpected(written.error());
             }
         }
-        if (!go_on(std::min(first + 2, total), total)) {
-            return std::unexpected(Error{ErrorKind::Interrupted,
-                                         folder.string() + ": interrupted, views are missing"});
+        const std::size_t left = missing.size() - std::min(first + 2, missing.size());
+        if (!go_on(total - static_cast<std::uint32_t>(left), total)) {
+            return std::unexpected(Error{
+                ErrorKind::Interrupted,
+                fmt::format("{}: interrupted, {} of {} views are missing{}", folder.string(), left,
+                            total, bake.of.empty() ? "" : "; the same command goes on with them")});
         }
     }
     std::filesystem::path file = folder / fmt::format("views{}", scene::kLightFieldExtension);
     if (auto written = files::write_text(file, scene::light_field_text(*grid)); !written) {
         return std::unexpected(written.error());
     }
+    std::error_code ignored;
+    std::filesystem::remove(folder / kUnfinished, ignored);
     return file;
 }
 

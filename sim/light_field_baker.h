@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "runtime/error.h"
+#include "runtime/named_value.h"
 #include "runtime/scene/scene.h"
 #include "runtime/vulkan/context.h"
 
@@ -19,13 +21,17 @@ struct LightFieldBake {
     double field_deg = 100.0;      ///< field of view of every view, both ways, (0, 178]
     std::uint32_t samples = 1;     ///< per pixel, [1, 16]
     double scene_time_s = 0.0;
+    /// What else decides the pictures: the scene's name, state and so on. Views that were rendered
+    /// by the same words are taken over. Empty: none are.
+    std::vector<NamedValue> of{};
 };
 
 /// Renders the scene from every camera at full resolution and writes what
 /// scene::open_light_field reads: `views.lightfield` and the views, into a folder that is made. Its
 /// name is returned. `go_on(done, total)` is asked after every pair of views; false ends it
-/// (Interrupted). Errors: a value out of range (Usage); a folder that holds something already, or
-/// cannot be written (BadInput).
+/// (Interrupted). With LightFieldBake::of, the same bake then goes on with the views that are
+/// missing; it finds what it was in the folder's `unfinished.txt`. Errors: a value out of range
+/// (Usage); a folder that holds something else already, or cannot be written (BadInput).
 Expected<std::filesystem::path> bake_light_field(
     const vulkan::Context& context, scene::Scene& scene, const LightFieldBake& bake,
     const std::filesystem::path& folder,

@@ -1,11 +1,14 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <filesystem>
 #include <memory>
+#include <string>
 
 #include "runtime/cli/commands.h"
 #include "runtime/cli/run_options.h"
 #include "runtime/run/interrupt.h"
+#include "runtime/version.h"
 #include "sim/baked_light_field.h"
 
 namespace gazeloop::cli {
@@ -21,21 +24,37 @@ struct SimulateLightFieldCommand {
     double time_s = 0.0;
 };
 
+/// A scene's name; of a file also its size and when it was written.
+std::string scene_state(const std::string& scene) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(scene, error);
+    const auto written = std::filesystem::last_write_time(scene, error);
+    return error || !std::filesystem::path(scene).has_extension()
+               ? scene
+               : fmt::format("{}, {} bytes, written at {} ns",
+                             std::filesystem::absolute(scene).string(), size,
+                             written.time_since_epoch().count());
+}
+
 ExitCode simulate_light_field(const SimulateLightFieldCommand& command) {
     run::ProgramSettings settings;
     if (!command.options.settle(settings)) {
         return ExitCode::Ok;
     }
     const run::ProgramValues& values = settings.values();
+    const vulkan::Context context(
+        {.device = values.vulkan.device, .device_origin = settings.origin("vulkan.device")},
+        nullptr);
     const sim::LightFieldBake bake{.views = static_cast<std::uint32_t>(command.views),
                                    .size_px = static_cast<std::uint32_t>(command.size_px),
                                    .spacing_m = command.spacing_mm * 1e-3,
                                    .field_deg = command.field_deg,
                                    .samples = static_cast<std::uint32_t>(values.render.spp),
-                                   .scene_time_s = command.time_s};
-    const vulkan::Context context(
-        {.device = values.vulkan.device, .device_origin = settings.origin("vulkan.device")},
-        nullptr);
+                                   .scene_time_s = command.time_s,
+                                   .of = {{"scene", scene_state(values.render.scene)},
+                                          {"device", context.device_name()},
+                                          {"driver", context.driver()},
+                                          {"program", std::string(kVersion)}}};
     const run::CatchesInterrupts catches;
     const auto go_on = [] { return !run::interrupted(); };
     const auto scene = sim::make_scene(context, values.render.scene, {}, go_on);
@@ -60,7 +79,10 @@ void add_simulate_light_field_command(Command simulate) {
                                    "make a light field of a scene: its views from a grid of "
                                    "cameras, and the file that --scene takes");
     const auto command = std::make_shared<SimulateLightFieldCommand>();
-    app.option("folder", command->folder, "a folder, new or empty").required().type("OUT");
+    app.option("folder", command->folder,
+               "a folder, new or empty, or of the same command that was interrupted")
+        .required()
+        .type("OUT");
     app.option("--views", command->views, "cameras a side, 1 to 64").whole_number(64);
     app.option("--size", command->size_px, "pixels a side of every view").whole_number(16384);
     app.option("--spacing", command->spacing_mm, "between neighbouring cameras, mm")

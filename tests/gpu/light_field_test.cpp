@@ -528,6 +528,48 @@ TEST_F(LightField, OfTheBuildIsBakedOnceIntoACache) {
     EXPECT_THAT(nowhere.error().message, testing::HasSubstr("GAZELOOP_CACHE"));
 }
 
+TEST_F(LightField, GoesOnWithTheViewsThatAreMissing) {
+    const tests::TemporaryFolder folder;
+    const auto bake = [&](const sim::LightFieldBake& asked, const char* name, std::uint32_t most) {
+        std::vector<std::uint32_t> told;
+        const auto baked = sim::bake_light_field(context(), scene(), asked, folder / name,
+                                                 [&](std::uint32_t done, std::uint32_t) {
+                                                     told.push_back(done);
+                                                     return done < most;
+                                                 });
+        return std::pair{baked, told};
+    };
+    const sim::LightFieldBake asked{.views = 3, .size_px = 16, .of = {{"scene", "a"}}};
+    const auto stopped = bake(asked, "field", 4).first;
+    ASSERT_FALSE(stopped.has_value());
+    EXPECT_THAT(stopped.error().message, testing::HasSubstr("5 of 9 views are missing"));
+    const auto refused = [&](const sim::LightFieldBake& other, const char* why) {
+        const auto baked = bake(other, "field", 9).first;
+        ASSERT_FALSE(baked.has_value());
+        EXPECT_EQ(baked.error().kind, ErrorKind::BadInput);
+        EXPECT_THAT(baked.error().message, testing::HasSubstr(why));
+    };
+    refused({.views = 3, .size_px = 8, .of = asked.of}, "has 'size_px = 16', not 'size_px = 8'");
+    refused({.views = 3, .size_px = 16, .of = {{"scene", "b"}}},
+            "has 'scene = a', not 'scene = b'");
+    refused({.views = 3, .size_px = 16}, "it holds something already");
+    const auto [whole, told] = bake(asked, "field", 100);
+    ASSERT_TRUE(whole.has_value()) << whole.error().message;
+    EXPECT_THAT(told, testing::ElementsAre(6, 8, 9)) << "four were there";
+    ASSERT_TRUE(bake(asked, "at-once", 100).first.has_value());
+    const auto bytes = [&](const std::filesystem::path& file) {
+        std::ifstream in(file, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    std::size_t files = 0;
+    for (const auto& one : std::filesystem::directory_iterator(folder / "field")) {
+        EXPECT_EQ(bytes(one.path()), bytes(folder / "at-once" / one.path().filename()));
+        ++files;
+    }
+    EXPECT_EQ(files, 10U) << "nine views and the file that names them";
+    refused(asked, "it holds something already");
+}
+
 TEST_F(LightField, IsBakedUntilItIsInterrupted) {
     const tests::TemporaryFolder folder;
     const auto bake = [&](const sim::LightFieldBake& asked) {

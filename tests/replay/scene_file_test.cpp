@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstdint>
 #include <fstream>
 
@@ -121,6 +122,25 @@ TEST(SceneFiles, OfLightFieldsAreMadeAndShown) {
     const ProgramResult again = run_gazeloop({"simulate", "light-field", out});
     EXPECT_EQ(again.exit_code, 3);
     EXPECT_THAT(again.err, HasSubstr("it holds something already"));
+}
+
+TEST(SceneFiles, OfLightFieldsGoOnWhereTheirMakingWasInterrupted) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> words{"simulate", "light-field", (folder / "other").string(),
+                                         "--views",  "15",          "--size",
+                                         "128",      "--scene",     "raymarch"};
+    const ProgramResult stopped = run_gazeloop(
+        words, {.trigger = "of 225 views", .on_trigger = [](int pid) { kill(pid, SIGINT); }});
+    ASSERT_EQ(stopped.exit_code, 130) << stopped.err;
+    EXPECT_THAT(stopped.err, HasSubstr("views are missing; the same command goes on with them"));
+    std::vector<std::string> larger = words;
+    larger[6] = "129";
+    EXPECT_THAT(run_gazeloop(larger).err, HasSubstr("has 'size_px = 128', not 'size_px = 129'"));
+    const ProgramResult gone_on = run_gazeloop(words);
+    ASSERT_EQ(gone_on.exit_code, 0) << gone_on.err;
+    EXPECT_THAT(gone_on.err, HasSubstr("of 225 views are there from before and are taken over"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "other" / "unfinished.txt"));
+    EXPECT_EQ(run_gazeloop(words).exit_code, 3) << "it is finished";
 }
 
 // Rendered into the cache by the first run on a machine, which takes most of this test's time.
