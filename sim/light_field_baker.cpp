@@ -97,7 +97,7 @@ Expected<void> make_folder(const std::filesystem::path& folder, const LightField
                : bake.of.empty() ? Expected<void>{}
                                  : files::write_text(folder / kUnfinished, text_of(bake));
     }
-    if (bake.of.empty() || !std::filesystem::exists(folder / kUnfinished, error)) {
+    if (bake.of.empty() || !std::filesystem::is_regular_file(folder / kUnfinished, error)) {
         return bad_folder(folder, "it holds something already: name a folder that is empty or new");
     }
     const std::string before = read_whole(folder / kUnfinished);
