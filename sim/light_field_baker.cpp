@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <numbers>
 #include <sstream>
 
@@ -65,9 +64,14 @@ std::string text_of(const LightFieldBake& bake) {
     return text;
 }
 
-std::string read_whole(const std::filesystem::path& file) {
+/// As much of a file as text_of() may be; more of it, and it is none of ours.
+std::string read_start(const std::filesystem::path& file) {
+    constexpr std::size_t kMost = 65'536;
+    std::string text(kMost, '\0');
     std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    return text;
 }
 
 /// The first line of one text that the other has not: "size_px = 32".
@@ -100,7 +104,7 @@ Expected<void> make_folder(const std::filesystem::path& folder, const LightField
     if (bake.of.empty() || !std::filesystem::is_regular_file(folder / kUnfinished, error)) {
         return bad_folder(folder, "it holds something already: name a folder that is empty or new");
     }
-    const std::string before = read_whole(folder / kUnfinished);
+    const std::string before = read_start(folder / kUnfinished);
     if (const std::string ours = text_of(bake); before != ours) {
         return bad_folder(folder,
                           fmt::format("it holds views of another light field, which is not "

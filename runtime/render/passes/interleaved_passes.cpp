@@ -512,8 +512,9 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
         // Within the rectangle what is not needed tells so by what it holds. The LP-buffer's part
         // that is off screen is cheaper cleared than drawn, that beside the disc drawn.
         const bool texels = grid == kOfTexels;
-        shade_cells(commands, eye.kept.at(grid).now(),
-                    texels ? needed(e, grid, plan) : std::span(&eye.kept_within.at(grid), 1), 0,
+        const foveation::Tile& within = eye.kept_within.at(grid);
+        const std::span<const foveation::Tile> disc(&within, within.x0 < within.x1 ? 1 : 0);
+        shade_cells(commands, eye.kept.at(grid).now(), texels ? needed(e, grid, plan) : disc, 0,
                     texels ? setup_.unshaded.value_or(kUnseen) : setup_.unshaded,
                     vulkan::Use::Loaded);
     }
@@ -525,9 +526,11 @@ class InterleavedPasses final : public PlannedPasses<InterleavedPlan> {
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_[0]);
             draw_visible(commands, hidden);
         }
-        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_[1]);
-        // Hidden pixels of the disc were not shaded: what lies in their places must not show.
-        draw_visible_tiles(commands, needed(e, kOfPixels, plan), hidden);
+        if (const auto disc = needed(e, kOfPixels, plan); !disc.empty()) {
+            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *resolve_[1]);
+            // Hidden pixels of the disc were not shaded: what lies in their places must not show.
+            draw_visible_tiles(commands, disc, hidden);
+        }
     }
 
     PassSetup setup_;
