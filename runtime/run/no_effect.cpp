@@ -41,7 +41,7 @@ std::string clock_in_force(const FrameRunRequest& request) {
 std::string watching_in_force(const FrameRunRequest& request) {
     return request.monitor ? "--monitor alone" : "nobody watching the run";
 }
-std::string this_command(const FrameRunRequest& /*request*/) { return "what this command does"; }
+std::string this_command(const FrameRunRequest& /*request*/) { return "this command"; }
 
 /// When settings have an effect, beside what their rows say of other settings.
 struct Rule {

@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
               [](ProgramSettings&, FrameRunRequest& request) { request.monitor_json = 1; }},
         Asked{"kfr3d.growth", "2", "render.method = kfr", "kfr3d",
               [](ProgramSettings&, FrameRunRequest& request) { request.many_pictures = true; }},
-        Asked{"layer.mar", "0.03", "what this command does", "gazeloop layer", nullptr}));
+        Asked{"layer.mar", "0.03", "this command", "gazeloop layer", nullptr}));
 
 TEST_F(NoEffect, OfTheDetailFilterIsThatOfLightFields) {
     EXPECT_THAT(said("render.footprint", "true"), IsEmpty());
